@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from gui.kinds import Grey, not_none
 from gui.pane_bench import PaneBench
-from PIL import Image
+from photo_files import save_as_taken
 from pyqtgraph import PlotWidget, TargetItem
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
@@ -27,7 +27,6 @@ from occ_gui.room.pane import RoomPane
 from occ_gui.values.choices import FIRST_ROOM, RoomChoice
 from occ_model.figures.drawing import house_style
 from occ_model.figures.room import room_drawing
-from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH
 from occ_model.room.room import Place
 from occ_model.room.rooms import load_room
 from occ_model.room.view import aim_at, aim_of, rotation
@@ -171,7 +170,7 @@ def test_rooms_files_and_photos_are_steps(
     path = tmp_path / "other.toml"
     path.write_text(ROOM.with_sent(code=900).to_toml(), encoding="utf-8")
     pane.open(path)
-    pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
+    pane.open_photo(save_as_taken(tmp_path / "room.jpg", _image(), focal_length=26))
     wait_until_read(qtbot, pane)
     for value in (26.25, 26.5):  # as by the arrows of the field
         pane.view.focal_length.setValue(value)
@@ -317,20 +316,12 @@ def _image() -> Grey:
     return occ.render_room(ROOM.replace(x=0.4, y=0.8)).camera_image
 
 
-def _photo(path: Path, **tags: float) -> Path:
-    notes = Image.Exif()
-    keys = {"focal_length": EQUIVALENT_FOCAL_LENGTH}
-    notes.get_ifd(0x8769).update({keys[name]: value for name, value in tags.items()})
-    Image.fromarray(_image()).save(path, quality=92, exif=notes.tobytes())
-    return path
-
-
 def test_a_photo_is_located_and_its_focal_length_can_be_entered(
     pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     view = pane.view
     assert not view.focal_length.isVisible()
-    pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
+    pane.open_photo(save_as_taken(tmp_path / "room.jpg", _image(), focal_length=26))
     wait_until_read(qtbot, pane)
     assert view.headline.text().startswith("I am here: x 0.")
     assert "as the EXIF data say" in view.sentences.text()
@@ -355,7 +346,7 @@ def test_a_photo_is_located_and_its_focal_length_can_be_entered(
 def test_another_room_is_sought_in_the_photo_and_dragging_closes_the_photo(
     pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    pane.open_photo(_photo(tmp_path / "room.jpg"))
+    pane.open_photo(save_as_taken(tmp_path / "room.jpg", _image()))
     wait_until_read(qtbot, pane)
     assert "the photo has no EXIF data on it" in pane.view.sentences.text()
     pane.choose("other", ROOM.with_sent(code=900))

@@ -3,16 +3,15 @@
 import dataclasses
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from photo_files import save_as_taken
 from PIL import Image
 from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH, EXPOSURE_TIME
 from occ_model.room.locate import RoomPhoto, read_room_photo
 from occ_model.room.room import Place, Room
 
@@ -28,14 +27,6 @@ def _picture() -> np.ndarray:
     return occ.render_room(_room()).camera_image
 
 
-def _saved(path: Path, image: np.ndarray, **tags: Any) -> Path:
-    notes = Image.Exif()
-    known = {"focal_length": EQUIVALENT_FOCAL_LENGTH, "exposure_time": EXPOSURE_TIME}
-    notes.get_ifd(0x8769).update({known[name]: value for name, value in tags.items()})
-    Image.fromarray(image).save(path, quality=92, exif=notes.tobytes())
-    return path
-
-
 def _off(found: RoomPhoto, true: Place) -> np.ndarray:
     assert found.reading.is_sure, found.reading.reasons
     off = np.array(dataclasses.astuple(found.reading.located.place)) - dataclasses.astuple(true)
@@ -46,7 +37,7 @@ def _off(found: RoomPhoto, true: Place) -> np.ndarray:
 def test_a_rounded_focal_length_is_part_of_the_stated_errors(tmp_path: Path) -> None:
     true_focal_length = 0.0256
     room = _room(true_focal_length)
-    path = _saved(
+    path = save_as_taken(
         tmp_path / "room.jpg", occ.render_room(room).camera_image,
         focal_length=26, exposure_time=60e-6,
     )  # fmt: skip
@@ -71,7 +62,7 @@ def test_a_rounded_focal_length_is_part_of_the_stated_errors(tmp_path: Path) -> 
 def test_a_photo_is_read_in_any_orientation(tmp_path: Path, quarters: int) -> None:
     room = _room()
     image = np.rot90(_picture(), quarters)
-    found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
+    found = read_room_photo(occ.load_photo(save_as_taken(tmp_path / "room.jpg", image)), room)
     assert (_off(found, room.camera) < 4.0 * found.reading.located.errors).all()
     assert ("turned" in found.assumed[-1]) == bool(quarters)
 
@@ -79,7 +70,9 @@ def test_a_photo_is_read_in_any_orientation(tmp_path: Path, quarters: int) -> No
 def test_a_photo_of_half_the_size_has_twice_the_readout_time_per_column(tmp_path: Path) -> None:
     room = _room()
     image = Image.fromarray(_picture()).resize((384, 512), Image.Resampling.BOX)
-    found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", np.asarray(image))), room)
+    found = read_room_photo(
+        occ.load_photo(save_as_taken(tmp_path / "room.jpg", np.asarray(image))), room
+    )
     assert found.room.scene.camera.readout_time == pytest.approx(72e-6)
     assert "scaled to a picture of 384 columns instead of 768" in found.assumed[1]
     assert {lamp.name for lamp in found.reading.lamps if lamp.name} == {"L0", "L1", "L2", "L3"}
@@ -89,7 +82,7 @@ def test_a_photo_of_half_the_size_has_twice_the_readout_time_per_column(tmp_path
 def test_a_mirrored_photo_has_no_place(tmp_path: Path) -> None:
     room = _room()
     image = _picture()[::-1]
-    found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
+    found = read_room_photo(occ.load_photo(save_as_taken(tmp_path / "room.jpg", image)), room)
     assert any(lamp.name for lamp in found.reading.lamps)
     assert found.reading.located is None
     assert "mirrored" in found.reading.reasons[0]
@@ -99,7 +92,7 @@ def test_the_command_states_its_assumptions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     room = _room()
-    path = _saved(tmp_path / "room.jpg", _picture(), focal_length=26)
+    path = save_as_taken(tmp_path / "room.jpg", _picture(), focal_length=26)
     file = tmp_path / "room.toml"
     file.write_text(room.to_toml(), encoding="utf-8")
     words = ["room", "locate", str(path), "--room", str(file)]

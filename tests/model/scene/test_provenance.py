@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from matplotlib.figure import Figure
+from photo_files import png_chunk
 
 import occ_model as occ
 from occ_model.cli import main
@@ -70,22 +71,17 @@ def test_a_foreign_file_is_refused_in_a_sentence(
         scene_inside(path)
 
 
-def chunk(kind: bytes, data: bytes) -> bytes:
-    """Write a part of a PNG file."""
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-
-PNG = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 10, 10, 8, 0, 0, 0, 0))
+PNG = b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", struct.pack(">IIBBBBB", 10, 10, 8, 0, 0, 0, 0))
 BOMB = zlib.compress(bytes(1_000_000), 9)
 SVG, SVG_END = b"<dc:description>", b"</dc:description>"
 
 HOSTILE: dict[str, Callable[[], bytes]] = {
-    "many texts.png": lambda: PNG + chunk(b"tEXt", b"a\0") * 230_000,
-    "many zipped texts.png": lambda: PNG + chunk(b"zTXt", b"Description\0\0" + BOMB) * 3000,
+    "many texts.png": lambda: PNG + png_chunk(b"tEXt", b"a\0") * 230_000,
+    "many zipped texts.png": lambda: PNG + png_chunk(b"zTXt", b"Description\0\0" + BOMB) * 3000,
     "large zipped text.png": lambda: (
-        PNG + chunk(b"iTXt", b"Description\0\1\0\0\0" + zlib.compress(bytes(300_000_000), 1))
+        PNG + png_chunk(b"iTXt", b"Description\0\1\0\0\0" + zlib.compress(bytes(300_000_000), 1))
     ),
-    "profiles.png": lambda: PNG + chunk(b"iCCP", b"a\0\0" + BOMB) * 3000,
+    "profiles.png": lambda: PNG + png_chunk(b"iCCP", b"a\0\0" + BOMB) * 3000,
     "starts.svg": lambda: SVG * 190_000,
     "ampersands.svg": lambda: SVG + b"&" * 3_000_000 + SVG_END,
     "long number.svg": lambda: SVG + b"&#" + b"1" * 900_000 + b";" + SVG_END,

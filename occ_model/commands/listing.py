@@ -68,7 +68,8 @@ def parameter_table() -> str:
     for name, declaration in PARAMETERS.items():
         symbol = f", {declaration.symbol}" if declaration.symbol else ""
         default = declaration.format(declaration.default)  # type: ignore[arg-type]
-        cells = (f"`{name}`{symbol}", declaration.meaning, default, declaration.allowed)
+        allowed = declaration.allowed.replace("a whole number from", "whole,")
+        cells = (f"`{name}`{symbol}", declaration.meaning, default, allowed)
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 

@@ -11,12 +11,9 @@ MOST_LEVELS = 4096
 MOST_SAMPLES = 16_384  # so that a scene with all of them is within what files are searched for
 _LARGEST_FILE = 4_000_000  # bytes
 
-LEVELS = (
-    f"up to {MOST_LEVELS} numbers, and if wanted / and what divides them, such as 0 1 2 3 / 3: "
-    "each from 0 to 1"
-)
+LEVELS = f"up to {MOST_LEVELS} numbers from 0 to 1, or such as 0 1 2 3 / 3"
 SAMPLES = (
-    f"nothing, or a CSV file of up to {MOST_SAMPLES} rows of rising seconds and a level from 0 to 1"
+    f"nothing, or a CSV file of up to {MOST_SAMPLES} rows: rising seconds, a level from 0 to 1"
 )
 
 _SEPARATORS = str.maketrans(",;\t", "   ")

@@ -348,5 +348,5 @@ def welcome(
     return Feature(
         name="welcome",
         make=later("occ_gui.welcome.welcome:Welcome", window, shell, preferences, files),
-        commands={"welcome": lambda page: page.show()},
+        commands={"welcome": lambda page: page.show(), "my_lamp": lambda page: page.enter("bars")},
     )

@@ -1,11 +1,14 @@
 """View of the bars: how deep they are, the map of the least depth, and the shutter speeds."""
 
+from itertools import chain
+
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QBoxLayout,
     QHeaderView,
+    QLabel,
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
@@ -14,7 +17,9 @@ from PySide6.QtWidgets import (
 
 from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import SceneBars
-from occ_gui.widgets.building import fill, heading_font, make_read_only, paragraph
+from occ_gui.bands.lamp_question import LampBars
+from occ_gui.widgets.answer import Answer
+from occ_gui.widgets.building import embolden, fill, make_read_only
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.bands import SpeedDepth, percent
 from occ_model.scene.units import SECOND
@@ -33,8 +38,7 @@ class BandsView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.headline, self.sentences = (paragraph(is_selectable=True) for _ in range(2))
-        self.headline.setFont(heading_font(self.font()))
+        self.lamp, self.of_scene = LampBars(), Answer()
         self.map = DepthPlot()
         self.map.chosen.connect(self.exposure_chosen)
         self._make_table()
@@ -46,7 +50,9 @@ class BandsView(QWidget):
         self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._row.addWidget(self.map, 3)
         self._row.addLayout(beside, 2)
-        fill(QVBoxLayout(self), self.headline, self.sentences, (self._row, 1), margins=8)
+        titles = (embolden(QLabel(text)) for text in ("My lamp makes bars", "The scene"))
+        parts = zip(titles, (self.lamp, self.of_scene), strict=True)
+        fill(QVBoxLayout(self), *chain.from_iterable(parts), (self._row, 1), margins=8)
         self.outdated = OutdatedMark(self)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -76,11 +82,10 @@ class BandsView(QWidget):
         self.exposure_chosen.emit(self._speeds[item.row()].nominal)
 
     def show_failure(self, sentence: str) -> None:
-        self.headline.setText(sentence)
+        self.of_scene.show_answer(sentence)
 
     def show_bands(self, bars: SceneBars) -> None:
-        self.headline.setText(self._headline(bars))
-        self.sentences.setText("\n".join(self._sentences(bars)))
+        self.of_scene.show_answer(self._headline(bars), self._sentences(bars))
         self.map.show_depths(bars)
         self.risk.show_flicker(bars)
         is_first = not self._speeds

@@ -1,10 +1,14 @@
 """All that the pane of the bars shows of a scene."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from occ_model.results.bands import BandAdvice, BandDepth, DepthMap, EyeFlicker, RiskLines
+from occ_model.results.bars_answer import BarsAnswer
+from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import band_advice
+from occ_model.study.bands.answer import bars_answer
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.bands.eye import eye_flicker, risk_lines
 from occ_model.study.bands.least_depth import depth_map
@@ -27,3 +31,24 @@ def compute_bars(scene: Scene) -> SceneBars:
         scene, band_depth(scene), band_advice(scene), depth_map(scene), eye_flicker(scene),
         risk_lines(),
     )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class LampQuestion:
+    """A lamp and a camera, as parameters of a scene."""
+
+    light: Mapping[str, ParameterValue]
+    exposure_time: float
+    readout_time: float | None
+    rows: int  # of a panel, lit in turn; 0 for other lamps
+
+    def scene(self, scene: Scene) -> Scene:
+        """Return a scene with this lamp and camera."""
+        readout = {} if self.readout_time is None else {"readout_time": self.readout_time}
+        return scene.replace(**self.light, exposure_time=self.exposure_time, **readout)
+
+
+def answer_question(question: LampQuestion) -> BarsAnswer:
+    scene = question.scene(Scene()).replace(illuminance=0.0)
+    knows_readout = question.readout_time is not None
+    return bars_answer(scene, knows_readout=knows_readout, rows=question.rows)

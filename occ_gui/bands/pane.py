@@ -1,14 +1,15 @@
-"""The pane of the bars: counted on a thread of its own, a quarter of a second for a scene."""
+"""The pane of the bars: computed on threads, a quarter of a second for a scene."""
 
 from PySide6.QtCore import QSize
 
 from occ_gui.background.result_age import ResultAges
 from occ_gui.background.task import Task
 from occ_gui.bands.bands_view import BandsView
-from occ_gui.bands.jobs import SceneBars, compute_bars
+from occ_gui.bands.jobs import LampQuestion, SceneBars, answer_question, compute_bars
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.building import ScrollPane
+from occ_model.results.bars_answer import BarsAnswer
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import as_bright
 
@@ -24,19 +25,36 @@ class BandsPane(Pane[Scene]):
         self._scenes = scenes
         self._ages, self._shown = ResultAges(scenes.scene), scenes.scene
         self._task: Task[Scene, SceneBars] = Task(lambda scene, _: compute_bars(scene), "bars")
-        self.tasks = (self._task,)
+        self._answers: Task[LampQuestion, BarsAnswer] = Task(
+            lambda question, _: answer_question(question), "answer of bars"
+        )
+        self.tasks = (self._task, self._answers)
         self._task.finished.connect(self._show)
         self._task.failed.connect(self._fail)
         self.view.exposure_chosen.connect(self._take)
+        lamp = self.view.lamp
+        self._answers.finished.connect(lamp.show_answer)
+        self._answers.failed.connect(lamp.answer.show_answer)
+        lamp.form.edited.connect(self._ask)
+        lamp.form.wanted.connect(self._show_lamp)
+        self._ask()
 
     def show_part(self, part: Scene) -> None:
         self._ages.begin(part)
         self._mark("computing…")
         self._task.ask(part)
 
-    def _show(self, found: SceneBars) -> None:
-        self._shown = found.scene
-        self.view.show_bands(found)
+    def _ask(self) -> None:
+        self._answers.ask(self.view.lamp.form.question)
+
+    def _show_lamp(self) -> None:
+        question = self.view.lamp.form.question
+        scene = as_bright(self._scenes.scene, question.exposure_time)
+        self._scenes.put(question.scene(scene), "lamp that makes bars")
+
+    def _show(self, bars: SceneBars) -> None:
+        self._shown = bars.scene
+        self.view.show_bands(bars)
         self._mark("computing…")
 
     def _fail(self, sentence: str) -> None:

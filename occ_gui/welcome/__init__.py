@@ -1,1 +1,1 @@
-"""The first page that a new user sees: three ways to begin."""
+"""The first page that a new user sees: four ways to begin."""

@@ -1,4 +1,4 @@
-"""Welcome page: three ways to begin, shown at the first start and from the menu."""
+"""Welcome page: four ways to begin, shown at the first start and from the menu."""
 
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QPalette
@@ -54,7 +54,7 @@ _TITLE = 1.5
 class WelcomeDialog(QDialog):
     """Asks what the user wants to do first; closing it leads to free exploration."""
 
-    chosen = Signal(str)  # what the user wants: ``learn``, ``photo`` or ``explore``
+    chosen = Signal(str)  # what the user wants: a key of ``doors``
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -75,6 +75,11 @@ class WelcomeDialog(QDialog):
                 "door-photo",
                 "Match my photo",
                 "Open a photo of a blinking LED, and measure the camera with it.",
+            ),
+            "bars": Door(
+                "door-bars",
+                "My lamp makes bars",
+                "Find the shutter speeds that show none in your pictures and films.",
             ),
             "explore": Door(
                 "door-explore",
@@ -98,7 +103,7 @@ class WelcomeDialog(QDialog):
 
 
 _SEEN = "welcome/seen"
-_MODES = {"learn": "lessons", "photo": "photo", "explore": "explore"}
+_MODES = {"learn": "lessons", "photo": "photo", "bars": "limits", "explore": "explore"}
 
 
 class Welcome(Service):
@@ -132,6 +137,9 @@ class Welcome(Service):
             self._shell.pane("lessons").controller.begin_first()
         elif door == "photo":
             self._files.ask_for_photo()
+        elif door == "bars":
+            self._window.bring_to_front("bands")
+            self._shell.pane("bands").view.lamp.form.lamp.setFocus()
 
     def _forget(self) -> None:
         self.dialog = None

@@ -150,6 +150,7 @@ _HELP = (
     _Entry("guide", "&User's guide"),
     _Entry("about_pane", "About this &pane", "Shift+F1"),
     _Entry("welcome", "&Welcome…"),
+    _Entry("my_lamp", "My lamp makes &bars", words="flicker banding shutter mains dimmed pwm"),
     _Entry("lessons", "&Lessons", words=_LEARN),
     _Entry("report", "&Report…", words="bug error problem"),
     _Entry("about", "&About"),

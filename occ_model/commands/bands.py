@@ -7,12 +7,13 @@ import re
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, percent
+from occ_model.results.bars_answer import ROWS
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
-from occ_model.study.bands.answer import MOST_ROWS, bars_answer
+from occ_model.study.bands.answer import bars_answer
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.bands.eye import eye_flicker
 
@@ -74,10 +75,8 @@ def _lamp_of(text: str) -> tuple[dict[str, ParameterValue], int]:
     if not kinds:
         duty = quantity("duty").parse(others[0])
         return {"light": "lamp", "lamp_frequency": lamp, "duty": duty, "depth": 1.0}, 0
-    one, _, rows = others[0].partition("/")
-    if one != "1" or not rows.isdecimal() or not 1 <= int(rows[:9]) <= MOST_ROWS:
-        raise ParameterError.of("rows", shown(others[0]), f"1/1 to 1/{MOST_ROWS}")
-    return {"light": "lamp", "lamp_frequency": lamp, "duty": 1 / int(rows), "depth": 1.0}, int(rows)
+    rows = ROWS.parse(others[0].removeprefix("1/"))
+    return {"light": "lamp", "lamp_frequency": lamp, "duty": 1.0 / rows, "depth": 1.0}, rows
 
 
 def _depth_lines(scene: Scene, depth: BandDepth) -> list[str]:

@@ -5,16 +5,22 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, SpeedDepth, percent
+from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.units import SECOND
 
+ROWS = Count(
+    "rows", "Rows in turn", "n", "Rows, or groups of rows, of a panel that are lit in turn.",
+    1, 10_000, 16,
+)  # fmt: skip
+
 _DIGITS = 4
-_LONGEST_FRACTION = 0.3  # seconds from which shutter times are written as decimals
+_FRACTIONS = (1 / 20_000, 0.3)  # seconds between which shutter times are written as 1/n s
 
 
 def shutter_words(seconds: float) -> str:
     """Write a shutter time as on a camera where it is one over a whole number: 1/100 s."""
     inverse = round(1.0 / seconds)
-    if seconds < _LONGEST_FRACTION and abs(inverse * seconds - 1.0) < 1e-9:
+    if _FRACTIONS[0] <= seconds < _FRACTIONS[1] and abs(inverse * seconds - 1.0) < 1e-9:
         return f"1/{inverse} s"
     return SECOND.format(seconds, _DIGITS)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import NO_BARS_DEPTH, SpeedDepth
-from occ_model.results.bars_answer import BarsAnswer, Beat, FrameRateBeats, UnlitRows
+from occ_model.results.bars_answer import ROWS, BarsAnswer, Beat, FrameRateBeats, UnlitRows
 from occ_model.scene.light_words import describe_light
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import speed_depths
@@ -22,8 +22,6 @@ FRAME_RATES = {
     "120": Fraction(120), "240": Fraction(240),
 }  # fmt: skip
 """Usual frame rates, as written and exactly."""
-
-MOST_ROWS = 10_000  # a panel's rows, or groups of rows, that are lit in turn
 
 _ROUNDING_ROWS = 1e-9  # difference from whole cycles, in rows, that is a rounding error
 
@@ -133,8 +131,7 @@ def unlit_rows(rows: int, frequency: float, exposure: float) -> UnlitRows:
     ParameterError
         An argument is out of range.
     """
-    if not 1 <= rows <= MOST_ROWS:
-        raise ParameterError.of("rows", shown(rows), f"1 to {MOST_ROWS}")
+    ROWS.check(rows)
     for name, value in (("frequency", frequency), ("exposure", exposure)):
         if not 0.0 < value < math.inf:
             raise ParameterError.of(name, shown(value), "above 0")

@@ -276,7 +276,8 @@ def test_each_button_of_the_welcome_page_leads_to_its_mode(
     dialogs: list[object] = []
     monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: dialogs.append(a) or ("", ""))
     page = application.shell.pane("welcome")
-    for door, mode in (("photo", "photo"), ("explore", "explore"), ("learn", "lessons")):
+    doors = {"photo": "photo", "explore": "explore", "bars": "limits", "learn": "lessons"}
+    for door, mode in doors.items():
         assert application.store.scene == small_scene
         user.choose("&Welcome…")
         page.dialog.doors[door].click()
@@ -284,5 +285,7 @@ def test_each_button_of_the_welcome_page_leads_to_its_mode(
         assert application.window.modes.mode == mode
         assert page.dialog is None
         assert len(dialogs) == 1  # opened by the first button only
+        asks_for_lamp = application.shell.pane("bands").view.lamp.form.lamp.isVisible()
+        assert asks_for_lamp == (door == "bars")
     place = application.shell.pane("lessons").view.step.place.text()
     assert place == "What is a rolling shutter? · step 1 of 3"

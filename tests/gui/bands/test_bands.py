@@ -9,6 +9,9 @@ import pytest
 from gui.kinds import show_widget
 from gui.pane_bench import PaneBench
 from gui.user import PATIENCE_MS
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractSpinBox
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -48,17 +51,17 @@ def _rows(view: BandsView) -> dict[str, list[str]]:
 def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -> None:
     view.show_bands(_shown(_LAMP))
     depth = occ.band_depth(_LAMP)
-    assert f"{100 * depth.peak_to_peak:.3g} %" in view.headline.text()
+    assert f"{100 * depth.peak_to_peak:.3g} %" in view.of_scene.line.text()
     assert depth.is_visible
-    assert depth.sentence in view.sentences.text()
-    assert "whole multiples of 520.8 µs" in view.sentences.text()
+    assert depth.sentence in view.of_scene.details.text()
+    assert "whole multiples of 520.8 µs" in view.of_scene.details.text()
     rows = _rows(view)
     assert rows["1/60 s"] == ["0 %", "0 %", "none"]
     assert rows["1/125 s"][2] == "depends"
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
     view.show_bands(_shown(_LAMP.replace(exposure_time=1 / 1920)))
-    assert "Not visible on a display" in view.sentences.text()
+    assert "Not visible on a display" in view.of_scene.details.text()
 
 
 @pytest.mark.parametrize(
@@ -70,16 +73,16 @@ def test_bars_that_the_picture_hides_are_not_headlined_as_seen(
     view: BandsView, changes: dict[str, float], why: str
 ) -> None:
     view.show_bands(_shown(_LAMP.replace(**changes)))
-    assert ", not visible: " in view.headline.text()
-    assert why in view.headline.text()
-    assert why in view.sentences.text()
+    assert ", not visible: " in view.of_scene.line.text()
+    assert why in view.of_scene.line.text()
+    assert why in view.of_scene.details.text()
 
 
 def test_a_lamp_without_light_has_no_valleys(view: BandsView) -> None:
     view.show_bands(_shown(_LAMP.replace(luminance=0.0)))
     assert not any(line.isVisible() for line in view.map.valleys)
-    assert "Nothing blinks" in view.sentences.text()
-    assert "From" not in view.sentences.text()
+    assert "Nothing blinks" in view.of_scene.details.text()
+    assert "From" not in view.of_scene.details.text()
 
 
 def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> None:
@@ -117,7 +120,7 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
 
     view, scenes = bench.add(bands(bench.scenes)).view, bench.scenes
     bench.wait_until_idle()
-    assert view.headline.text().startswith("Bars of")
+    assert view.of_scene.line.text().startswith("Bars of")
     row = list(_rows(view)).index("1/60 s")
     monkeypatch.setattr(pane, "compute_bars", shown_late)
     view.table.itemActivated.emit(view.table.item(row, 0))
@@ -125,7 +128,7 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
     assert view.outdated.isHidden()
     qtbot.waitUntil(view.outdated.isVisible)
     was_marked.set()
-    qtbot.waitUntil(lambda: view.headline.text().startswith("No bars"))
+    qtbot.waitUntil(lambda: view.of_scene.line.text().startswith("No bars"))
     assert view.outdated.isHidden()
     scenes.undo_stack.undo()
     assert scenes.scene.camera.exposure_time == pytest.approx(136e-6)
@@ -133,6 +136,58 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
     scenes.settings.set_tolerance(3.0)  # which the bars do not depend on
     qtbot.wait(round(1e3 * DELAY))
     assert view.outdated.isHidden()
+
+
+def _type(field: QAbstractSpinBox, text: str) -> None:
+    field.lineEdit().selectAll()
+    QTest.keyClicks(field, text)
+    QTest.keyClick(field, Qt.Key.Key_Return)
+
+
+def test_my_lamp_s_bars_are_answered_in_one_line_and_shown_in_the_scene_if_wanted(
+    bench: PaneBench,
+) -> None:
+    view, scenes, before = bench.add(bands(bench.scenes)).view, bench.scenes, bench.scenes.scene
+    form, answer = view.lamp.form, view.lamp.answer
+    bench.wait_until_idle()
+    assert answer.line.text() == "Use 1/50 or 1/100 s: no bars. At 1/125 s they are 14 % deep."
+    assert not form.fields["lamp_frequency"].isVisible()
+    form.lamp.show_key("dimmed")
+    form.lamp.chosen.emit("dimmed")
+    _type(form.fields["lamp_frequency"], "240 Hz")
+    _type(form.fields["duty"], "30")
+    _type(form.fields["exposure_time"], "1/100")
+    form.knows_readout.click()
+    bench.wait_until_idle()
+    assert answer.line.text() == (
+        "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % deep, 347 lines from bar to bar."
+    )
+    assert scenes.scene == before
+    assert not answer.details.isVisible()
+    answer.more.click()
+    assert answer.details.isVisible()
+    assert "whole multiples of 4.167 ms" in answer.details.text()
+    form.show_it.click()
+    sent, camera = scenes.scene.transmitter, scenes.scene.camera
+    assert (sent.light, sent.lamp_frequency, sent.duty) == ("lamp", 240.0, pytest.approx(0.3))
+    assert (camera.exposure_time, camera.readout_time) == (0.01, 12e-6)
+    bench.wait_until_idle()
+    assert view.of_scene.line.text().startswith("Bars of")
+    scenes.undo_stack.undo()
+    assert scenes.scene == before
+
+
+def test_a_panel_lit_row_by_row_shows_how_many_rows_are_dark(bench: PaneBench) -> None:
+    view = bench.add(bands(bench.scenes)).view
+    view.lamp.form.lamp.show_key("rows")
+    view.lamp.form.lamp.chosen.emit("rows")
+    _type(view.lamp.form.fields["exposure_time"], "1/1000 s")
+    _type(view.lamp.form.fields["lamp_frequency"], "60")
+    bench.wait_until_idle()
+    assert "87.7 % of them are dark in one picture" in view.lamp.answer.details.text()
+    _type(view.lamp.form.rows, "4")
+    bench.wait_until_idle()
+    assert "69 % of them are dark" in view.lamp.answer.details.text()
 
 
 def test_the_chart_shows_each_sine_beside_the_lines(view: BandsView) -> None:

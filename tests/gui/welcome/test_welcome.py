@@ -1,4 +1,4 @@
-"""The welcome page offers three ways to begin, at the first start and from the menu."""
+"""The welcome page offers four ways to begin, at the first start and from the menu."""
 
 from pathlib import Path
 from typing import Any, cast

@@ -12,6 +12,7 @@ from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects.plan import name_effects_for_signal
 from occ_model.errors import PluginError
+from occ_model.light.sent import light_period
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import QUICK_DECODERS, decoder_named, read_with
 from occ_model.results.decoding import DecodeResult
@@ -163,7 +164,6 @@ def _common_fields(
     except occ.BandModelUndefined as reason:
         undefined = str(reason)
     transmitter = scene.transmitter
-    chip_columns = transmitter.switching_period / scene.camera.readout_time
     return {
         "request": request,
         "scene": scene,
@@ -175,7 +175,7 @@ def _common_fields(
         "has_edges": "led-edges" in frame.plan,
         "overexposed": overexposed_fraction(scene, frame.plan, frame.profile, frame.corners),
         "sent": () if transmitter.pattern else transmitter.payload_bits,
-        "packet_columns": chip_columns * len(occ.packet(scene)),
+        "packet_columns": float(light_period(transmitter)) / scene.camera.readout_time,
         "band": band,
         "enhanced_band": enhanced_band,
         "band_undefined": undefined,

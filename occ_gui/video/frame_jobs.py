@@ -9,6 +9,7 @@ from occ_gui.simulation.snapshot import ColumnView, PictureView, halves_of
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
+from occ_model.light.sent import light_period
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
@@ -132,13 +133,12 @@ def _make_story(
     region = decoded.region or Region(0, shown.camera.rows, 0, image.shape[1])
     corners = _corners(region)
     transmitter = scene.transmitter
-    chip_columns = transmitter.switching_period / scene.camera.readout_time
     is_known = request is not None and not transmitter.pattern
     reading = ColumnView(
         scene=shown, profile=profile, signal=profile, corners=corners,
         results={decoded.decoder: decoded},
         sent=transmitter.payload_bits if is_known else (),
-        packet_columns=chip_columns * len(occ.packet(scene)),
+        packet_columns=float(light_period(transmitter)) / scene.camera.readout_time,
     )  # fmt: skip
     rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
     picture = PictureView(image, rows, size, corners, image)

@@ -140,7 +140,10 @@ def _headline(reading: RoomReading) -> str:
 
 
 def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
-    names = [lamp.name for lamp in reading.lamps if lamp.name]
+    names = [
+        lamp.name + (f" ({lamp.light_words})" if lamp.code is None else "")
+        for lamp in reading.lamps if lamp.name
+    ]  # fmt: skip
     lines = [f"{len(names)} of {len(reading.lamps)} lamps named: {', '.join(names) or 'none'}."]
     lines += reading.reasons
     if reading.located is not None:

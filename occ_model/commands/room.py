@@ -237,8 +237,8 @@ def _run_locate(options: argparse.Namespace) -> int:
 def _print_reading(reading: RoomReading) -> None:
     for lamp in reading.lamps:
         at = f"columns {lamp.region.first_column} to {lamp.region.last_column - 1}"
-        code = "no code" if lamp.code is None else f"code {lamp.code}"
-        print(f"{one_line(lamp.name or 'unnamed')}: {code}, {at}. {one_line(lamp.note)}".rstrip())
+        name = one_line(lamp.name or "unnamed")
+        print(f"{name}: {lamp.light_words}, {at}. {one_line(lamp.note)}".rstrip())
     for reason in reading.reasons:
         print(reason)
     for one in filter(None, (reading.located, *reading.alternatives)):

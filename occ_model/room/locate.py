@@ -73,7 +73,8 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     """Name the lamps in a picture of a room, and find where it was taken.
 
     The receiver knows the room except for the camera's place and angles: the lamps, and the
-    camera's settings and lens. The place follows from the straight edges of the named rectangles;
+    camera's settings and lens. Lamps are named by their codes, or by the measured frequency of
+    light that is no code. The place follows from the straight edges of the named rectangles;
     discs are only named.
 
     Parameters

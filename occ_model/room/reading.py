@@ -1,10 +1,8 @@
-"""Find the lamps of a room in a picture, decode each, and name it by its code."""
+"""Find the lamps of a room in a picture, and name each by its code or its frequency."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,17 +11,14 @@ from occ_model.camera.coverage import column_spans
 from occ_model.camera.pixel_arrays import bytes_of
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decode import decode
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import Region
+from occ_model.room.lamp_frequency import MeasuredFrequency, measure_frequency, sends_code
+from occ_model.room.lamp_spots import find_spots, join_spots, longest_gaps
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.scheme import code_of, packet, scheme_of, sent_chips
+from occ_model.transmitter.scheme import code_of, packet
 
 _ROWS = 4  # rows that are averaged to search for lamps
-
-_MIN_SIGMA_ABOVE_NOISE = 6.0  # above the surroundings, from which a pixel is a lamp's
-_MIN_LAMP_FRACTION = 0.1  # fraction of the brightest pixels' light above the surroundings
-_SAMPLING_STEP = 4  # step between rows that sample the light of surroundings and lamps
-_MIN_SIDE = 12  # rows and columns of the smallest lamp considered
 
 _MIN_LIT_FRACTION = 0.5
 """Fraction of a lamp's own brightest light from which one of its columns counts as lit."""
@@ -49,9 +44,11 @@ class ReadLamp:
     hull : ndarray of float64, shape (corners, 2)
         The convex outline of its lit pixels, with (column, row) of each corner.
     is_cut
-        Whether it reaches the picture's edge, or may do so where its chips are dark.
+        Whether it reaches the picture's edge, or may do so where its light is dark.
     note
         Why it has no name, or that it is cut; otherwise empty.
+    frequency
+        The frequency of its light, measured where lamps of the room send no code; else None.
     """
 
     name: str | None
@@ -60,6 +57,14 @@ class ReadLamp:
     hull: FloatArray
     is_cut: bool
     note: str
+    frequency: MeasuredFrequency | None = None
+
+    @property
+    def light_words(self) -> str:
+        """What was read of its light."""
+        if self.code is not None:
+            return f"code {self.code}"
+        return "no code" if self.frequency is None else self.frequency.words
 
 
 def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
@@ -75,8 +80,21 @@ def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
 
 def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     """Find the lamps in the camera's picture and name them, the largest first."""
-    found = sorted(_find_lamps(image, room), key=lambda one: -one[0].rows * one[0].columns)
-    lamps = [_read_lamp(image, region, hull, room) for region, hull in found]
+    scale = min(_ROWS, len(image))
+    # Fast light that sends no code may be lit in single columns.
+    width = 2 if all(sends_code(lamp) for lamp in room.lamps) else 1
+    spots, lamps = find_spots(image, scale, width), list[ReadLamp]()
+    gaps = longest_gaps(room)
+    for gap in sorted({*gaps.values()}):
+        for region, hull, own in join_spots(spots, gap, scale, len(image)):
+            lamp, known = _read_lamp(image, region, hull, room)
+            is_whole = max((gaps[name] for name in known), default=0) == gap
+            if is_whole or gap == max(gaps.values()):
+                spots[own] = 0
+                lamps.append(lamp if is_whole or not lamp.name else replace(
+                    lamp, name=None, note=f"It is dark for longer within than {lamp.name}.",
+                ))  # fmt: skip
+    lamps.sort(key=lambda one: -one.region.rows * one.region.columns)
     names = [lamp.name for lamp in lamps if lamp.name]
     return tuple(
         replace(lamp, name=None, note=f"{lamp.name} was read at {names.count(lamp.name)} places.")
@@ -86,64 +104,11 @@ def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     )
 
 
-def _find_lamps(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
-    """Return the region and the convex outline of each group of lit pixels."""
-    scale = min(_ROWS, len(image))
-    rows = len(image) // scale
-    sums = image[: rows * scale].reshape(rows, scale, -1).sum(axis=1, dtype=np.uint16)
-    some = sums[::_SAMPLING_STEP] / scale
-    dark = float(np.median(some))
-    noise = 1.48 * float(np.median(np.abs(some - dark)))
-    bright = float(np.percentile(some, 99.9))
-    level = dark + max(_MIN_SIGMA_ABOVE_NOISE * noise, _MIN_LAMP_FRACTION * (bright - dark), 2.0)
-    lit = (sums > level * scale).astype(np.uint8)
-    spots = cv2.morphologyEx(lit, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
-    joined = cv2.morphologyEx(spots, cv2.MORPH_CLOSE, np.ones((1, _longest_gap(room)), np.uint8))
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(joined, connectivity=8)
-    for label in range(1, count):
-        x, y, width, height, _ = stats[label].tolist()
-        if width < _MIN_SIDE or height * scale < _MIN_SIDE:
-            continue
-        part = np.s_[y : y + height, x : x + width]
-        own = (labels[part] == label) & (spots[part] > 0)
-        corners = cv2.convexHull(_ends_of_rows(own)).reshape(-1, 2)
-        hull = corners.astype(np.float64) + np.array([x, y])
-        hull[:, 1] = (hull[:, 1] + 0.5) * scale - 0.5
-        first, last = y * scale, min(len(image), (y + height) * scale + 1)
-        # Closing extends spots near the picture's sides up to them, so the lit pixels count.
-        left, right = int(hull[:, 0].min()), int(hull[:, 0].max()) + 1
-        yield Region(first, last, left, right), hull
-
-
-def _ends_of_rows(lit: BoolArray) -> NDArray[np.int32]:
-    """Return the first and the last lit pixel of each row, whose hull contains the others."""
-    rows = np.flatnonzero(lit.any(axis=1))
-    first = lit[rows].argmax(axis=1)
-    last = lit.shape[1] - 1 - lit[rows, ::-1].argmax(axis=1)
-    ends = np.stack([np.concatenate([first, last]), np.concatenate([rows, rows])], axis=1)
-    return ends.astype(np.int32)
-
-
-def _longest_gap(room: Room) -> int:
-    """Return the columns of the longest dark run of any lamp, as an odd number."""
-    longest = 0.0
-    for lamp in room.lamps:
-        chips = sent_chips(lamp.transmitter)
-        if chips.all() or not chips.any():
-            continue
-        ends = np.flatnonzero(np.concatenate([chips, chips]))
-        gap = int(np.diff(ends).max()) - 1
-        # The code of a lamp that is not in the room may have a longer run.
-        run = max(gap, scheme_of(lamp.transmitter).line_code.longest_run or 0)
-        longest = max(longest, run / lamp.transmitter.switching_frequency)
-    return int(longest / room.scene.camera.readout_time * 1.1) // 2 * 2 + 5
-
-
 def _settings(room: Room) -> tuple[Scene, ...]:
     """Return a scene for each combination of settings with which lamps of the room send."""
     return tuple(
-        room.scene.replace(**dict(zip(_SENT, sent, strict=True)), code=0)
-        for sent in dict.fromkeys(settings_of(lamp) for lamp in room.lamps)
+        room.scene.replace(**dict(zip(_SENT, sent, strict=True)), light="code", code=0)
+        for sent in dict.fromkeys(settings_of(lamp) for lamp in room.lamps if sends_code(lamp))
     )
 
 
@@ -173,55 +138,104 @@ def _signal(image: ByteArray, region: Region, hull: FloatArray) -> FloatArray:
     return np.asarray(np.interp(column, column[shown], means[shown]))
 
 
-def _read_lamp(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> ReadLamp:
+def _whole_columns(region: Region, hull: FloatArray, shape: tuple[int, ...]) -> slice:
+    """Return the columns of a region that show at least half of the lamp's height."""
+    first, last = column_spans(hull, *shape)
+    height = (last - first)[region.first_column : region.last_column]
+    shown = np.flatnonzero(height >= height.max() / 2)
+    return slice(int(shown[0]) + 1, int(shown[-1]))  # the outermost ones are lit in part
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Light:
+    """The code or the frequency that was read, and the lamps that have it."""
+
+    code: int | None
+    names: list[str]
+    lit: FloatArray | None  # Light of the lamp in each of the picture's columns, if it is as wide
+
+
+def _read_lamp(
+    image: ByteArray, region: Region, hull: FloatArray, room: Room
+) -> tuple[ReadLamp, list[str]]:
     rows, columns = image.shape
     is_cut = (
         region.first_row <= _ROWS or region.first_column <= 1
         or region.last_row >= rows - _ROWS or region.last_column >= columns - 1
     )  # fmt: skip
     signal = _signal(image, region, hull)
-    codes: list[tuple[int, list[str]]] = []
-    failure, hides = "", False
     own_rows = image[region.first_row : region.last_row]
     bright = own_rows.max(axis=0) > _MIN_LIT_FRACTION * signal.max()
+    lights, why = _read_codes(signal, region, room)
+    code = lights[0].code if lights else None
+    measured = None
+    if not all(sends_code(lamp) for lamp in room.lamps):
+        inner = _whole_columns(region, hull, image.shape)
+        found = measure_frequency(signal[inner], room.scene.camera.readout_time)
+        if isinstance(found, MeasuredFrequency):
+            measured = found
+            lights.append(_light_of_frequency(signal, region, found, room))
+            why = f"No lamp of the room has the frequency {found.words}."
+        else:
+            why = f"{why} No frequency was measured: {found}".strip()
+    cut = "It is cut by the picture's edge." if is_cut else ""
+    if not is_cut and any(_may_reach_sides(one.lit, region, bright) for one in lights):
+        is_cut, cut = True, "The picture's edge may cut it: its light is dark there."
+    codes = [(name, one.code) for one in lights for name in one.names]
+    known = [name for name, _ in codes]
+    name = None
+    if len(known) == 1:
+        ((name, code),), why = codes, ""
+    elif known:
+        why = f"{' and '.join(known)} would look the same."
+    note = f"{why} {cut}".strip()
+    return ReadLamp(name, code, region, hull, is_cut, note, measured), known
+
+
+def _read_codes(signal: FloatArray, region: Region, room: Room) -> tuple[list[_Light], str]:
+    """Return the codes that are read with the settings of the room's lamps, and why not."""
+    lights, failure = [], ""
     for scene in _settings(room):
         result = decode(signal, scene, "matched")
         if result.code is None:
-            failure = failure or str(result.failure)
+            failure = failure or f"No code was read: {result.failure}"
             continue
         sent = tuple(getattr(scene.transmitter, name) for name in _SENT)
         names = [
             lamp.name for lamp in room.lamps
-            if settings_of(lamp) == sent and code_sent(lamp) == result.code
+            if sends_code(lamp) and settings_of(lamp) == sent and code_sent(lamp) == result.code
         ]  # fmt: skip
-        codes.append((result.code, names))
-        hides = hides or _may_reach_sides(result, scene, region, bright)
-    known = [(code, name) for code, names in codes for name in names]
-    code = codes[0][0] if codes else None
-    cut = "It is cut by the picture's edge." if is_cut else ""
-    if hides and not is_cut:
-        is_cut, cut = True, "The picture's edge may cut it: its chips are dark there."
-    if len(known) == 1:
-        return ReadLamp(known[0][1], known[0][0], region, hull, is_cut, cut)
-    if known:
-        why = f"{' and '.join(name for _, name in known)} would look the same."
-    elif codes:
-        why = f"No lamp of the room has the code {code}."
-    else:
-        why = f"No code was read: {failure}"
-    return ReadLamp(None, code, region, hull, is_cut, f"{why} {cut}".strip())
+        lit = None if result.model is None else _expected_light(result.model, scene, region)
+        lights.append(_Light(result.code, names, lit))
+    return lights, f"No lamp of the room has the code {lights[0].code}." if lights else failure
 
 
-def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region, bright: BoolArray) -> bool:
-    """Return whether the lamp may reach a side, all columns up to it being dark by its chips."""
-    if result.model is None:
-        return False
+def _light_of_frequency(
+    signal: FloatArray, region: Region, found: MeasuredFrequency, room: Room
+) -> _Light:
+    camera = room.scene.camera
+    names = [
+        lamp.name for lamp in room.lamps
+        if not sends_code(lamp) and found.is_of(lamp, camera.readout_time)
+    ]  # fmt: skip
+    column = (np.arange(camera.columns) - region.first_column) % found.period
+    return _Light(None, names, np.interp(column, np.arange(len(signal)), signal))
+
+
+def _expected_light(model: FloatArray, scene: Scene, region: Region) -> FloatArray:
+    """Return the light of a code that was read in all of the picture's columns."""
     camera, sent = scene.camera, scene.transmitter
     column = np.arange(camera.columns) - region.first_column  # columns of the signal that was read
     chip = (scene.model.start_time + column * camera.readout_time) * sent.switching_frequency
-    bins = len(result.model)
+    bins = len(model)
     place = chip * (bins / len(packet(scene)))
-    lit = np.interp(place, np.arange(bins), result.model, period=bins)
-    lacking = (lit > _MIN_LIT_FRACTION * result.model.max()) & ~bright
+    return np.asarray(np.interp(place, np.arange(bins), model, period=bins))
+
+
+def _may_reach_sides(lit: FloatArray | None, region: Region, bright: BoolArray) -> bool:
+    """Return whether the lamp may reach a side, its light being dark in all columns up to it."""
+    if lit is None:
+        return False
+    lacking = (lit > _MIN_LIT_FRACTION * lit.max()) & ~bright
     sides = lacking[: region.first_column], lacking[region.last_column :]
     return any(not side.any() for side in sides)

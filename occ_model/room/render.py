@@ -16,6 +16,8 @@ from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect, PaperView, paper_view_of, region_of
 from occ_model.effects.plan import plan_of_any
 from occ_model.effects.registry import NAMES, effects_planned
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of
 from occ_model.results.decoding import Region
 from occ_model.results.frame import Plan
 from occ_model.room.room import Room, RoomLamp
@@ -27,6 +29,7 @@ from occ_model.scene.scene import (
     Pose,
     Scene,
     SimulationSettings,
+    Transmitter,
 )
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.pixels import PixelExposure
@@ -137,8 +140,8 @@ def _select_extreme(views: Sequence[PaperView]) -> list[PaperView]:
     """Return the lamps for which an effect can be largest.
 
     They are extreme in depth (defocus), place in the picture (vignetting, distortion), tilt and
-    order (emission), light (noise), number of pixels, frequency, or edges (and in their swing,
-    which an enhancement stretches).
+    order (emission), light (noise), number of pixels, speed of the light's changes, or edges (and
+    in their swing, which an enhancement stretches).
     """
 
     def features(view: PaperView) -> tuple[float, ...]:
@@ -148,7 +151,7 @@ def _select_extreme(views: Sequence[PaperView]) -> list[PaperView]:
         return (
             scene.pose.distance, float(np.hypot(*(corners - middle).T).max()),
             float(np.ptp(corners[:, 0]) * np.ptp(corners[:, 1])) / sent.panel_width
-            / sent.panel_height, sent.luminance, sent.switching_frequency, view.swing,
+            / sent.panel_height, sent.luminance, _fastest_change(sent), view.swing,
             sent.edge_time, sent.lambertian_order,
             float(np.ptp(corners[:, 0])),
         )  # fmt: skip
@@ -158,6 +161,14 @@ def _select_extreme(views: Sequence[PaperView]) -> list[PaperView]:
     table = np.round(table / np.maximum(np.abs(table).max(axis=0), 1e-30), 6)
     places = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
     return [views[place] for place in sorted(places)]
+
+
+def _fastest_change(sent: Transmitter) -> float:
+    """Return how often a second a light changes where it does so most often."""
+    light = light_of(sent)
+    if isinstance(light, Cosine):
+        return light.frequency
+    return float(light.rate / min(light.waveform.lengths.tolist()))
 
 
 def _optics_of(view: PaperView, chosen: Plan) -> Optics:

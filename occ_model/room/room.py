@@ -35,7 +35,7 @@ def _length(name: str, meaning: str) -> Quantity:
 
 
 _START = Quantity(
-    "start_time", "Start time", "", "When the lamp's packet starts, before the room's time 0.",
+    "start_time", "Start time", "", "When the lamp's light starts, before the room's time 0.",
     unit=SECOND, low=-1e6, high=1e6, slider=(0.0, 0.02), scale="linear", default=0.0,
 )  # fmt: skip
 
@@ -95,9 +95,9 @@ class RoomLamp:
     yaw, pitch, roll
         Rotation about y, x and z; at 0 it faces straight down.
     start_time
-        When its packet starts, before the room's time 0, in seconds.
+        When its packet, or a period of its light, starts before the room's time 0, in seconds.
     transmitter
-        Its size, code, frequency and luminance.
+        Its size, light and luminance.
 
     Raises
     ------

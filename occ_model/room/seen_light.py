@@ -22,10 +22,10 @@ from occ_model.camera.photometry import (
 from occ_model.effects.effect import LightEffect, NoiseEffect, PixelEffect
 from occ_model.effects.light_effects import LedEdges
 from occ_model.effects.registry import NAMES, effects_named
+from occ_model.light.sent import light_period
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import scene_with_lamp
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.scheme import sent_chips
 
 _LEVELS = np.linspace(0.0, 2.0 * WHITE, 600)  # pixel values for which means are tabulated
 _MIN_SLOPE = 0.25  # minimum slope of apparent over true light for the true light to be known
@@ -212,14 +212,14 @@ def _inner_light(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Packet:
-    """The light of a lamp's packet above the dark, for equally spaced starts of the exposure."""
+    """The light of a lamp's period above the dark, for equally spaced starts of the exposure."""
 
     light: FloatArray  # Shape (steps,)
     a_column: float  # steps from one column's exposure to the next one's
 
     @classmethod
     def of(cls, lamp: RoomLamp, scene: Scene) -> Self:
-        period = len(sent_chips(lamp.transmitter)) * lamp.transmitter.switching_period
+        period = float(light_period(lamp.transmitter))
         columns = period / scene.camera.readout_time
         steps = min(math.ceil(_STEPS_A_COLUMN * columns), _MOST_STEPS)
         scene = dataclasses.replace(scene, transmitter=lamp.transmitter).replace(

@@ -13,8 +13,10 @@ from occ_model.effects.distortion import part_inside, undistort_frame
 from occ_model.effects.effect import PaperView, paper_view_of, region_of
 from occ_model.effects.optics_effects import blur_of
 from occ_model.errors import ParameterError, ProjectionError, one_line
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of
 from occ_model.room.room import Place, Room, RoomLamp
-from occ_model.scene.scene import Pose, Scene
+from occ_model.scene.scene import Pose, Scene, Surroundings
 
 _DISC_CORNERS = 96  # of a disc's polygon, which is within 0.06 % of the radius of the circle
 _MIN_DEPTH = 1e-3  # depth in metres below which nothing is seen
@@ -67,7 +69,7 @@ def scene_with_lamp(room: Room, lamp: RoomLamp) -> Scene:
     """Return the room's scene with a lamp's light at the room's time; its pose has no meaning."""
     scene = room.scene
     width, height = lamp.size
-    surroundings = scene.surroundings
+    surroundings = _surroundings_of(room)
     if lamp.start_time and surroundings.flicker_depth:  # it follows the room's time, not the lamp's
         cycles = Fraction(surroundings.flicker_frequency) * Fraction(lamp.start_time)
         phase = surroundings.flicker_phase - 2.0 * math.pi * float(cycles % 1)
@@ -79,6 +81,19 @@ def scene_with_lamp(room: Room, lamp: RoomLamp) -> Scene:
         transmitter=lamp.transmitter.replaced({"panel_width": width, "panel_height": height}),
         model=scene.model.replaced({"start_time": scene.model.start_time + lamp.start_time}),
     )
+
+
+def _surroundings_of(room: Room) -> Surroundings:
+    """Return the surroundings, which the room's first lamp on the mains lights."""
+    for lamp in room.lamps:
+        light = light_of(lamp.transmitter)
+        if isinstance(light, Cosine):
+            cycles = Fraction(light.frequency) * Fraction(lamp.start_time)
+            return room.scene.surroundings.replaced({
+                "flicker_depth": light.depth, "flicker_frequency": light.frequency,
+                "flicker_phase": math.remainder(2.0 * math.pi * float(cycles % 1), 2.0 * math.pi),
+            })  # fmt: skip
+    return room.scene.surroundings
 
 
 def angles_of(turned: FloatArray) -> tuple[float, float, float]:

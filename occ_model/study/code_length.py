@@ -71,7 +71,7 @@ def code_lengths(
     check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
     check_count("jobs", jobs, 1, MOST_JOBS)
     for lamp in room.lamps:
-        check_code(lamp.transmitter)
+        check_code(lamp.transmitter, "map the room, whose lamps are named by their frequency")
     lengths = tuple(bits) or tuple((lamps - 1).bit_length() + more for more in _EXTRA_BITS)
     for length in lengths:
         if 2**length < lamps:

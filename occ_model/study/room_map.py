@@ -14,6 +14,7 @@ from occ_model.errors import OccError, ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
 from occ_model.results.sweep import csv_row, join_lines, read_count
+from occ_model.room.lamp_frequency import sends_code
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
@@ -130,7 +131,7 @@ def _count_lamps(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int,
     named = misread = wrong = 0
     for read in reading.lamps:
         there = [one for one in frame.lamps if _is_at(one.region, read)]
-        codes = [code_sent(one.lamp) for one in there]
+        codes = [code_sent(one.lamp) for one in there if sends_code(one.lamp)]
         own = [one for one in there if one.lamp.name == read.name]
         named += any(not one.is_cut for one in own)
         misread += read.code is not None and read.code not in codes

@@ -16,7 +16,7 @@ _MOST_ITERATIONS = 8  # maximum number of Gauss-Newton iterations
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
     """Return the shortest period of stripes in columns and its deviation; None for none."""
     rough = _rough_period(flattened)
-    return None if rough is None else _refined(flattened, rough)
+    return None if rough is None else refine_period(flattened, rough)
 
 
 def best_repetition(flattened: FloatArray) -> tuple[int, float]:
@@ -66,9 +66,13 @@ def autocorrelation(values: FloatArray) -> FloatArray:
     return np.where(flat, 0.0, products / np.where(flat, 1.0, energy))
 
 
-def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
+def refine_period(flattened: FloatArray, period: float, least: int = 1) -> tuple[float, float]:
+    """Return the period near one that explains a profile best, and its deviation.
+
+    The repeated wave has as many harmonics as columns resolve, and at least so many.
+    """
     count = len(flattened)
-    harmonics = harmonics_within(count, period)
+    harmonics = max(least, harmonics_within(count, period))
     change = 0.1 * period / count  # small against a column at the last stripe
     best, best_residual = period, np.inf
     slope = residual = np.zeros(count)
@@ -87,9 +91,11 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
     return best, float(np.sqrt(variance / max(float(slope @ slope), 1e-300)))
 
 
-def unrepeated_fraction(flattened: FloatArray, period: float) -> float:
+def unrepeated_fraction(flattened: FloatArray, period: float, least: int = 1) -> float:
     """Return the fraction of a profile's variance that no repeated wave of a period explains."""
-    residual = without_repetition(flattened, period)
+    residual = _residual(
+        flattened, period, max(least, harmonics_within(len(flattened), period))
+    )
     about = flattened - flattened.mean()
     return float(residual @ residual) / max(float(about @ about), 1e-300)
 

@@ -10,8 +10,8 @@ from small_rooms import small_room
 import occ_model as occ
 from occ_model.room import locate
 from occ_model.room.edge_lines import Edge
+from occ_model.room.lamp_spots import longest_gaps
 from occ_model.room.pose_fit import LampEdges, Located
-from occ_model.room.reading import _longest_gap
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import lamp_scene
 from occ_model.study.room_map import RoomMapRequest, room_map
@@ -210,7 +210,10 @@ def test_dark_chips_of_an_unknown_lamp_are_joined_by_its_line_code() -> None:
     # Code 0 has no two dark chips in a row, but other codes may.
     sent = room.lamps[0].transmitter.replaced({"code": 0})
     room = room.replace(lamps=(dataclasses.replace(room.lamps[0], transmitter=sent),))
-    assert _longest_gap(room) >= 2.0 * sent.switching_period / room.scene.camera.readout_time
+    assert (
+        longest_gaps(room)[room.lamps[0].name]
+        >= 2.0 * sent.switching_period / room.scene.camera.readout_time
+    )
 
 
 # In the last case a single column of the next lit chip is in the picture.

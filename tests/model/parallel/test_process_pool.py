@@ -3,7 +3,6 @@
 import errno
 import os
 import signal
-import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from pathlib import Path
@@ -50,10 +49,7 @@ def test_no_process_is_started_if_too_few_files_may_be_open() -> None:
 
 
 def run_until(bench: Bench, happened: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not happened():
-        assert time.monotonic() < deadline
-        assert bench.scheduler.step(0.05)
+    wait_until(lambda: bench.scheduler.step(0.05) and happened())
 
 
 def result(future: "Future[JobResult]") -> JobResult:

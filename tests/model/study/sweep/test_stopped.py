@@ -9,7 +9,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import product
@@ -17,6 +16,7 @@ from pathlib import Path
 
 import pytest
 from interruption import MOMENTS, interrupted, is_alive
+from worker_calls import wait_until
 
 from occ_model.results.sweep import SweepTable
 
@@ -46,23 +46,16 @@ def test_a_sweep_killed_by_signal_9_can_be_continued_at_once_with_the_same_resul
     command = [sys.executable, "-W", "ignore", str(program), str(path)]
     victim = subprocess.Popen(command, start_new_session=True)
     try:
-        wait_for(lambda: path.exists() and path.read_bytes().count(b",threshold,") >= 4)
+        wait_until(lambda: path.exists() and path.read_bytes().count(b",threshold,") >= 4)
         victim.send_signal(signal.SIGKILL)
         victim.wait(30)
         assert 4 <= path.read_bytes().count(b",threshold,") < 20
         own["slow"](path, 1)
         assert path.read_text() == whole.read_text()
-        wait_for(lambda: not is_alive(victim.pid))
+        wait_until(lambda: not is_alive(victim.pid))
     finally:
         with suppress(ProcessLookupError):
             os.killpg(victim.pid, signal.SIGKILL)
-
-
-def wait_for(happened: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 30
-    while not happened():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 _LATEST = 1.6

@@ -37,6 +37,7 @@ from .results.bands import (
     BandDepth as BandDepth,
     EyeFlicker as EyeFlicker,
 )
+from .results.bars_answer import BarsAnswer as BarsAnswer, UnlitRows as UnlitRows
 from .results.bit_errors import BitErrors as BitErrors, MostBits as MostBits
 from .results.decoding import (
     DecodeResult as DecodeResult,
@@ -106,6 +107,7 @@ from .simulation.band_model import (
 from .simulation.render import render as render
 from .study.accuracy import accuracy as accuracy
 from .study.bands.advice import band_advice as band_advice
+from .study.bands.answer import bars_answer as bars_answer, unlit_rows as unlit_rows
 from .study.bands.depth import band_depth as band_depth, pulse_depth as pulse_depth
 from .study.bands.eye import eye_flicker as eye_flicker
 from .study.bit_error_rate import bit_error_rate as bit_error_rate

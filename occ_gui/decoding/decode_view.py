@@ -173,7 +173,7 @@ class DecodeView(QWidget):
         result = self._find_result(reading)
         if not _look_alike(result, self._drawn_result):  # painting takes longer than comparing
             self._drawn_result = result
-            self.signal.show_result(result, reading.packet_columns)
+            self.signal.show_result(result, reading.period_columns)
             self.run_lengths.show_result(result)
 
     def _describe_origin(self, reading: Reading) -> str:

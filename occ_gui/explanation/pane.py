@@ -75,7 +75,7 @@ class ExposureController(QObject):
             return
         profile = snapshot.frame.profile
         if self._column is None:  # start in the first packet, which the profile shows
-            self._column = int(snapshot.panel_origin[0] + snapshot.packet_columns / 2)
+            self._column = int(snapshot.panel_origin[0] + snapshot.period_columns / 2)
         self._column = min(max(self._column, 0), len(profile) - 1)
         self._pane.show_column(self._column, len(profile), self._held)
         self._mark.show_column(self._column, self._held)

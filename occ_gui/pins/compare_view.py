@@ -178,7 +178,7 @@ class CompareView(QWidget):
     def _fit(self, pins: list[Pin]) -> None:
         """Set the ranges to the first packets of both scenes, and to their levels from black."""
         first = min(pin.first_column for pin in pins)
-        last = max(pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in pins)
+        last = max(pin.first_column + PACKETS_IN_VIEW * pin.period_columns for pin in pins)
         last = min(last, max(len(pin.profile) - 1.0 for pin in pins))
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
         largest = max(float(pin.profile.max()) for pin in pins)

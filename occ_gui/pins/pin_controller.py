@@ -17,7 +17,9 @@ from occ_gui.simulation.verdict import cause_in, is_right, reason_in
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
+from occ_model.results.bands import percent
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, format_distinctly
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, TOLERANCE, Scene, SimulationSettings
@@ -30,7 +32,7 @@ class Pin:
     profile: FloatArray  # shape (columns,), in grey levels
     # The first column of the panel, and the columns of one period of the signal sent
     first_column: float
-    packet_columns: float
+    period_columns: float
     outputs: tuple[tuple[str, str, str], ...]
 
     @property
@@ -230,14 +232,12 @@ class PinController(QObject):
             request=snapshot.request,
             profile=frame.profile,
             first_column=snapshot.panel_origin[0],
-            packet_columns=snapshot.packet_columns,
+            period_columns=snapshot.period_columns,
             outputs=tuple(self._measure_outputs(snapshot)),
         )
 
     def _measure_outputs(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
         frame = snapshot.frame
-        scene = frame.scene
-        period = scene.transmitter.switching_period
         shown = {d.effect: d.label for d in frame.plan.decisions if d.included}
         return [
             (
@@ -245,16 +245,7 @@ class PinController(QObject):
                 f"{float(np.ptp(frame.profile)):.1f} grey levels",
                 "Swing of the profile: the largest value minus the smallest.",
             ),
-            (
-                "Columns per chip",
-                f"{period / scene.camera.readout_time:.2f} columns",
-                "Switching period divided by readout time.",
-            ),
-            (
-                "Exposure",
-                f"{scene.camera.exposure_time / period:.3f} chips",
-                "Exposure time divided by switching period.",
-            ),
+            *_measure_periods(snapshot),
             (
                 "Effects simulated",
                 ", ".join(shown.values()) or "none",
@@ -291,6 +282,31 @@ class PinController(QObject):
             payload = one_line(result.payload, _LONGEST_PAYLOAD)
             return f"“{payload}”, {verdict}"
         return f"code {result.code}, {verdict}"
+
+
+def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
+    """Return the columns of a chip, and the chips of an exposure, or those of a light's period."""
+    camera, sent = snapshot.scene.camera, snapshot.scene.transmitter
+    seconds, unit, name = snapshot.light_period, "period", "The light's period"
+    if has_chips(sent):
+        seconds, unit, name = sent.switching_period, "chip", "Switching period"
+    return [
+        (
+            f"Columns per {unit}",
+            f"{seconds / camera.readout_time:.2f} columns",
+            f"{name} divided by readout time.",
+        ),
+        (
+            "Exposure",
+            f"{camera.exposure_time / seconds:.3f} {unit}s",
+            f"Exposure time divided by {name[:1].lower()}{name[1:]}.",
+        ),
+        *(
+            [("Bars", f"{percent(snapshot.bars.peak_to_peak)} deep", "Swing of the light's bars.")]
+            if snapshot.bars is not None
+            else []
+        ),
+    ]
 
 
 def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:

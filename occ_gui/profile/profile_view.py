@@ -18,6 +18,7 @@ from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import PAPER_DECODER
+from occ_model.scene.scene import Transmitter
 
 _LEAST_HEIGHT = 76  # in pixels; panes share the height of a low window
 
@@ -104,7 +105,7 @@ class ProfileView(QWidget):
         )
         self.enhanced.toggled.connect(self._redraw)
         self.enhanced.toggled.connect(self.enhanced_chosen)
-        self._packets = self._range_button(*first_periods(True))
+        self._packets = self._range_button(*first_periods(Transmitter()))
         self._panel = self._range_button("Panel", "Show all columns of the panel, and follow it.")
         self._packets.setChecked(True)
 
@@ -161,7 +162,7 @@ class ProfileView(QWidget):
     def show_reading(self, reading: Reading) -> None:
         """Show a reading; a hidden pane skips one that the exact picture will soon replace."""
         self.reading = reading
-        text, tip = first_periods(not reading.scene.transmitter.pattern)
+        text, tip = first_periods(reading.scene.transmitter)
         if text != self._packets.text():  # Qt lays the row out again even if the text is the same
             self._packets.setText(text)
             self._packets.setToolTip(tip)
@@ -203,7 +204,8 @@ class ProfileView(QWidget):
         reading, self._is_behind = self.reading, False
         if reading is None:
             return
-        threshold = reading.results[PAPER_DECODER].threshold
+        paper = reading.results.get(PAPER_DECODER)
+        threshold = None if paper is None else paper.threshold
         enhanced = self.enhanced.isChecked()
         profile = reading.levels(enhanced=enhanced)
         band = reading.band_levels(enhanced=enhanced)
@@ -261,7 +263,7 @@ class ProfileView(QWidget):
         first, last = reading.panel_columns
         if self._packets.isChecked():
             first = self._start_at_photo(first, last)
-            last = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
+            last = min(last, first + PACKETS_IN_VIEW * reading.period_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
     def _start_at_photo(self, first: float, last: float) -> float:

@@ -1,6 +1,7 @@
 """Sentences on the drift of the band model's bands away from those of the simulation."""
 
 from occ_gui.simulation.snapshot import ColumnView
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.parameters import PARAMETERS
 
 _FIELD = PARAMETERS["band_reading"].label
@@ -12,7 +13,10 @@ def drift_of(reading: ColumnView) -> str:
     columns = abs(reading.band_drift)
     if columns < _MIN_VISIBLE_DRIFT:
         return ""
-    period = "cycle" if reading.scene.transmitter.pattern else "packet"
+    sent = reading.scene.transmitter
+    period = "period"
+    if has_chips(sent):
+        period = "cycle" if sent.pattern else "packet"
     return f"drifts {columns:.{0 if columns >= 10.0 else 1}f} columns a {period}"
 
 

@@ -11,15 +11,18 @@ from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects.plan import name_effects_for_signal
-from occ_model.errors import PluginError
-from occ_model.light.sent import light_period
+from occ_model.errors import OccError, PluginError
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of, period_columns
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import QUICK_DECODERS, decoder_named, read_with
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, overexposed_fraction, render_with
+from occ_model.study.bands.depth import band_depth
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.observation import ProfileReading, read_profile
 
@@ -74,12 +77,16 @@ class DraftRows:
 SMALL_PICTURE = 1_000_000  # most pixels of a picture that needs no draft, whatever its effects
 
 
+_FEW_PIECES = 64  # most pieces of a light whose bars are computed while a slider moves
+
+
 def reading_by_profile(
     request: SimulationRequest, planned: PlannedScene | None = None
 ) -> Reading | None:
     """Read a scene without its picture; None if the reading needs pixels."""
-    more = filter(_is_usable, request.more)
-    decoders = (*QUICK_DECODERS, *more)
+    decoders: tuple[str, ...] = ()
+    if request.scene.transmitter.light == "code":
+        decoders = (*QUICK_DECODERS, *filter(_is_usable, request.more))
     view = None if planned is None else planned.view
     profile = read_profile(request.scene, request.settings, decoders, view)
     if profile is None:
@@ -107,7 +114,7 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     """Read a draft of a picture, with rows counted in the whole one."""
     scene = frame.scene
-    of_draft = _decode_by_all(occ.decode(frame.image, scene), scene, request.more)
+    of_draft = _decode_by_all(frame, request.more)
     results = {name: _scale_rows(result, frame) for name, result in of_draft.items()}
     fields = _common_fields(request, scene, frame, results)
     return Reading(source="draft", error=frame.plan.error, **fields)
@@ -125,8 +132,11 @@ def _scale_rows(result: DecodeResult, draft: Frame) -> DecodeResult:
 def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     scene = frame.scene
     start = perf_counter()
-    decoded = occ.decode(frame.image, scene)
+    results = _decode_by_all(frame, request.more)
     seconds = perf_counter() - start
+    fields = _common_fields(request, scene, frame, results)
+    if fields["bars"] is None and not has_chips(scene.transmitter):
+        fields["bars"] = band_depth(scene)
     return Snapshot(
         source="picture",
         missing_effects=name_effects_for_signal(frame.plan, scene),
@@ -134,7 +144,7 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         error=frame.plan.error,
         frame=frame,
         reading_seconds=seconds,
-        **_common_fields(request, scene, frame, _decode_by_all(decoded, scene, request.more)),
+        **fields,
     )
 
 
@@ -156,14 +166,8 @@ def _common_fields(
     results: Mapping[str, DecodeResult],
 ) -> dict[str, Any]:
     """Return the fields that all readings have, among them the band model."""
-    band, enhanced_band, undefined, drift = None, None, "", 0.0
-    try:
-        band = occ.band_profile(scene)
-        enhanced_band = enhanced_band_profile(scene, band)
-        drift = band_drift(scene)
-    except occ.BandModelUndefined as reason:
-        undefined = str(reason)
     transmitter = scene.transmitter
+    has_payload = transmitter.light == "code" and not transmitter.pattern
     return {
         "request": request,
         "scene": scene,
@@ -174,13 +178,30 @@ def _common_fields(
         "results": results,
         "has_edges": "led-edges" in frame.plan,
         "overexposed": overexposed_fraction(scene, frame.plan, frame.profile, frame.corners),
-        "sent": () if transmitter.pattern else transmitter.payload_bits,
-        "packet_columns": float(light_period(transmitter)) / scene.camera.readout_time,
-        "band": band,
-        "enhanced_band": enhanced_band,
-        "band_undefined": undefined,
-        "band_drift": drift,
+        "sent": transmitter.payload_bits if has_payload else (),
+        "period_columns": period_columns(scene),
+        "bars": band_depth(scene) if _has_few_pieces(scene) else None,
+        **_band_model(scene),
     }
+
+
+def _has_few_pieces(scene: Scene) -> bool:
+    """Whether a light without chips has bars that are computed while a slider moves."""
+    if has_chips(scene.transmitter):
+        return False
+    light = light_of(scene.transmitter)
+    return isinstance(light, Cosine) or light.waveform.period <= _FEW_PIECES
+
+
+def _band_model(scene: Scene) -> dict[str, Any]:
+    try:
+        band = occ.band_profile(scene)
+        enhanced = enhanced_band_profile(scene, band)
+        return {"band": band, "enhanced_band": enhanced, "band_drift": band_drift(scene)}
+    except OccError as reason:
+        if scene.transmitter.light == "code" and not isinstance(reason, occ.BandModelUndefined):
+            raise
+        return {"band_undefined": str(reason)}
 
 
 def _is_usable(decoder: str) -> bool:
@@ -192,10 +213,12 @@ def _is_usable(decoder: str) -> bool:
     return True
 
 
-def _decode_by_all(
-    first: DecodeResult, scene: Scene, more: tuple[str, ...]
-) -> dict[str, DecodeResult]:
-    """Decode with all decoders the signal that the first one has located."""
+def _decode_by_all(frame: Frame, more: tuple[str, ...]) -> dict[str, DecodeResult]:
+    """Decode with all decoders the signal that the first one has located; nothing but codes."""
+    scene = frame.scene
+    if scene.transmitter.light != "code":
+        return {}
+    first = occ.decode(frame.image, scene)
     results = {first.decoder: first}
     for name in (*QUICK_DECODERS, *more):
         if name not in results:

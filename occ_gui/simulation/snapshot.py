@@ -9,6 +9,7 @@ import numpy as np
 
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.results.bands import BandDepth
 from occ_model.results.decoding import Cause, DecodeResult, Region
 from occ_model.results.frame import Frame, Plan
 from occ_model.scene.scene import Scene
@@ -33,7 +34,7 @@ class ColumnView:
     results: Mapping[str, DecodeResult]
     # The transmitted bits in order of time; empty if a raw pattern is transmitted
     sent: tuple[int, ...]
-    packet_columns: float
+    period_columns: float  # columns after which the light repeats, of a code those of a packet
     has_edges: bool = False  # whether the rise and fall of the light are simulated
     # Shape (columns,): the band model's profile; None if ``band_undefined`` says why there is none
     band: FloatArray | None = None
@@ -42,11 +43,19 @@ class ColumnView:
     band_undefined: str = ""  # a sentence, empty if there is a profile
     # Columns by which that profile is ahead of the simulated one after each packet
     band_drift: float = 0.0
+    # Depth of the bars of a light without chips; None until it is known
+    bars: BandDepth | None = None
+
+    @property
+    def light_period(self) -> float:
+        """Seconds after which the light repeats."""
+        return self.period_columns * self.scene.camera.readout_time
 
     @property
     def region(self) -> Region | None:
         """The part of the picture that the decoders have read; None if they found no panel."""
-        return next(iter(self.results.values())).region
+        first = next(iter(self.results.values()), None)
+        return None if first is None else first.region
 
     def levels(self, *, enhanced: bool) -> FloatArray:
         return self.signal if enhanced else self.profile

@@ -1,5 +1,6 @@
 """Verdict on a decoder's result: the code read, compared with the one sent, in words."""
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,7 +8,9 @@ from dataclasses import dataclass
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
+from occ_model.results.bands import ROUNDING_DEPTH, percent
 from occ_model.results.decoding import Cause, DecodeResult, symptom
+from occ_model.scene.light_words import describe_light
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
 
@@ -91,6 +94,21 @@ def describe_code(decoded: DecodeResult) -> str:
     if decoded.payload:
         return f"“{one_line(decoded.payload, _LONGEST_PAYLOAD)}”"
     return f"Code {decoded.code}"
+
+
+def describe_bars(reading: ColumnView) -> tuple[str, str]:
+    """Say what is sent and what bars its picture has, as a title and its explanation."""
+    scene, bars = reading.scene, reading.bars
+    light = describe_light(scene.transmitter)
+    title = f"{light[:1].upper()}{light[1:]}"
+    if bars is None:
+        return title, ""
+    if bars.peak_to_peak <= ROUNDING_DEPTH:
+        return f"{title}: no bars", "Every column gathers the same light."
+    depth = f"{percent(bars.peak_to_peak)} deep"
+    if math.isinf(bars.period):
+        return f"{title}: bars {depth}, not in these columns", bars.sentence
+    return f"{title}: {bars.period:.4g} columns from bar to bar, {depth}", bars.sentence
 
 
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> CodeVerdict:

@@ -215,9 +215,10 @@ class Scale(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         axis.changed.connect(self.update)
 
-    def count_from(self, start: float, step: float) -> None:
-        if (start, step) != (self._start, self._step):
-            self._start, self._step = start, step
+    def count_from(self, start: float, step: float, name: str) -> None:
+        if (start, step, name) != (self._start, self._step, self._name):
+            self._start, self._step, self._name = start, step, name
+            self.setAccessibleName(name)
             self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass
 
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.code_row import CodeRow
 from occ_gui.story.column_axis import MeasureCursors
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.widgets.state_look import State
 from occ_model.arrays import FloatArray
+from occ_model.scene.light_words import blinking_lamp, has_chips
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
@@ -57,8 +59,12 @@ def describe_values(values: ColumnValues, scene: Scene) -> str:
     parts = [f"column {values.column}", f"{values.time * _MICRO:.1f} µs", _light(values.light)]
     if values.fraction is not None:
         exposure = scene.camera.exposure_time
-        lit, whole = SECOND.format(values.fraction * exposure, 3), SECOND.format(exposure, 4)
-        parts.append(f"lit for {lit} of {whole}")
+        whole = SECOND.format(exposure, 4)
+        lamp = blinking_lamp(scene.transmitter)
+        if has_chips(scene.transmitter) or (lamp is not None and lamp.depth == 1.0):
+            parts.append(f"lit for {SECOND.format(values.fraction * exposure, 3)} of {whole}")
+        else:
+            parts.append(f"mean of {whole} {100.0 * values.fraction:.0f} %")
     parts.append(f"level {values.level:.1f}")
     if values.chip is not None:
         parts.append(f"chip {values.chip}")
@@ -80,29 +86,34 @@ class CursorDifference:
     time: float  # the same in seconds
     # How much higher the profile is at the second, in grey levels; None outside of it
     levels: float | None
-    chips: float  # the same time in chips
+    count: float  # the same time in chips, or in periods of a light without
+    unit: str
 
 
 def measure(
-    cursors: MeasureCursors, scene: Scene, profile: FloatArray | None
+    cursors: MeasureCursors, reading: ColumnView, profile: FloatArray | None
 ) -> CursorDifference | None:
     if not cursors.columns:
         return None
     first, second = cursors.columns
     columns = second - first
-    time = columns * scene.camera.readout_time
+    sent = reading.scene.transmitter
+    time = columns * reading.scene.camera.readout_time
     places = [round(first), round(second)]
     levels = None
     if profile is not None and all(0 <= place < len(profile) for place in places):
         levels = float(profile[places[1]] - profile[places[0]])
-    return CursorDifference(columns, time, levels, time * scene.transmitter.switching_frequency)
+    count, unit = columns / reading.period_columns, "periods"
+    if has_chips(sent):
+        count, unit = time * sent.switching_frequency, "chips"
+    return CursorDifference(columns, time, levels, count, unit)
 
 
 def describe_difference(difference: CursorDifference) -> str:
     parts = [f"1 to 2: {difference.columns:.1f} columns", SECOND.format(difference.time, 4)]
     if difference.levels is not None:
         parts.append(f"{difference.levels:+.1f} levels")
-    parts.append(f"{difference.chips:.2f} chips")
+    parts.append(f"{difference.count:.2f} {difference.unit}")
     if difference.time:
         parts.append(f"as a period {HERTZ.format(1 / abs(difference.time), 4)}")
     return "  ·  ".join(parts)

@@ -15,6 +15,7 @@ from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
 from occ_model.errors import counted, one_line
 from occ_model.results.teaching import LightCurve
+from occ_model.scene.light_words import blinking_lamp, describe_light, has_chips
 from occ_model.scene.payload import PayloadPiece, compare_payload
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
@@ -51,7 +52,8 @@ class LightRow(StoryRow):
         )
         self._scene: Scene | None = None
         self._drawn_inputs: tuple[object, ...] = ()
-        self._has_edges = False
+        self._has_edges = self._has_chips = False
+        self._top = 1.0  # the brightest light, 1 being the panel fully lit
         self._sent_bits: tuple[int, ...] = ()
         self.letters: tuple[PayloadPiece, ...] = ()
         self._grab_offset: float | None = None
@@ -62,6 +64,9 @@ class LightRow(StoryRow):
         self._scene, self._sent_bits = reading.scene, reading.sent
         self.letters = compare_payload(reading.scene.transmitter.payload, self._sent_bits)
         self._has_edges = reading.has_edges
+        sent = reading.scene.transmitter
+        self._has_chips = has_chips(sent)
+        self._top = 1.0 + (sent.mains_depth if sent.light == "mains" else 0.0)
         inputs = (
             self._scene.transmitter, self._scene.camera.readout_time,
             self._scene.model.start_time, self._has_edges, self._sent_bits,
@@ -105,17 +110,17 @@ class LightRow(StoryRow):
             return
         edges = self.xs_of(curve.edges).tolist()
         cells = [
-            (chip, QRectF(left, light.top(), right - left, light.height()))
-            for chip, left, right in zip(curve.levels.tolist(), edges, edges[1:], strict=False)
+            (level, QRectF(left, light.top(), right - left, light.height()))
+            for level, left, right in zip(curve.levels.tolist(), edges, edges[1:], strict=False)
         ]
         self._draw_glow(painter, light, curve, cells)
         xs = self.xs_of(curve.columns)
-        ys = light.bottom() - curve.light * light.height()
+        ys = light.bottom() - curve.light * (light.height() / self._top)
         painter.setPen(QPen(self.colour(QPalette.ColorRole.Text), 1.5))
         # Upright and level lines are sharper without antialiasing.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._has_edges)
         painter.drawLines(make_lines(xs, ys))
-        if have_room_for_digits(cells):
+        if self._has_chips and have_room_for_digits(cells):
             draw_digits(painter, cells, light)
         if light.bottom() < area.bottom() - self._strip_height():
             self._draw_fields(painter, area, curve)
@@ -125,22 +130,26 @@ class LightRow(StoryRow):
         painter: QPainter,
         light: QRectF,
         curve: LightCurve,
-        cells: Sequence[tuple[int, QRectF]],
+        cells: Sequence[tuple[float, QRectF]],
     ) -> None:
-        """Fill the area below the light: a rectangle for each chip, or one polygon with edges."""
+        """Fill the area below the light: a rectangle for each level, or one polygon with edges."""
         glow = _GLOW[is_dark(self.palette())]
         if not self._has_edges:
-            for chip, cell in cells:
-                if chip:
-                    painter.fillRect(cell, glow)
+            for level, cell in cells:
+                if level:
+                    painter.fillRect(self._fill_up(cell, level), glow)
             return
         xs = self.xs_of(curve.columns).tolist()
-        ys = (light.bottom() - curve.light * light.height()).tolist()
+        ys = (light.bottom() - curve.light * (light.height() / self._top)).tolist()
         below = list(map(QPointF, xs, ys))
         below += [QPointF(xs[-1], light.bottom()), QPointF(xs[0], light.bottom())]
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(glow)
         painter.drawPolygon(QPolygonF(below))
+
+    def _fill_up(self, cell: QRectF, level: float) -> QRectF:
+        """Return the part of a piece's cell that is below its light."""
+        return cell.adjusted(0, (1.0 - level / self._top) * cell.height(), 0, 0)
 
     def _write_too_fast(self, painter: QPainter, light: QRectF) -> None:
         painter.fillRect(light, _GLOW[is_dark(self.palette())])
@@ -204,20 +213,24 @@ class LightRow(StoryRow):
         if self._scene is None:
             return ""
         sent = self._scene.transmitter
-        if sent.pattern:
-            return f"a raw pattern of {counted(len(sent.pattern), 'chip')}"
+        if sent.light != "code" or sent.pattern:
+            return describe_light(sent)
         what = f"code {sent.code}"
         if sent.payload:
             what = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
         return f"{what}, {counted(len(self._sent_bits), 'bit')}"
 
     def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
+        if self._scene is None:
+            return
         light = self._light_area(area)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
-        for text, y in (("on", light.top()), ("off", light.bottom())):
+        is_switched = self._has_chips or blinking_lamp(self._scene.transmitter) is not None
+        ends = ("on", "off") if is_switched else (f"{100.0 * self._top:.0f} %", "0 %")
+        for text, y in zip(ends, (light.top(), light.bottom()), strict=True):
             painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), RIGHT, text)
         strip = self._strip_height()
-        if light.bottom() < area.bottom() - strip and self._scene is not None:
+        if light.bottom() < area.bottom() - strip:
             place = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
             painter.drawText(place, LEFT, "sent")
 
@@ -251,12 +264,13 @@ class LightRow(StoryRow):
         painter.setBrush(
             QBrush(self.colour(QPalette.ColorRole.Highlight), Qt.BrushStyle.BDiagPattern)
         )
-        for chip, start, end in zip(
+        for level, start, end in zip(
             curve.levels.tolist(), curve.edges.tolist(), curve.edges.tolist()[1:], strict=False
         ):
             left, right = self.x_of(max(start, first)), self.x_of(min(end, last))
-            if chip:
-                painter.drawRect(QRectF(left, light.top(), right - left, light.height()))
+            if level:
+                cell = QRectF(left, light.top(), right - left, light.height())
+                painter.drawRect(self._fill_up(cell, level))
 
     def _label_window(self, painter: QPainter, place: QRectF, text: str) -> None:
         width = painter.fontMetrics().horizontalAdvance(text) + 8

@@ -25,11 +25,14 @@ from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import PICTURES
+from occ_model.scene.light_words import has_chips
+from occ_model.scene.scene import Transmitter
 
 RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
 
 _MICRO = 1e6
+_TIME = "time (µs)"
 _MARGIN_FRACTION = 0.01  # space beside the range, as a fraction of it
 
 
@@ -60,8 +63,8 @@ class StoryRows(QWidget):
             button.setParent(self)  # owned until laid out: else it would outlive the rows
             button.setCheckable(True)
         self._mark_range()
-        self._label_range(has_packets=True)
-        self.time = Scale("time (µs)", self.axis, is_above=True)
+        self._label_range(Transmitter())
+        self.time = Scale(_TIME, self.axis, is_above=True)
         self.columns = Scale("column", self.axis, is_above=False, least_step=1.0)
         self.light = LightRow(self.axis, self.crosshair)
         self.stripes = StripesRow(self.axis, self.crosshair)
@@ -134,18 +137,27 @@ class StoryRows(QWidget):
         was_visible = self._is_choice_visible()
         self._reading = reading
         scene = reading.scene
-        self.time.count_from(_MICRO * scene.model.start_time, _MICRO * scene.camera.readout_time)
+        self._count_time(reading)
         self.light.show_reading(reading)
         self._show_result()
         self._set_range()
-        self._label_range(has_packets=not scene.transmitter.pattern)
-        first = int(reading.panel_origin[0] + reading.packet_columns / 2)
+        self._label_range(scene.transmitter)
+        self.code.setVisible(has_chips(scene.transmitter))
+        first = int(reading.panel_origin[0] + reading.period_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
         if was_visible and not self._is_choice_visible():
             # The panel has left it: its values would be shown without it.
             self.crosshair.choose(first)
         self._measure()
         self._read_out()
+
+    def _count_time(self, reading: ColumnView) -> None:
+        """Count microseconds where chips are sent, and periods of other lights."""
+        unit, name = 1.0 / _MICRO, _TIME
+        if not has_chips(reading.scene.transmitter):
+            unit, name = reading.light_period, "time / period"
+        scene = reading.scene
+        self.time.count_from(scene.model.start_time / unit, scene.camera.readout_time / unit, name)
 
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
         self.profile.show_photo(photo)
@@ -182,10 +194,10 @@ class StoryRows(QWidget):
         self._span = columns
         self._set_range()
         reading = self._reading
-        self._label_range(has_packets=reading is None or not reading.scene.transmitter.pattern)
+        self._label_range(Transmitter() if reading is None else reading.scene.transmitter)
 
-    def _label_range(self, *, has_packets: bool) -> None:
-        text, tip = first_periods(has_packets)
+    def _label_range(self, sent: Transmitter) -> None:
+        text, tip = first_periods(sent)
         if self._span is not None:
             text = f"{self._span:.0f} columns"
             tip = "Show this many columns from the panel's first, whatever is sent."
@@ -227,7 +239,7 @@ class StoryRows(QWidget):
         last_column = len(reading.profile) - 1
         first, last = reading.panel_columns
         if self.range == RANGES[0]:
-            packets_end = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
+            packets_end = min(last, first + PACKETS_IN_VIEW * reading.period_columns)
             last = packets_end if self._span is None else min(first + self._span, last_column)
         last = max(last, first + 4.0)
         beside = _MARGIN_FRACTION * (last - first)
@@ -249,5 +261,5 @@ class StoryRows(QWidget):
     def _measure(self) -> None:
         reading = self._reading
         if reading is not None:
-            measured = measure(self.crosshair.cursors, reading.scene, self.profile.levels)
+            measured = measure(self.crosshair.cursors, reading, self.profile.levels)
             self.measured_changed.emit("" if measured is None else describe_difference(measured))

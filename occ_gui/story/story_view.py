@@ -10,6 +10,7 @@ from occ_gui.simulation.snapshot import Picture, Reading
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
+from occ_model.scene.light_words import has_chips
 
 _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the four rows."
 
@@ -131,6 +132,7 @@ class StoryView(QWidget):
         self.rows.show_picture(picture)
 
     def show_reading(self, reading: Reading) -> None:
+        self.decoder.setVisible(has_chips(reading.scene.transmitter))
         self.verdict.show_reading(reading)
         self.rows.show_reading(reading)
 

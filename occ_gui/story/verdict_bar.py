@@ -10,6 +10,7 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import (
     CodeVerdict,
     cause_in,
+    describe_bars,
     describe_missing,
     is_right,
     result_of,
@@ -19,6 +20,7 @@ from occ_gui.story.column_facts import READ_BY_ALL, chips_in_exposure
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import Badge, State
 from occ_model.results.decoding import PAPER_DECODER, Remedy, overexposed_text, symptom
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import TOLERANCE, unit_of
 from occ_model.scene.units import PERCENT, SECOND
 
@@ -34,15 +36,27 @@ def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
     if reading.overexposed:
         text = f"overexposed: {PERCENT.format(reading.overexposed, 2)}"
         yield Badge("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
-    scene = reading.scene
-    ratio = scene.camera.exposure_time / scene.transmitter.switching_period
-    meaning = "Exposure time over chip duration. Above 1, no column sees a single chip."
-    yield Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
-    if reading.band_undefined:
+    yield _make_ratio_badge(reading)
+    if reading.band_undefined and reading.scene.transmitter.light != "mains":
         yield Badge("band", "band model ends here", reading.band_undefined)
+    if reading.scene.transmitter.light != "code":  # nothing is read
+        return
     yield from _list_other_decoders(reading, decoder)
     if reading.missing_effects:
         yield Badge("left out", "effects left out", describe_missing(reading), State.DOUBTFUL)
+
+
+def _make_ratio_badge(reading: Reading) -> Badge:
+    exposure, sent = reading.scene.camera.exposure_time, reading.scene.transmitter
+    if has_chips(sent):
+        meaning = "Exposure time over chip duration. Above 1, no column sees a single chip."
+        ratio = exposure / sent.switching_period
+        return Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
+    meaning = (
+        "Exposure time over the period of the light. Where it is a whole number k, at the light's "
+        "nulls k / t, there are no bars."
+    )
+    return Badge("ratio", f"t / period = {exposure / reading.light_period:.3g}", meaning)
 
 
 def make_computing_badge() -> Badge:
@@ -173,7 +187,10 @@ class VerdictBar(StateBar):
         elif self._rate is not None:
             badges = (make_rate_badge(self._rate), *badges)
         cause = cause_in(reading, result)
-        if cause is None:
+        if not has_chips(reading.scene.transmitter):
+            title, *why = describe_bars(reading)
+            heading = self._make_heading(title)
+        elif cause is None:
             # While the cause is searched for, no symptom is the title.
             title = verdict.title if reading.causes is None else verdict.heading
             title += _describe_error(verdict, reading)

@@ -9,7 +9,7 @@ from occ_gui.simulation.snapshot import ColumnView, PictureView, halves_of
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
-from occ_model.light.sent import light_period
+from occ_model.light.sent import period_columns
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
@@ -133,12 +133,12 @@ def _make_story(
     region = decoded.region or Region(0, shown.camera.rows, 0, image.shape[1])
     corners = _corners(region)
     transmitter = scene.transmitter
-    is_known = request is not None and not transmitter.pattern
+    has_payload = transmitter.light == "code" and not transmitter.pattern
     reading = ColumnView(
         scene=shown, profile=profile, signal=profile, corners=corners,
         results={decoded.decoder: decoded},
-        sent=transmitter.payload_bits if is_known else (),
-        packet_columns=float(light_period(transmitter)) / scene.camera.readout_time,
+        sent=transmitter.payload_bits if request is not None and has_payload else (),
+        period_columns=period_columns(scene),
     )  # fmt: skip
     rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
     picture = PictureView(image, rows, size, corners, image)

@@ -4,6 +4,9 @@ import math
 
 from PySide6.QtCore import Qt
 
+from occ_model.scene.light_words import has_chips
+from occ_model.scene.scene import Transmitter
+
 KEY_STEPS = {
     Qt.Key.Key_Left: -1,
     Qt.Key.Key_Right: 1,
@@ -23,7 +26,10 @@ def round_step(least: float) -> float:
     return next(step for step in steps if step >= least * (1.0 - _STEP_TOLERANCE))
 
 
-def first_periods(has_packets: bool) -> tuple[str, str]:
-    sender, periods = ("panel", "packets") if has_packets else ("pattern", "cycles")
+def first_periods(sent: Transmitter) -> tuple[str, str]:
+    """Return the text and the tip of a button that shows the first periods of a light."""
+    sender, periods = "light", "periods"
+    if has_chips(sent):
+        sender, periods = ("pattern", "cycles") if sent.pattern else ("panel", "packets")
     tip = f"Show the first {periods} of the {sender}, and follow them."
     return f"{PACKETS_IN_VIEW} {periods}", tip

@@ -61,6 +61,11 @@ def light_period(transmitter: Transmitter) -> Fraction:
     return 1 / Fraction(light.frequency) if isinstance(light, Cosine) else light.period
 
 
+def period_columns(scene: Scene) -> float:
+    """Return the columns that are read out while a scene's light repeats once."""
+    return float(light_period(scene.transmitter) / Fraction(scene.camera.readout_time))
+
+
 def flicker_of(scene: Scene) -> Cosine:
     """Return the surroundings' light as a multiple of its mean: a mains lamp lights them, too."""
     light = light_of(scene.transmitter)

@@ -40,6 +40,11 @@ def blinking_lamp(transmitter: Transmitter) -> BlinkingLamp | None:
     return None
 
 
+def has_chips(transmitter: Transmitter) -> bool:
+    """Whether a light is described by its chips, as a code or a pattern of several pulses is."""
+    return transmitter.light == "code" and blinking_lamp(transmitter) is None
+
+
 def describe_samples(samples: str) -> str:
     """Return how many levels a recorded waveform has, and how long it is; empty without one."""
     *rows, end = samples.splitlines() or [""]

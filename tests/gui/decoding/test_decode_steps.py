@@ -46,7 +46,7 @@ def test_the_signal_its_threshold_and_lit_chips_under_columns_above_it_are_drawn
     signal_plot: SignalPlot, snapshot: Snapshot
 ) -> None:
     result = snapshot.results["threshold"]
-    signal_plot.show_result(result, snapshot.packet_columns)
+    signal_plot.show_result(result, snapshot.period_columns)
     assert result.signal is not None
     assert levels(signal_plot.signal) == result.signal.tolist()
     assert levels(signal_plot.model) == []
@@ -59,7 +59,7 @@ def test_the_signal_its_threshold_and_lit_chips_under_columns_above_it_are_drawn
     assert bars["y0"].max() + bars["height"].max() <= result.signal.min()
     assert (bars["x0"] + bars["width"]).max() <= len(result.signal)
     first, last = signal_plot.plot.getViewBox().viewRange()[0]
-    assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.1)
+    assert last - first == pytest.approx(2 * snapshot.period_columns, rel=0.1)
     centres = (bars["x0"] + bars["width"] / 2).astype(int)
     assert (result.signal[centres] > result.threshold).mean() > 0.98
 
@@ -67,8 +67,8 @@ def test_the_signal_its_threshold_and_lit_chips_under_columns_above_it_are_drawn
 def test_a_folding_decoder_shows_the_folded_signal_and_its_model_and_others_do_not(
     signal_plot: SignalPlot, snapshot: Snapshot, matched: DecodeResult
 ) -> None:
-    signal_plot.show_result(snapshot.results["threshold"], snapshot.packet_columns)
-    signal_plot.show_result(matched, snapshot.packet_columns)
+    signal_plot.show_result(snapshot.results["threshold"], snapshot.period_columns)
+    signal_plot.show_result(matched, snapshot.period_columns)
     assert matched.folded is not None
     assert matched.model is not None
     assert levels(signal_plot.signal) == matched.folded.tolist()
@@ -77,7 +77,7 @@ def test_a_folding_decoder_shows_the_folded_signal_and_its_model_and_others_do_n
     assert not signal_plot.threshold.isVisible()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
-    signal_plot.show_result(snapshot.results["threshold"], snapshot.packet_columns)
+    signal_plot.show_result(snapshot.results["threshold"], snapshot.period_columns)
     assert levels(signal_plot.model) == []
     assert "model of the code" not in legend_texts(signal_plot)
     assert "level" in signal_plot.plot.getAxis("left").labelText
@@ -91,9 +91,9 @@ def test_a_step_that_was_not_reached_has_no_plot_and_keeps_no_chips_of_the_last_
     run_length_plot.show_result(nothing)
     assert not signal_plot.isVisible()
     assert not run_length_plot.isVisible()
-    signal_plot.show_result(snapshot.results["threshold"], snapshot.packet_columns)
+    signal_plot.show_result(snapshot.results["threshold"], snapshot.period_columns)
     flat = DecodeResult("threshold", failure="No stripes.", signal=np.full(50, 7.0))
-    signal_plot.show_result(flat, snapshot.packet_columns)
+    signal_plot.show_result(flat, snapshot.period_columns)
     assert signal_plot.isVisible()
     assert not signal_plot.chips.isVisible()
     assert not signal_plot.threshold.isVisible()
@@ -125,14 +125,14 @@ def test_predicted_light_is_drawn_beside_the_measured_and_the_threshold_in_equal
     result = occ.decode(snapshot.frame.image, snapshot.scene, "sequence")
     assert result.light is not None
     assert result.light_model is not None
-    signal_plot.show_result(result, snapshot.packet_columns)
+    signal_plot.show_result(result, snapshot.period_columns)
     assert levels(signal_plot.signal) == result.light.tolist()
     assert levels(signal_plot.model) == result.light_model.tolist()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
     result = occ.decode(snapshot.frame.image, snapshot.scene, "equalizer")
     assert result.equalized is not None
-    signal_plot.show_result(result, snapshot.packet_columns)
+    signal_plot.show_result(result, snapshot.period_columns)
     assert levels(signal_plot.signal) == result.equalized.tolist()
     assert signal_plot.threshold.value() == result.threshold
     assert result.equalized.min() < signal_plot.threshold.value() < result.equalized.max()

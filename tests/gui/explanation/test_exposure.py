@@ -188,5 +188,5 @@ def test_the_column_shown_first_is_in_the_panels_first_packet(
     seen = Bench(qtbot, small_scene.replace(panel_width=0.3))
     snapshot = not_none(seen.results_store.results.snapshot)
     first, above = snapshot.panel_origin
-    assert abs(first - above) > snapshot.packet_columns
-    assert first < seen.shown[0] < first + snapshot.packet_columns
+    assert abs(first - above) > snapshot.period_columns
+    assert first < seen.shown[0] < first + snapshot.period_columns

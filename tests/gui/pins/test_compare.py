@@ -179,7 +179,7 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
     both = [pin for pin in (pins.pinned.a, pins.pinned.b) if pin is not None]
     (first, last), (low, high) = view.plot.getViewBox().viewRange()
     starts = [pin.first_column for pin in both]
-    ends = [pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in both]
+    ends = [pin.first_column + PACKETS_IN_VIEW * pin.period_columns for pin in both]
     shown = min(max(ends), len(both[0].profile) - 1.0)
     assert first == pytest.approx(min(starts), abs=0.03 * shown)
     assert last == pytest.approx(shown, abs=0.03 * shown)

@@ -250,7 +250,7 @@ def test_two_packets_are_in_view_until_the_panel_is_chosen_or_the_plot_is_moved(
 ) -> None:
     panel, followed = snapshot.frame.corners[:, 0], columns_in_view(view)
     packets, whole = button(view, "2 packets"), button(view, "Panel")
-    assert followed[1] - followed[0] == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
+    assert followed[1] - followed[0] == pytest.approx(2 * snapshot.period_columns, rel=0.05)
     assert followed[0] == pytest.approx(panel.min(), abs=20)
     qtbot.mouseClick(whole, Qt.MouseButton.LeftButton)
     assert columns_in_view(view) == pytest.approx((panel.min(), panel.max()), abs=30)

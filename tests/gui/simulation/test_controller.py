@@ -95,10 +95,10 @@ def test_the_snapshot_holds_the_models_results_for_the_scene(snapshot_of: Snapsh
     assert np.array_equal(snapshot.band, occ.band_profile(scene))
     assert snapshot.band_undefined == ""
     # 24 chips of 100 us, 8 us a column
-    assert snapshot.packet_columns == pytest.approx(24 * 100 / 8)
+    assert snapshot.period_columns == pytest.approx(24 * 100 / 8)
     snapshot = snapshot_of(pattern="01011")
     assert snapshot.sent == ()
-    assert snapshot.packet_columns == pytest.approx(5 * 100 / 8)
+    assert snapshot.period_columns == pytest.approx(5 * 100 / 8)
     snapshot = snapshot_of(exposure_time=200e-6)
     assert snapshot.band is None
     assert "200 µs" in snapshot.band_undefined

@@ -67,7 +67,8 @@ class SceneInWindow(QObject):
         self._parts.window.show_plan_change(describe_switches(switched) if switched else "")
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
-        self._parts.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
+        reading = snapshot.reading_seconds if snapshot.results else None
+        self._parts.window.show_timing(snapshot.simulation_seconds, reading)
 
     def _show_scene(self, scene: Scene) -> None:
         parts = self._parts

@@ -77,7 +77,7 @@ class ImageView(QWidget):
         self.switch = KeyedComboBox(
             "Whose picture is shown",
             "Camera: the picture as it comes from the camera; photos are compared with it.\n"
-            "Receiver: the picture after the receiver's enhancement, as it is decoded.",
+            "Receiver: the picture after the receiver's enhancement, which it reads.",
             {"camera": "Camera", "receiver": "Receiver"},
             is_fixed=True,
         )

@@ -15,7 +15,7 @@ def drift_of(reading: ColumnView) -> str:
         return ""
     sent = reading.scene.transmitter
     period = "period"
-    if has_chips(sent):
+    if _has_chips(reading):
         period = "cycle" if sent.pattern else "packet"
     return f"drifts {columns:.{0 if columns >= 10.0 else 1}f} columns a {period}"
 
@@ -24,23 +24,32 @@ def drift_sentence(reading: ColumnView) -> str:
     """State the drift and its reason in a line; empty if there is none."""
     if not (drift := drift_of(reading)):
         return ""
-    return f"The band model {drift}: it rounds, and skips the exposure between equal chips."
+    skips = ", and skips the exposure between equal chips" if _has_chips(reading) else ""
+    return f"The band model {drift}: it rounds{skips}."
 
 
 def explain_comparison() -> str:
     """Describe how to compare the band model with the simulation if it does not drift."""
     return (
         "The band model is drawn with exact run lengths, so that its bands coincide with those of "
-        "the simulation: compare the width and levels of the bands in a packet. "
+        "the simulation: compare their width and levels. "
         f"Read literally, in whole columns, it drifts: see the field “{_FIELD}” under Model."
     )
 
 
-def explain_drift() -> str:
+def explain_drift(reading: ColumnView) -> str:
     """Explain the drift, and how to avoid it."""
+    errors = "to whole columns. These errors"
+    if _has_chips(reading):
+        errors = (
+            "to whole columns, and leaves out the exposure between two equal chips. Both errors"
+        )
     return (
-        "The band model rounds each band to whole columns, and leaves out the exposure between two "
-        "equal chips. Both errors add up along the picture, so that its bands drift away from "
-        f"those of the simulation. The field “{_FIELD}” under Model can select exact run lengths, "
-        "with which width and levels of the bands can be compared packet by packet."
+        f"The band model rounds each band {errors} add up along the picture, so that its bands "
+        f"drift away from those of the simulation. The field “{_FIELD}” under Model can select "
+        "exact run lengths, with which width and levels of the bands can be compared."
     )
+
+
+def _has_chips(reading: ColumnView) -> bool:
+    return has_chips(reading.scene.transmitter)

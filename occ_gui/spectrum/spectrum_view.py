@@ -3,6 +3,7 @@
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPen
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
 from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, pen_on, thin
@@ -13,6 +14,8 @@ from occ_model.scene.units import HERTZ
 _KILO = 1e-3
 _HEADROOM = 1.15
 _LEAST_TOP = 1.0
+_MOST_MARKS, _HARMONICS_IN_VIEW = 12, 24
+_HARMONIC = thin(SIMULATION, Qt.PenStyle.DotLine)
 
 
 class SpectrumView(QWidget):
@@ -43,6 +46,7 @@ class SpectrumView(QWidget):
         self.amplitudes = self.spectrum.add_curve(thin(SIMULATION))
         self.response = self.spectrum.add_curve(thin(BAND, Qt.PenStyle.DashLine))
         self.zeros: list[pg.InfiniteLine] = []
+        self.harmonics: list[pg.InfiniteLine] = []
         self.legend = LineLegend()
         self.legend.add_line("profile", thin(SIMULATION), "profile")
         self.legend.add_line(
@@ -50,6 +54,7 @@ class SpectrumView(QWidget):
             thin(BAND, Qt.PenStyle.DashLine),
             "response of the exposure, |sinc(F t)|; zero at F = k / t",
         )
+        self.legend.add_line("harmonics", _HARMONIC, "light's harmonics")
 
     def _make_histogram(self) -> None:
         self.histogram = new_plot(
@@ -66,12 +71,11 @@ class SpectrumView(QWidget):
         self.histogram.setXRange(-2, 257, padding=0)
 
     def show_spectrum(self, spectrum: Spectrum | None) -> None:
-        for line in self.zeros:
-            self.spectrum.removeItem(line)
-        zeros = [] if spectrum is None else spectrum.zeros[:12]
-        self.zeros = [pg.InfiniteLine(zero * _KILO, pen=thin(BAND)) for zero in zeros]
-        for line in self.zeros:
-            self.spectrum.addItem(line, ignoreBounds=True)
+        zeros = () if spectrum is None else spectrum.zeros
+        self.zeros = self._mark(self.zeros, zeros, thin(BAND))
+        harmonics = () if spectrum is None else spectrum.harmonics
+        self.harmonics = self._mark(self.harmonics, harmonics, _HARMONIC)
+        self.legend.show_line("harmonics", bool(harmonics))
         if spectrum is not None:
             self._draw_spectrum(spectrum)
             return
@@ -79,12 +83,25 @@ class SpectrumView(QWidget):
             curve.setData([], [])
         self.spectrum.setAccessibleDescription("")
 
+    def _mark(
+        self, before: list[pg.InfiniteLine], frequencies: tuple[float, ...], pen: QPen
+    ) -> list[pg.InfiniteLine]:
+        """Mark the first frequencies by lines in place of those before."""
+        for line in before:
+            self.spectrum.removeItem(line)
+        lines = [pg.InfiniteLine(each * _KILO, pen=pen) for each in frequencies[:_MOST_MARKS]]
+        for line in lines:
+            self.spectrum.addItem(line, ignoreBounds=True)
+        return lines
+
     def _draw_spectrum(self, found: Spectrum) -> None:
         frequencies = found.frequencies * _KILO
         highest = max(_HEADROOM * float(found.amplitudes.max()), _LEAST_TOP)
         self.amplitudes.setData(frequencies, found.amplitudes)
         self.response.setData(frequencies, found.response * highest / _HEADROOM)
         last = float(frequencies[-1])
+        if found.harmonics:  # a slow lamp's would all be at the left edge
+            last = min(last, _HARMONICS_IN_VIEW * found.harmonics[0] * _KILO)
         self.spectrum.setXRange(0.0, last, padding=0)
         self.spectrum.setYRange(0.0, highest, padding=0)
         peak = int(found.amplitudes.argmax())

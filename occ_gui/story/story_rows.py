@@ -119,14 +119,15 @@ class StoryRows(QWidget):
             "fitted" if profile.is_photo_fitted else "photo": profile.photo,
             "threshold": profile.threshold, "band": profile.band,
         }  # fmt: skip
-        undefined = "" if self._reading is None else self._reading.band_undefined
-        drift = "" if self._reading is None else drift_of(self._reading)
+        reading = self._reading
+        undefined = "" if reading is None else reading.band_undefined
+        drift = "" if reading is None else drift_of(reading)
         note = "no band model here" if undefined else drift
         keys = tuple(key for key, curve in curves.items() if curve is not None)
         if undefined or profile.band is None:
             why = undefined
         else:
-            why = explain_drift() if drift else explain_comparison()
+            why = explain_drift(reading) if reading and drift else explain_comparison()
         self.legend.show_lines(keys, note, why)
 
     def show_picture(self, picture: Picture | PictureView) -> None:
@@ -208,6 +209,8 @@ class StoryRows(QWidget):
     def result(self) -> DecodeResult | None:
         if self._reading is None:
             return None
+        if not has_chips(self._reading.scene.transmitter):
+            return DecodeResult(self._decoder)  # nothing is read
         return result_of(self._reading, self._decoder)
 
     def values(self) -> ColumnValues | None:

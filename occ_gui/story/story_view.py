@@ -81,7 +81,7 @@ class StoryView(QWidget):
         self.picture_kind = KeyedComboBox(
             "Whose picture and profile are shown",
             "Camera: picture and profile as the camera gives them.\n"
-            "Receiver: with the contrast enhanced, as they are decoded.",
+            "Receiver: with the contrast enhanced, as a receiver reads them.",
             {"camera": "Camera", "receiver": "Receiver"},
             is_fixed=True,
         )

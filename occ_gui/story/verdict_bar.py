@@ -130,6 +130,8 @@ class VerdictBar(StateBar):
 
     def show_reading(self, reading: Reading) -> None:
         self._reading, self._failure = reading, ""
+        of_code = has_chips(reading.scene.transmitter)
+        self.setAccessibleName(f"Verdict on the {'code' if of_code else 'bars'}")
         self._write()
 
     def choose_decoder(self, name: str) -> None:

@@ -90,10 +90,11 @@ class StatusLine(QStatusBar):
         self._plan_change = sentence
         self._show_sentence()
 
-    def show_timing(self, simulation: float, reading: float) -> None:
-        """Show the seconds of the last simulation and of its decoding."""
-        times = (SECOND.format(seconds, 3) for seconds in (simulation, reading))
-        self._times = "simulated in {}, read in {}".format(*times)
+    def show_timing(self, simulation: float, reading: float | None) -> None:
+        """Show the seconds of the last simulation, and of its decoding; None if none was needed."""
+        self._times = f"simulated in {SECOND.format(simulation, 3)}"
+        if reading is not None:
+            self._times += f", read in {SECOND.format(reading, 3)}"
         self.show_times(self._shows_times)
 
     def show_times(self, on: bool) -> None:

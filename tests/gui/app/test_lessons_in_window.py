@@ -165,7 +165,7 @@ def test_a_lesson_keeps_the_number_of_visible_columns_while_the_scene_changes(
     assert story.rows.axis.span == pytest.approx(usual)
     application.store.change(pattern="10")
     user.wait_until_idle()
-    assert story.rows.ranges["packets"].text() == "2 cycles"
+    assert story.rows.ranges["packets"].text() == "2 periods"
 
 
 def test_a_lab_sheet_has_buttons_for_its_actions(

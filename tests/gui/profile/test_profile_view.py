@@ -278,7 +278,7 @@ def test_without_a_panel_or_with_one_at_the_edge_there_is_a_range_in_view(
     last_column = len(snapshot.frame.profile) - 1
     button(view, "Panel").click()
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
-    for pattern, text in (("10", "2 cycles"), ("", "2 packets")):
+    for pattern, text in (("10", "2 periods"), ("1101000", "2 cycles"), ("", "2 packets")):
         view.show_reading(snapshot_of(pattern=pattern))
         assert button(view, text).isVisibleTo(view)
 

@@ -331,7 +331,7 @@ def test_the_legend_names_what_is_drawn_and_why_the_band_model_drifts_or_ends(
     assert rows.legend.note.startswith("drifts ")
     rows.show_reading(bare_snapshot_of())
     assert rows.legend.note == ""
-    assert "width and levels of the bands" in rows.legend.toolTip()
+    assert "width and levels" in rows.legend.toolTip()
     # Whole columns for each band, and no equal chips beside each other: nothing is lost.
     whole = {"pattern": "10", "switching_frequency": 12.5e3, "exposure_time": 40e-6}
     rows.show_reading(bare_snapshot_of(**whole, readout_time=8e-6, band_reading="literal"))

@@ -50,11 +50,12 @@ def test_the_difference_is_that_of_the_model(view: StoryView, snapshot: Snapshot
     cursors = rows.crosshair.cursors
     cursors.move(0, 100.0, rows.crosshair.columns)
     cursors.move(1, 225.0, rows.crosshair.columns)
-    difference = not_none(measure(cursors, scene, rows.profile.levels))
+    difference = not_none(measure(cursors, snapshot, rows.profile.levels))
     assert difference.columns == 125.0
     assert difference.time == pytest.approx(125 * scene.camera.readout_time)
     chips = difference.time * scene.transmitter.switching_frequency
-    assert difference.chips == pytest.approx(chips)
+    assert difference.count == pytest.approx(chips)
+    assert difference.unit == "chips"
     levels = not_none(rows.profile.levels)
     assert difference.levels == pytest.approx(levels[225] - levels[100])
     assert view.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")

@@ -1,0 +1,118 @@
+"""A window whose scene sends no code speaks of lamps and periods, and reads nothing."""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from gui.user import User
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QTableView, QTextEdit, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.scene.control_panel import main_of
+from occ_gui.values.modes import MODES
+from occ_model.scene.light_words import describe_light
+
+LIGHTS: dict[str, dict[str, Any]] = {
+    "lamp": {"light": "lamp", "lamp_frequency": 1700.0, "duty": 0.3},
+    "mains": {"light": "mains", "exposure_time": 2e-3, "iso": 50.0},
+    "waveform": {"light": "waveform", "levels": "0 1 2 1 / 2"},
+    "recorded": {"light": "waveform", "waveform_file": "0,1\n1e-4,0.2\n7e-4,0\n8e-4\n"},
+    "pulses": {"light": "pulses", "pulse_frequency": 900.0, "pulse_length": 2e-4},
+}
+
+OF_CODES = re.compile(r"\b(chips?|bits?|headers?|packets?|raw pattern)\b", re.IGNORECASE)
+_PANES = ("decode", "profile", "equations", "spectrum", "compare", "bands", "bench")
+
+
+def visible_texts(widget: QWidget) -> Iterator[str]:
+    for part in (widget, *widget.findChildren(QWidget)):
+        if not part.isVisible():
+            continue
+        for name in ("text", "title", "currentText", "accessibleDescription"):
+            get = getattr(part, name, None)
+            if callable(get) and not isinstance(part, QTextEdit):
+                yield str(get())
+        if isinstance(part, QTextEdit):
+            yield part.toPlainText()
+        if isinstance(part, QTableView):
+            model = part.model()
+            for row in range(model.rowCount()):
+                for column in range(model.columnCount()):
+                    yield str(model.index(row, column).data())
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_no_visible_text_of_any_pane_speaks_of_chips(
+    application: Application, user: User, light: str
+) -> None:
+    window, store = application.window, application.store
+    store.put(store.scene.replace(**LIGHTS[light]), "light")
+    user.wait_until_idle()
+    for mode in (mode for mode in MODES if mode not in ("photo", "lessons")):
+        window.modes.switch(mode)
+        user.wait_until_idle()
+        _check_texts(application)
+    window.modes.switch("explore")
+    for pane in _PANES:
+        window.bring_to_front(pane)
+        user.wait_until_idle()
+        _check_texts(application)
+        window.hide_pane(pane)
+    rows = application.story.rows
+    assert OF_CODES.search(rows.light.describe_sent()) is None
+    assert not rows.code.isVisible()
+    results = application.results_store.results
+    assert results.failure is None
+    assert results.snapshot is not None
+    assert results.snapshot.results == {}
+    assert application.background_rates.is_idle
+    assert not any(strip.isVisible() for strip in application.slider_strips.strips.values())
+
+
+def _check_texts(application: Application) -> None:
+    texts = set(visible_texts(application.window))
+    assert {text for text in texts if OF_CODES.search(text)} == set()
+
+
+def test_the_verdict_names_the_lamp_its_bars_and_its_ratio(
+    application: Application, user: User
+) -> None:
+    store, verdict = application.store, application.story.verdict
+    lamp = {"lamp_frequency": 2500.0, "duty": 0.3, "exposure_time": 120e-6, "readout_time": 8e-6}
+    store.put(store.scene.replace(light="lamp", **lamp), "lamp")
+    user.wait_until_idle()
+    assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 30 %: 50 columns from bar to bar, ")
+    assert "t / period = 0.3" in {badge.text for badge in verdict.badges.badges}
+    store.change(exposure_time=4e-4)
+    user.wait_until_idle()
+    assert verdict.heading == "Lamp of 2.5 kHz, duty 30 %: no bars"
+    store.put(store.scene.replace(light="code", pattern="1000"), "pattern of a pulse")
+    user.wait_until_idle()
+    assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 25 %: no bars")
+
+
+def test_the_light_is_chosen_at_the_top_and_undone(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    controls, entries = application.controls, application.window.actions_by_name
+    field: Any = getattr(controls.light, "field")  # noqa: B009 - the choice's own
+    qtbot.keyClick(field, Qt.Key.Key_Down)
+    user.wait_until_idle()
+    assert application.store.scene.transmitter.light == "lamp"
+    shown = [name for name, row in controls.panels["Main"].rows.items() if row.isVisible()]
+    assert tuple(shown) == main_of("lamp")
+    assert not controls.code.isVisible()
+    assert not entries["slider_strips"].isEnabled()
+    user.enter("lamp_frequency", "239 Hz")
+    assert describe_light(application.store.scene.transmitter).startswith("lamp of 239 Hz")
+    user.enter("lamp_frequency", "0 Hz")
+    assert "Lamp frequency cannot be 0 Hz" in user.row("lamp_frequency").notice.text()
+    entries["undo"].trigger()
+    entries["undo"].trigger()
+    user.wait_until_idle()
+    assert field.currentText() == "code"
+    assert controls.code.isVisible()
+    assert entries["slider_strips"].isEnabled()

@@ -1,0 +1,182 @@
+"""Pictures of lamps, levels, mains and flashes, against closed forms and samples dense in time."""
+
+import math
+
+import numpy as np
+import pytest
+from exact_light import OTHER_LIGHTS, ExactLight
+from hypothesis import given, settings, strategies as st
+
+import occ_model as occ
+from occ_model.arrays import FloatArray
+from occ_model.camera.exposure import lit_fraction
+from occ_model.scene.scene import Scene
+
+SMALL = occ.load_preset("phone-136us").replace(
+    rows=30, columns=240, panel_width=9.0, panel_height=9.0, start_time=0.3
+)
+SAMPLES = 20_000  # of an exposure
+
+
+def starts_of(scene: Scene) -> FloatArray:
+    camera = scene.camera
+    return np.asarray(scene.model.start_time + np.arange(camera.columns) * camera.readout_time)
+
+
+def pixel_values(scene: Scene, light: FloatArray) -> FloatArray:
+    """Equations (1) to (3) of the paper for a mean light of each column."""
+    camera, around = scene.camera, scene.surroundings
+
+    def value(luminance: float) -> float:
+        exposure = camera.iso * camera.exposure_time * luminance
+        light_meter = camera.meter_constant * camera.f_number**2
+        return 118.0 * float((exposure / light_meter) ** (1.0 / camera.gamma))
+
+    dark = around.illuminance * around.reflectance / math.pi
+    low, high = value(dark), value(dark + scene.transmitter.luminance)
+    return np.minimum(low + (high - low) * light, 255.0)
+
+
+def frame_of_many_carriers() -> tuple[str, FloatArray, FloatArray]:
+    """Return a CSV of a frame with a guard interval, as of light of many carriers, and its steps.
+
+    64 samples of 16 carriers with random phases, clipped, behind a copy of the last 8 of them.
+    """
+    random = np.random.default_rng(5)
+    phases = np.exp(2j * np.pi * random.random(16))
+    symbol = np.fft.irfft(np.concatenate([[0.0], phases, np.zeros(16)]), 64)
+    symbol = np.clip(0.5 + 3.0 * symbol, 0.0, 1.0)
+    levels: FloatArray = np.concatenate([symbol[-8:], symbol])
+    seconds: FloatArray = np.arange(73.0) * 11e-6
+    rows = zip(seconds[:-1].tolist(), levels.tolist(), strict=True)
+    text = "seconds,level\n" + "".join(f"{at!r},{level!r}\n" for at, level in rows)
+    return f"{text}{float(seconds[-1])!r}\n", seconds, levels
+
+
+@pytest.mark.parametrize("exposure", [3e-6, 136e-6, 1.9e-3])
+def test_four_levels_have_the_picture_of_dense_samples(exposure: float) -> None:
+    symbols = np.random.default_rng(4).integers(0, 4, 50)
+    scene = SMALL.replace(
+        light="waveform", levels=f"{' '.join(map(str, symbols))} / 3",
+        switching_frequency=8.1e3, exposure_time=exposure, iso=30.0,
+    )  # fmt: skip
+    within = (np.arange(SAMPLES) + 0.5) / SAMPLES * exposure
+    at = np.floor((starts_of(scene)[:, None] + within) * 8.1e3).astype(int) % 50
+    sampled = (symbols / 3.0)[at].mean(axis=1)
+    edges = exposure * 8.1e3 + 1.0
+    np.testing.assert_allclose(lit_fraction(scene), sampled, atol=edges / SAMPLES)
+    frame = occ.render(scene, tolerance=math.inf)
+    swing = np.ptp(pixel_values(scene, np.array([0.0, 1.0])))
+    bound = swing * edges / SAMPLES + 1e-9
+    np.testing.assert_allclose(frame.profile, pixel_values(scene, sampled), atol=bound)
+    image = frame.camera_image.astype(float)
+    assert np.abs(image.mean(axis=0) - frame.profile).max() <= 0.5 + 1e-9
+
+
+@pytest.mark.parametrize("exposure", [2e-6, 130e-6, 5e-3])
+def test_a_recorded_frame_of_many_carriers_has_the_picture_of_dense_samples(
+    exposure: float,
+) -> None:
+    text, seconds, levels = frame_of_many_carriers()
+    scene = SMALL.replace(light="waveform", waveform_file=text, exposure_time=exposure, iso=10.0)
+    within = (np.arange(SAMPLES) + 0.5) / SAMPLES * exposure
+    places = (starts_of(scene)[:, None] + within) % seconds[-1]
+    sampled = levels[np.searchsorted(seconds, places, side="right") - 1].mean(axis=1)
+    edges = exposure / 11e-6 + 1.0
+    np.testing.assert_allclose(lit_fraction(scene), sampled, atol=edges / SAMPLES)
+    np.testing.assert_allclose(lit_fraction(scene), ExactLight(scene).of_columns(), atol=1e-12)
+    swing = np.ptp(pixel_values(scene, np.array([0.0, 1.0])))
+    bound = swing * edges / SAMPLES + 1e-9
+    profile = occ.render(scene, tolerance=math.inf).profile
+    np.testing.assert_allclose(profile, pixel_values(scene, sampled), atol=bound)
+
+
+@pytest.mark.parametrize("exposure", [100e-6, 1e-3, 1 / 239, 10e-3])
+def test_a_dimmed_lamp_has_the_profile_of_its_closed_form(exposure: float) -> None:
+    scene = SMALL.replace(
+        light="lamp", lamp_frequency=239.0, duty=0.3, depth=0.8, exposure_time=exposure, iso=2.0
+    )
+
+    def light_until(seconds: FloatArray) -> FloatArray:
+        cycles = seconds * 239.0
+        lit = np.floor(cycles) * 0.3 + np.minimum(cycles % 1.0, 0.3)
+        return np.asarray(0.2 * seconds + 0.8 * lit / 239.0)
+
+    starts = starts_of(scene)
+    light = (light_until(starts + exposure) - light_until(starts)) / exposure
+    np.testing.assert_allclose(occ.on_time(scene), light * exposure, atol=1e-13)
+    np.testing.assert_allclose(occ.column_profile(scene), pixel_values(scene, light), atol=1e-7)
+    if exposure == 1 / 239:  # a whole cycle
+        assert np.ptp(occ.column_profile(scene)) < 1e-9
+
+
+@pytest.mark.parametrize("exposure", [1e-6, 2e-3, 1 / 100, 0.123])
+def test_light_of_the_mains_is_that_of_dense_samples_also_around_it(exposure: float) -> None:
+    scene = SMALL.replace(
+        light="mains", mains_frequency=50.0, mains_depth=0.4, exposure_time=exposure, iso=1.0,
+        readout_time=1e-4, averaging="light", luminance=50.0,
+    )  # fmt: skip
+    within = (np.arange(SAMPLES) + 0.5) / SAMPLES * exposure
+    times = starts_of(scene)[:, None] + within
+    sampled = 1.0 + 0.4 * np.cos(4.0 * math.pi * 50.0 * times).mean(axis=1)
+    # The rule of middles errs by up to (2 pi F h)^2 / 24 of the depth.
+    bound = 0.4 * (2.0 * math.pi * 100.0 * exposure / SAMPLES) ** 2 / 24.0 + 1e-12
+    np.testing.assert_allclose(lit_fraction(scene), sampled, atol=bound)
+    np.testing.assert_allclose(lit_fraction(scene), ExactLight(scene).of_columns(), atol=2e-15)
+    force = {"sensor-noise": False, "fixed-pattern": False, "full-well": False}
+    frame = occ.render(scene, tolerance=0.0, force=force)
+    camera, around = scene.camera, scene.surroundings
+    mean = 50.0 + around.illuminance * around.reflectance / math.pi
+    light_meter = camera.meter_constant * camera.f_number**2
+    light = camera.iso * exposure * mean * sampled / light_meter
+    expected = np.minimum(118.0 * light ** (1.0 / camera.gamma), 255.0)
+    np.testing.assert_allclose(frame.profile, expected, atol=0.51)
+
+
+LENGTHS = st.floats(-9.0, 9.0).map(lambda power: 10.0**power)  # exposures in periods
+
+
+@settings(max_examples=60)
+@pytest.mark.parametrize("name", OTHER_LIGHTS)
+@given(periods=LENGTHS, period=st.sampled_from([1e-9, 1e-6, 1e-3, 1.0]), start=st.floats(-1e3, 1e3))
+def test_exposures_of_any_length_hold_the_exact_light(
+    name: str, periods: float, period: float, start: float
+) -> None:
+    sent: dict[str, dict[str, float | str]] = {
+        "lamp": {"lamp_frequency": 1 / period, "duty": 0.3, "depth": 0.9},
+        "pulses": {"pulse_frequency": 1 / period, "pulse_length": max(period / 7.0, 1e-9)},
+        "mains": {"mains_frequency": min(max(0.5 / period, 1.0), 1e3)},
+        "levels": {"levels": "0 1 2 3 / 3", "switching_frequency": min(max(4 / period, 1), 1e9)},
+        "recorded": {"waveform_file": f"0,0.2\n{period / 9!r},1\n{period / 2!r},0\n{period!r}\n"},
+    }
+    exposure = min(max(periods * period, 1e-9), 1e6)
+    scene = Scene().replace(
+        light=OTHER_LIGHTS[name]["light"], **sent[name], start_time=start, exposure_time=exposure,
+        columns=20, readout_time=min(max(0.37 * period, 1e-9), 10.0),
+    )  # fmt: skip
+    found = lit_fraction(scene)
+    assert np.isfinite(found).all()
+    np.testing.assert_allclose(found, ExactLight(scene).of_columns(), atol=2e-12)
+
+
+@pytest.mark.parametrize(
+    ("sent", "mean"),
+    [
+        ({"light": "lamp", "duty": 0.0}, 0.0),
+        ({"light": "lamp", "duty": 0.0, "depth": 0.25}, 0.75),
+        ({"light": "lamp", "duty": 1.0}, 1.0),
+        ({"light": "lamp", "depth": 0.0, "duty": 0.3}, 1.0),
+        ({"light": "mains", "mains_depth": 0.0}, 1.0),
+        ({"light": "pulses", "pulse_frequency": 60.0, "pulse_length": 1.0}, 1.0),
+        ({"light": "pulses", "pulse_frequency": 50.0, "pulse_length": 0.02}, 1.0),
+        ({"light": "waveform", "levels": "1 1 1 1 / 4"}, 0.25),
+        ({"light": "waveform", "waveform_file": "0,0.5\n1e-3,0.5\n4e-3\n"}, 0.5),
+    ],
+)
+def test_light_without_a_swing_is_steady_in_every_exposure(
+    sent: dict[str, float | str], mean: float
+) -> None:
+    for exposure in (1e-9, 136e-6, 1.0, 1e6):
+        scene = SMALL.replace(**sent, exposure_time=exposure)
+        np.testing.assert_allclose(lit_fraction(scene), mean, rtol=1e-15)
+        assert np.ptp(occ.column_profile(scene)) <= 1e-12

@@ -1,7 +1,7 @@
 """Compute the limits of reading that follow from single equations, for comparison.
 
 They ignore noise and decoders. They mark where the character of the picture changes, not where
-reading stops: a matched decoder reads far beyond the null.
+reading stops: a matched decoder reads far beyond the null. Those of chips refuse other lights.
 """
 
 import math
@@ -13,9 +13,12 @@ from occ_model.camera.projection import panel_corners
 from occ_model.effects.effect import region_of
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.scheme import sent_chips
+from occ_model.transmitter.scheme import check_code, sent_chips
 
 _BOUND_BINS = 2**14  # frequencies over which the bound of the rate is summed
+
+_ASK_BANDS = "ask for its band model"
+_ASK_BARS = "ask for its bars: they vanish where an exposure is a whole number of periods"
 
 
 def band_model_frequency(scene: Scene) -> float:
@@ -23,6 +26,7 @@ def band_model_frequency(scene: Scene) -> float:
 
     Above it no column shows a single state: h_c = (t_LED - t) / t_r is negative (II.B).
     """
+    check_code(scene.transmitter, _ASK_BANDS)
     return 1.0 / scene.camera.exposure_time
 
 
@@ -32,6 +36,7 @@ def null_frequency(scene: Scene) -> float:
     An exposure of t = 2 t_LED collects the same light whenever it starts. This is the first null of
     sinc(t f / 2), the exposure's response to the square wave's fundamental f/2.
     """
+    check_code(scene.transmitter, _ASK_BARS)
     return 2.0 / scene.camera.exposure_time
 
 
@@ -42,6 +47,7 @@ def alternating_swing(scene: Scene) -> float:
     whenever they start, and only the remainder t mod 2 t_LED swings: min(c mod 2, 2 - c mod 2) / c
     with c = t / t_LED.
     """
+    check_code(scene.transmitter, _ASK_BARS)
     chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
     rest = math.fmod(chips, 2.0)
     return min(rest, 2.0 - rest) / chips
@@ -67,6 +73,7 @@ def two_packets_frequency(scene: Scene) -> float | None:
     L chips last 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers. A packet
     and a header can therefore suffice, but only two packets do wherever a packet starts.
     """
+    check_code(scene.transmitter)
     seen = panel_readout_time(scene)
     return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
 

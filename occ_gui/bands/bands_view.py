@@ -2,7 +2,7 @@
 
 from itertools import chain
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -102,14 +102,13 @@ class BandsView(QWidget):
                 item.setToolTip(meaning)
                 self.table.setItem(row, column, item)
         self._fit_table()
-        if is_first:
-            usual = next(
-                row
-                for row, speed in enumerate(self._speeds)
-                if speed.nominal <= _USUAL_SHUTTER_TIME
-            )
-            middle = QAbstractItemView.ScrollHint.PositionAtCenter
-            self.table.scrollTo(self.table.model().index(usual, 0), middle)
+        if is_first:  # once the table has its height
+            QTimer.singleShot(0, self.table, self._show_usual_speed)
+
+    def _show_usual_speed(self) -> None:
+        usual = [speed.nominal <= _USUAL_SHUTTER_TIME for speed in self._speeds].index(True)
+        middle = QAbstractItemView.ScrollHint.PositionAtCenter
+        self.table.scrollTo(self.table.model().index(usual, 0), middle)
 
     def _fit_table(self) -> None:
         header, bar = self.table.horizontalHeader(), self.table.verticalScrollBar()

@@ -10,7 +10,7 @@ from occ_model.results.match import Match, Stripes
 
 
 def match_with(**changes: Any) -> Match:
-    """Return a match of a lamp of 2 kHz in three columns, with some of its values changed."""
+    """Return a match of chips at 2 kHz in three columns, with some of its values changed."""
     profile = np.array([10.0, 20.0, 30.0])
     stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
     values: dict[str, Any] = {
@@ -21,3 +21,12 @@ def match_with(**changes: Any) -> Match:
         "correlation": 0.99123,
     }  # fmt: skip
     return Match(**{**values, **changes})
+
+
+def match_of_lamp(duty: float = 0.5, **changes: Any) -> Match:
+    """Return such a match of a lamp of 1 kHz, in parts of a fiftieth of its period."""
+    on = round(50 * duty)
+    scene = occ.Scene().replace(light="lamp", lamp_frequency=1e3, duty=on / 50)
+    pulse = "1" * on + "0" * (50 - on)
+    values = {"scene": scene, "pattern": pulse, "switching_frequency": 50e3, **changes}
+    return match_with(**values)

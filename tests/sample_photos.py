@@ -32,13 +32,13 @@ def _photographed(preset: str, brightest: float, **changes: str | float) -> Scen
 
 SCENES = {
     "led-1khz": _photographed(
-        "phone-68us-real", 205.0, pattern="10", switching_frequency=2e3, readout_time=12.8e-6
+        "phone-68us-real", 205.0, light="lamp", lamp_frequency=1e3, readout_time=12.8e-6
     ),
     "packets-6khz": _photographed(
         "phone-136us-real", 215.0, code=345, switching_frequency=6e3, readout_time=8.9e-6
     ),
 }
-"""By the file's name: a square wave to measure a readout time with, and a code to read."""
+"""By the file's name: a lamp to measure a readout time with, and a code to read."""
 
 
 def taken(scene: Scene) -> np.ndarray:

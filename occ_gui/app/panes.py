@@ -144,7 +144,7 @@ def profile(
     """Declare the pane; ``about_photo`` returns the caption of a figure with the photo."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
-        photo = (results.photo_profile, results.chips)
+        photo = (results.photo_profile, results.code_chips)
         return workspace.is_enhanced, results.before, results.reading, *photo
 
     return Feature(

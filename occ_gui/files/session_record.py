@@ -31,6 +31,7 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import Region
 from occ_model.results.frame import PICTURES
+from occ_model.results.match import ESTIMATES
 from occ_model.results.sweep_request import SHOWN
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
@@ -42,7 +43,6 @@ from occ_model.scene.scene import (
     Scene,
     SimulationSettings,
 )
-from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 T = TypeVar("T")
 
@@ -212,17 +212,29 @@ def _photo(values: Any, region: Any) -> PhotoChoice:
 
     def read() -> PhotoChoice:
         options = LoadOptions(**(values.get("load_options") or values["reading"]))  # its former key
-        form = MatchChoice(**values["form"])
-        certain = {name: quantity(name).check(value) for name, value in values["certain"].items()}
-        SQUARE_FREQUENCY.check(form.square_frequency)
+        form, known = _form(values["form"], values["certain"])
+        certain = {name: quantity(name).check(value) for name, value in known.items()}
+        quantity("lamp_frequency").check(form.lamp_frequency)
         _check(
             options.scan_axis in SCAN_AXES and options.channel in CHANNELS
-            and form.sent in SENT and form.estimate in KNOWN and certain.keys() <= {*KNOWN}
+            and form.sent in SENT and form.estimate in ESTIMATES and certain.keys() <= {*KNOWN}
             and isinstance(form.fit_gamma, bool)
         )  # fmt: skip
         return replace(photo, load_options=options, form=form, certain=certain)
 
     return _read(photo, read)
+
+
+def _form(values: Any, certain: Any) -> tuple[MatchChoice, dict[str, float]]:
+    """Read the choices of a match; in a former format, a lamp was a square wave of two chips."""
+    values, certain = dict(values), dict(certain)
+    if "square_frequency" in values:
+        values["lamp_frequency"] = values.pop("square_frequency")
+        if values["sent"] == "square":
+            values["sent"] = "lamp"
+            if certain.get("switching_frequency") == 2.0 * values["lamp_frequency"]:
+                certain["lamp_frequency"] = 0.5 * certain.pop("switching_frequency")
+    return MatchChoice(**values), certain
 
 
 def _film(values: Any) -> FilmChoice:

@@ -17,6 +17,8 @@ from occ_gui.values.choices import PhotoChoice
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
+from occ_model.light.sent import light_period
+from occ_model.results.match import known_parameter
 from occ_model.results.teaching import Lesson, LessonStep, LoadedLessons
 from occ_model.scene.parameter_kinds import format_distinctly
 from occ_model.scene.parameters import PARAMETERS
@@ -24,7 +26,6 @@ from occ_model.scene.scene import GROUPS, Scene
 from occ_model.teaching.answers import explanation
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.light_over_columns import rolling_shutter
-from occ_model.teaching.quantities import QUANTITIES
 
 
 class LessonController(QObject):
@@ -201,8 +202,8 @@ class LessonController(QObject):
             room=first.room if step.pane == "room" else user.room,
         )  # fmt: skip
         self._store.put(workspace, title, new_gesture())
-        packet = QUANTITIES["packet-columns"].compute(step.scene)
-        self.columns_held.emit(PACKETS_IN_VIEW * packet)
+        period = float(light_period(step.scene.transmitter)) / step.scene.camera.readout_time
+        self.columns_held.emit(PACKETS_IN_VIEW * period)
         if step.photo and photo.path is None:
             self.status_message.emit(f"The photo {step.photo} is missing.")
         self.pane_wanted.emit(step.pane)
@@ -220,7 +221,8 @@ class LessonController(QObject):
         if path is None:
             return replace(user_photo, path=None)
         sample = present if present.path == path else user_photo.open(path)
-        return sample.with_known_frequency(step.scene.transmitter.switching_frequency)
+        known = known_parameter("readout_time", step.scene.transmitter)
+        return sample.with_known(known, float(step.scene.value(known)))
 
     def _current_step(self) -> LessonStep | None:
         lesson = self.current

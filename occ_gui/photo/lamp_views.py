@@ -72,11 +72,11 @@ class LampForm(QWidget):
         self.table = make_read_only(
             QTableWidget(0, 4),
             "Lamps in the photo",
-            "The lamps, brightest first: the columns that each one covers, the width of a chip in "
-            "columns with its standard deviation, and the number of periods in view. The tooltip "
-            "of a doubtful lamp says why.",
+            "The lamps, brightest first: the columns that each one covers, its period, or a code's "
+            "chip, in columns with its standard deviation, and the number of periods in view. The "
+            "tooltip of a doubtful lamp says why.",
         )
-        self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip (px)", "Periods"])
+        self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Period (px)", "Periods"])
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.table.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
         header = self.table.horizontalHeader()
@@ -103,14 +103,15 @@ class LampForm(QWidget):
     def _texts(self, row: int, lamp: Lamp) -> tuple[str, str, str, str]:
         region = lamp.region
         columns = f"{region.first_column}\u2013{region.last_column - 1}"
-        product = lamp.switching_frequency_times_readout
+        product, doubt = lamp.switching_frequency_times_readout, ", doubtful" * lamp.is_doubtful
         if product is None:
             return str(row + 1), columns, "no stripes", ""
+        if lamp.period is not None:
+            period = NONE.format_estimate(lamp.period, lamp.period_uncertainty)
+            return str(row + 1), columns, period, f"{lamp.periods or 0.0:.1f}{doubt}"
         error = None if lamp.product_uncertainty is None else lamp.product_uncertainty / product**2
         chip = NONE.format_estimate(1.0 / product, error)
-        doubt = ", doubtful" if lamp.is_doubtful else ""
-        periods = "code" if lamp.periods is None else f"{lamp.periods:.1f}"
-        return str(row + 1), columns, chip, f"{periods}{doubt}"
+        return str(row + 1), columns, f"chip {chip}", f"code{doubt}"
 
     def show_region(self, region: Region | None, lamp: int | None = None) -> None:
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""

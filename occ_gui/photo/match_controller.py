@@ -6,7 +6,7 @@ from datetime import date
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.task import Task
-from occ_gui.photo.match_figures import is_certain
+from occ_gui.photo.match_figures import is_match_certain
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_work import match
 from occ_gui.photo.shown_photo import ShownPhoto
@@ -42,7 +42,7 @@ def sources_of(
             sources[name] = f"measured to ±{precision} from {where}{doubt}"
     for name in ("rows", "columns"):
         sources[name] = f"the size of the photo {photo_name}"
-    if found.pattern_was_read:
+    if found.pattern_was_read and found.lamp is None:
         sources["pattern"] = f"read from the photo {photo_name}"
     return sources
 
@@ -124,7 +124,7 @@ class MatchController(QObject):
         if document is None or document.requested is None:
             return
         part = document.requested.part
-        found = document.found or FoundMatch(part, None, 0.0)
+        found = document.found or FoundMatch(part, None, ("", 0.0))
         self._photos.put(replace(document, requested=None, found=found.with_refusal(reasons, part)))
         self.failed.emit(reasons[0])  # the verdict bar contains it, even in its short form
 
@@ -157,11 +157,10 @@ class MatchController(QObject):
         found, photo = self._take_usable_match(), self.photo
         if found is None or photo is None:
             return False
-        given = found.known
-        known, certain = float(found.scene.value(given)), self._store.workspace.photo.certain
+        certain = self._store.workspace.photo.certain
         sources = sources_of(
-            found, photo.path.name, given, day or date.today(),
-            assumed=not is_certain(given, known, certain),
+            found, photo.path.name, found.known, day or date.today(),
+            assumed=not is_match_certain(found, certain),
         )  # fmt: skip
         try:
             save_preset(name, found.scene, title=title, sources=sources)

@@ -11,7 +11,7 @@ from occ_gui.widgets.building import ElidedLabel, fill, name_widget, paragraph
 from occ_gui.widgets.plain_text import copy_text
 from occ_model.photo.many.other_programs import note_on
 from occ_model.photo.match_facts import ESTIMATES, LABELS, match_facts
-from occ_model.results.match import Match
+from occ_model.results.match import Match, known_value
 from occ_model.results.photo_table import assumption
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -30,29 +30,39 @@ def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
 
 
 def warn_of_stale(
-    scene: Scene, name: str, then: float, given: float, certain: Mapping[str, float]
+    scene: Scene, estimate: str, then: tuple[str, float], given: tuple[str, float]
 ) -> str:
     """Return the start of a warning if the scene's known value has changed since; else empty.
 
-    ``then`` is the known value that the result was found with, and ``given`` the scene's value at
-    that time: they differ for a square wave, which has its own frequency. A value that is certain
-    for the photo stays valid when the scene changes.
+    ``then`` is the known value that the result was found with, and ``given`` the scene's at that
+    time, each with its name: they differ where a lamp was stated, which has its own frequency.
     """
-    declared, now = quantity(name), float(scene.value(name))
-    if now in {then, given} or is_certain(name, then, certain):
+    now = known_value(estimate, scene)
+    if any(now[0] == name and math.isclose(now[1], value) for name, value in (then, given)):
         return ""
-    return f"Found with {declared.format(then)}; the scene has {declared.format(now)} now: "
+    texts = [quantity(name).format(value) for name, value in (then, now)]
+    if then[0] != now[0]:
+        names = (quantity(name).in_sentence for name, _ in (then, now))
+        texts = [f"the {name} {text}" for name, text in zip(names, texts, strict=True)]
+    return f"Found with {texts[0]}; the scene has {texts[1]} now: "
 
 
-def condition(name: str, value: float, certain: Mapping[str, float], pattern: str) -> str:
-    """Name the value that estimates depend on, as "if f = 10 kHz: "; empty if it is certain."""
-    return "" if is_certain(name, value, certain) else assumption(name, value, pattern)
+def is_match_certain(match: Match, certain: Mapping[str, float]) -> bool:
+    """Whether the user has confirmed the known value of a match, in the words of any light."""
+    name = match.known
+    values = {name: float(getattr(match, name))}
+    if match.lamp is not None and name != "readout_time":
+        # Where chips of this rate or flashes were known, a lamp of its frequency is.
+        values["pulse_frequency"] = match.lamp.frequency
+        values["switching_frequency"] = match.switching_frequency
+    return any(is_certain(each, value, certain) for each, value in values.items())
 
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
     """Name the value that a match's times depend on, unless the user is certain of it."""
-    name = match.known
-    return condition(name, float(getattr(match, name)), certain, match.pattern)
+    if is_match_certain(match, certain):
+        return ""
+    return assumption(match.known, float(getattr(match, match.known)))
 
 
 def _grid(parent: QWidget | None = None) -> QGridLayout:

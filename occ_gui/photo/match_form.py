@@ -19,13 +19,12 @@ from occ_gui.widgets.building import (
     paragraph,
     push_button,
 )
-from occ_model.results.match import counterpart
+from occ_model.results.match import known_parameter
+from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
-from occ_model.scene.units import HERTZ
+from occ_model.scene.scene import Scene, Transmitter
 
-_FREQUENCY = KNOWN[0]
+_LAMP = "lamp_frequency"
 
 _STEPS = 1000  # of the progress bar
 
@@ -51,19 +50,20 @@ class MatchForm(QWidget):
         self._forgotten: Mapping[str, float] = {}  # values confirmed only for earlier photos
         self.sent = KeyedComboBox(
             "What was sent",
-            "What the LED in the photo sent: what the scene sends, a square wave of a given "
-            "number of cycles per second, or whatever can be read from the stripes.\n"
+            "What the LED in the photo sent: what the scene sends, a lamp of a given number of "
+            "cycles per second and any duty, or whatever can be read from the stripes.\n"
             "Find out: what the scene sends if that explains the stripes, else what is read from "
             "them.",
             {
                 "auto": "Find out: as the scene, else read",
                 "scene": "What the scene sends",
-                "square": "Square wave of",
+                "lamp": "Lamp of",
                 "read": "Unknown: read it from the stripes",
             },
         )
-        tip = f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}"
-        self.square = name_widget(QuantityEdit(SQUARE_FREQUENCY), SQUARE_FREQUENCY.label, tip)
+        declared = quantity(_LAMP)
+        tip = f"{declared.label}\n{declared.meaning}"
+        self.lamp = name_widget(QuantityEdit(declared), declared.label, tip)
         self.estimate = KeyedComboBox(
             "What is estimated",
             "Stripes determine only the product of readout time and switching frequency. One of "
@@ -82,10 +82,10 @@ class MatchForm(QWidget):
         self._lay_out()
         self.sent.chosen.connect(self._take_sent)
         for change in (
-            self.sent.chosen, self.estimate.chosen, self.square.edited, self.gamma.clicked,
+            self.sent.chosen, self.estimate.chosen, self.lamp.edited, self.gamma.clicked,
         ):  # fmt: skip
             change.connect(self._emit_choice)
-        self.square.edited.connect(self._confirm_square)
+        self.lamp.edited.connect(self._confirm_lamp)
         self._show_known()
 
     def _make_known(self) -> None:
@@ -108,20 +108,20 @@ class MatchForm(QWidget):
         self.certain.clicked.connect(self._click_certain)
         self.notices: dict[QuantityEdit, RefusalNotice] = {}
         """For each field, the notice below it that says why its last input was refused."""
-        for field in (self.square, *self.known.values()):
+        for field in (self.lamp, *self.known.values()):
             notice = self.notices[field] = RefusalNotice(field)
             field.refused.connect(notice.show_problem)
             field.refused.connect(self.refused)
             field.edited.connect(notice.end)
             field.edited.connect(self.accepted)
 
-    def match_square(self) -> None:
-        """Match with a square wave, whose frequency is assumed until it is entered."""
-        self.sent.show_key("square")
+    def match_lamp(self) -> None:
+        """Match with a lamp, whose frequency is assumed until it is entered."""
+        self.sent.show_key("lamp")
         self._show_known()
         self.start.click()
-        self.square.setFocus()
-        self.square.selectAll()
+        self.lamp.setFocus()
+        self.lamp.selectAll()
 
     def _edit(self, name: str, value: float) -> None:
         self.certain_chosen.emit(name, value)
@@ -131,17 +131,20 @@ class MatchForm(QWidget):
         self.chosen.emit(self._choice())
 
     def _take_sent(self, sent: str) -> None:
-        if sent == "square":  # choosing it confirms its frequency
-            self._confirm_square(self.square.value())
-        elif self._certain.get(_FREQUENCY) == CHIPS_OF_A_CYCLE * self.square.value():
-            # The value that was confirmed was that of the square wave.
-            self.certain_chosen.emit(_FREQUENCY, None)
+        if sent == "lamp":  # choosing it confirms its frequency
+            self._confirm_lamp(self.lamp.value())
+        elif self._certain.get(_LAMP) == self.lamp.value():
+            self.certain_chosen.emit(_LAMP, None)  # it was that of the lamp stated here
 
-    def _confirm_square(self, cycles: float) -> None:
-        self.certain_chosen.emit(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
+    def _confirm_lamp(self, frequency: float) -> None:
+        self.certain_chosen.emit(_LAMP, frequency)
 
     def _known_name(self) -> str:
-        return counterpart(self.estimate.key())
+        estimate = self.estimate.key()
+        if estimate == "readout_time" and self.sent.key() == "lamp":
+            return _LAMP
+        sent = Transmitter() if self._scene is None else self._scene.transmitter
+        return known_parameter(estimate, sent)
 
     def _click_certain(self, certain: bool) -> None:
         name = self._known_name()
@@ -167,7 +170,7 @@ class MatchForm(QWidget):
         for row, label in ((0, "Sent"), (2, "Estimate"), (3, "Known")):
             grid.addWidget(QLabel(label), row, 0)
         grid.addWidget(self.sent, 0, 1)
-        grid.addWidget(self.square, 0, 2)
+        grid.addWidget(self.lamp, 0, 2)
         grid.addWidget(self.estimate, 2, 1, 1, 2)
         known = fill(QHBoxLayout(), *self.known.values(), self.certain, None)
         grid.addLayout(known, 3, 1, 1, 2)
@@ -178,14 +181,14 @@ class MatchForm(QWidget):
 
     def choice(self) -> MatchChoice:
         """Return the choices, including values that were typed but not yet entered."""
-        for field in (self.square, *self.known.values()):
+        for field in (self.lamp, *self.known.values()):
             field.accept_text()
         return self._choice()
 
     def _choice(self) -> MatchChoice:
         return MatchChoice(
             sent=self.sent.key(),
-            square_frequency=self.square.value(),
+            lamp_frequency=self.lamp.value(),
             estimate=self.estimate.key(),
             fit_gamma=self.gamma.isChecked(),
         )
@@ -197,7 +200,7 @@ class MatchForm(QWidget):
         if choice != self._shown:  # else keep what was typed but not yet entered
             self._shown = choice
             self.sent.show_key(choice.sent)
-            self.square.set_value(choice.square_frequency)
+            self.lamp.set_value(choice.lamp_frequency)
             self.estimate.show_key(choice.estimate)
             self.gamma.setChecked(choice.fit_gamma)
         self._certain, self._forgotten = certain, forgotten
@@ -229,32 +232,26 @@ class MatchForm(QWidget):
         self.progress.setValue(round(_STEPS * fraction))
 
     def _show_known(self) -> None:
-        square = self.sent.key() == "square"
-        self.square.setVisible(square)
-        if not square:
-            self.notices[self.square].end()
-        of_frequency = self.estimate.key() == "readout_time"
-        for name, field in self.known.items():
-            is_known = (name == _FREQUENCY) == of_frequency
-            field.setVisible(is_known)
-            field.setEnabled(not (of_frequency and square))  # the square wave determines it
-            if not is_known:
+        is_lamp, name = self.sent.key() == "lamp", self._known_name()
+        self.lamp.setVisible(is_lamp)
+        if not is_lamp:
+            self.notices[self.lamp].end()
+        for each, field in self.known.items():
+            field.setVisible(each == name)
+            if each != name:
                 self.notices[field].end()
             if self._scene is not None:
-                field.set_value(float(self._scene.value(name)))
-        if square:
-            self.known[_FREQUENCY].set_value(CHIPS_OF_A_CYCLE * self.square.value())
-        name = self._known_name()
+                field.set_value(float(self._scene.value(each)))
+        is_stated = is_lamp and name == _LAMP
+        self.known[name].setEnabled(not is_stated)  # the field of the lamp determines it
+        if is_stated:
+            self.known[name].set_value(self.lamp.value())
         known = self.known[name].value()
         self.certain.setChecked(is_certain(name, known, self._certain))
         lines = []
-        if of_frequency:
-            cycles = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
-            lines.append(
-                f"two chips per cycle at {cycles}"
-                if square
-                else f"chip rate; an LED that only blinks does so at {cycles}"
-            )
+        if name == "switching_frequency":
+            lamp = None if self._scene is None else blinking_lamp(self._scene.transmitter)
+            lines.append("chips or levels per second" if lamp is None else f"a {lamp.words}")
         if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
             lines.append(
                 "Only assumed here: it was certain for another photo. Tick “certain” if it "

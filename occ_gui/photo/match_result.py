@@ -7,7 +7,13 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, warn_of_stale
+from occ_gui.photo.match_figures import (
+    MatchValues,
+    PasteLines,
+    condition_of,
+    is_match_certain,
+    warn_of_stale,
+)
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
@@ -83,7 +89,7 @@ class MatchResult(QWidget):
         self._cure: Cure | None = None
         self._noted: float | None = None
         self._scene: Scene | None = None
-        self._given = math.nan
+        self._given = ("", math.nan)
         self._certain: Mapping[str, float] = {}
         self._turned = False
         self.verdict, self.figures, self.paste = MatchVerdictView(), MatchValues(), PasteLines()
@@ -126,7 +132,7 @@ class MatchResult(QWidget):
         self,
         match: Match,
         noted: float | None,
-        given: float = math.nan,
+        given: tuple[str, float] = ("", math.nan),
         cure: Cure | None = None,
         *,
         turned: bool = False,
@@ -134,7 +140,7 @@ class MatchResult(QWidget):
         """Show a match.
 
         ``noted``: the exposure time in seconds recorded by the camera, if any. ``given``: the known
-        value of the scene at the match's start, in SI units. ``cure``: the remedy for its bars.
+        value of the scene at the match's start, with its name. ``cure``: the remedy for its bars.
         """
         self._match, self._noted, self._turned = match, noted, turned
         self._cure, self._given = cure, given
@@ -201,8 +207,9 @@ class MatchResult(QWidget):
         match, scene = self._match, self._scene
         if match is None or scene is None:
             return
-        name = match.known
-        then = float(getattr(match, name))
-        stale = warn_of_stale(scene, name, then, self._given, self._certain)
+        then = match.known, float(getattr(match, match.known))
+        stale = ""
+        if not is_match_certain(match, self._certain):
+            stale = warn_of_stale(scene, match.estimate, then, self._given)
         self.stale.setText(f"{stale}match again.")
         self.stale.setVisible(bool(stale))

@@ -16,6 +16,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
 from occ_model.results.photo_table import SURE, PhotoRow
 from occ_model.scene.parameters import quantity
+from occ_model.scene.units import PERCENT
 
 STEPS = {
     "open": ("Open", "Open a photo of a rolling-shutter camera."),
@@ -86,7 +87,7 @@ class PhotoVerdictBar(StateBar):
     def __init__(self) -> None:
         super().__init__()
         self.setAccessibleName("Verdict on the photo")
-        self.step.setToolTip("Match the photo as one of a lamp that only blinks.")
+        self.step.setToolTip("Match the photo as one of a lamp, lit once in each period.")
         self._photo: Photo | None = None
         self._match: Match | None = None
         self._row: PhotoRow | None = None
@@ -151,7 +152,7 @@ class PhotoVerdictBar(StateBar):
             badges = (Badge("applied", "not applied", meaning, State.DOUBTFUL), *badges)
         self.show_state(state, title, *sentences, badges=badges)
         is_plain = PLAIN_STRIPES in self._why_not
-        self.offer_step("It sends a &square wave" if is_plain else "")
+        self.offer_step("It is a &lamp" if is_plain else "")
 
     def _judge(self) -> tuple[State, tuple[str, ...]]:
         if self._is_running:
@@ -214,6 +215,9 @@ class PhotoVerdictBar(StateBar):
             if name == "exposure_time" and match.only_exposure_is_doubtful:
                 value = f"{value} (doubtful)"
             parts.append(f"{declared.in_sentence} {value}")
+        duty, error = match.duty, match.uncertainties.get("duty")
+        if duty is not None and error is not None:
+            parts.append(f"duty {PERCENT.format_estimate(duty, error)}")
         found = condition_of(match, self._certain) + ", ".join(parts)
         return f"{found[0].upper()}{found[1:]}."
 

@@ -126,7 +126,7 @@ class PhotoView(QWidget):
         self._pages = QStackedWidget()
         self._pages.addWidget(self._make_invitation())
         self._pages.addWidget(self._make_page())
-        self.verdict.step_taken.connect(self._match_square)
+        self.verdict.step_taken.connect(self._match_lamp)
         self.steps = PhotoSteps()
         self.steps.chosen.connect(self._go_to_step)
         self._photo: Photo | None = None
@@ -232,9 +232,9 @@ class PhotoView(QWidget):
         else:
             self.result.apply.click()
 
-    def _match_square(self) -> None:
+    def _match_lamp(self) -> None:
         self._bring_into_view(self.form)
-        self.form.match_square()
+        self.form.match_lamp()
 
     def show_match_running(self, is_running: bool, why_not: Sequence[str] = ()) -> None:
         """Show whether a match is running; if not, why the last one was refused, if it was."""

@@ -19,9 +19,8 @@ from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Comparison, counterpart
+from occ_model.results.match import ChipReading, Comparison, known_value
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import send_square_wave
 
 PartOfPhoto = tuple[Photo, Part]
 
@@ -80,8 +79,7 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
     report(0.0)
     choice = request.choice
     scene, sent = put_known_values(request.scene, choice)
-    known = counterpart(choice.estimate)
-    found = FoundMatch(request.part, None, float(request.scene.value(known)))
+    found = FoundMatch(request.part, None, known_value(choice.estimate, request.scene))
     try:
         match = occ.match_photo(  # imports its modules only now, so that the window starts sooner
             request.photo,
@@ -99,10 +97,10 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
 
 def put_known_values(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     """Return the scene with the known values, and the source of the sent pattern."""
-    if choice.sent != "square":
+    if choice.sent != "lamp":
         return scene, choice.sent
-    # A lamp that is dimmed by pulse width blinks as well, but "scene" would refuse it.
-    return send_square_wave(scene, choice.square_frequency), "auto"
+    # Its duty is not known, and "scene" would refuse another.
+    return scene.replace(light="lamp", lamp_frequency=choice.lamp_frequency, duty=0.5), "auto"
 
 
 def comparison_inputs(part: ShownPhoto) -> tuple[object, ...]:

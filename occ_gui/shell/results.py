@@ -64,6 +64,13 @@ class Results:
     def photo(self) -> "Photo | None":
         return None if self.document is None else self.document.photo
 
+    @property
+    def code_chips(self) -> "ChipReading | None":
+        """The chips that were read from the photo, unless its match is of a lamp, without any."""
+        found = None if self.document is None else self.document.found
+        match = None if found is None else found.match
+        return self.chips if match is None or match.lamp is None else None
+
 
 MadeOf: TypeAlias = Callable[[Results], SimulationRequest | None]
 """Returns what a part of the results was computed from; None if there is none."""

@@ -66,18 +66,19 @@ MODES = ("beside", "blend", "split", "difference")
 
 LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
 
-KNOWN = ("switching_frequency", "readout_time")
-"""Stripes determine only the product of these two: one must be known to estimate the other."""
+KNOWN = ("switching_frequency", "lamp_frequency", "pulse_frequency", "readout_time")
+"""Stripes determine only the product of a frequency and the readout time: one must be known to
+estimate the other."""
 
-SENT = ("auto", "scene", "square", "read")
-"""Sources of the sent pattern: found automatically, the scene, a square wave, or the stripes."""
+SENT = ("auto", "scene", "lamp", "read")
+"""Sources of what was sent: found automatically, the scene, a lamp of any duty, or the stripes."""
 
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
     sent: str = "auto"  # what was sent, one of SENT
-    square_frequency: float = 1000.0  # cycles per second of the square wave, in Hz, if one was sent
-    # The one of KNOWN that is estimated; the other one is known
+    lamp_frequency: float = 1000.0  # cycles per second of the lamp, in Hz, if one was sent
+    # The one of ESTIMATES that is estimated; the other one is known
     estimate: str = "readout_time"
     fit_gamma: bool = False  # whether gamma is estimated too
 
@@ -167,10 +168,9 @@ class PhotoChoice:
     def close(self) -> Self:
         return replace(self, path=None, parts={}).clear_certain()
 
-    def with_known_frequency(self, frequency: float) -> Self:
-        """Reset the form, with a switching frequency in Hz that is certain."""
-        certain = {"switching_frequency": frequency}
-        return replace(self, form=MatchChoice(), certain=certain, forgotten={})
+    def with_known(self, name: str, value: float) -> Self:
+        """Reset the form, with one known value, in SI units, that is certain."""
+        return replace(self, form=MatchChoice(), certain={name: value}, forgotten={})
 
     def clear_certain(self) -> Self:
         """Treat no value as certain any more, but remember those that were."""

@@ -39,7 +39,7 @@ class FoundMatch:
     part: "Lamp | Region | None"  # what was matched; None for all of the photo
     # The match; with a refusal, the match before it, or None if there was none
     match: "Match | None"
-    given: float  # the known value of the scene at the request, in SI units
+    given: tuple[str, float]  # the known value of the scene at the request: its name, in SI units
     # Why the latest match was refused, a sentence for each reason, and the part that it was of
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None
@@ -81,7 +81,7 @@ class ListedRows:
 
     rows: "tuple[PhotoRow, ...]"
     load_options: LoadOptions
-    given: float  # the known value of the scene when they were matched, in SI units
+    given: tuple[str, float]  # the known value of the scene when they were matched, as above
 
     def match_of(self, document: PhotoDocument) -> FoundMatch | None:
         rows = (row for row in self.rows if row.path == document.photo.path)

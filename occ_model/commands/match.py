@@ -10,7 +10,7 @@ from occ_model.commands.options import (
     Commands,
     add_option,
     add_scene_options,
-    assumption_of,
+    is_stated,
     progress_bar,
     scene_of,
 )
@@ -23,10 +23,11 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Match
+from occ_model.results.match import ChipReading, Match, known_parameter
+from occ_model.results.photo_table import assumption
 from occ_model.scene.from_text import write_scene_file
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import SQUARE_FREQUENCY, send_square_wave
 from occ_model.scene.units import Unit
 
 
@@ -38,7 +39,8 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--led-frequency",
         metavar="FREQUENCY",
-        help="the LED sends a plain square wave with so many cycles a second, such as 1kHz",
+        help="what blinks is a lamp with so many cycles a second, such as 1kHz; short for "
+        "--set light=lamp --set lamp_frequency=1kHz",
     )
     parser.add_argument(
         "--sent",
@@ -47,9 +49,8 @@ def add_to(commands: Commands) -> None:
         help="scene: what the scene sends; read: read it from the stripes; auto: whichever fits "
         "(default)",
     )
-    add_option(
-        parser, "--estimate", ESTIMATES[0], "the parameter that is not known", choices=ESTIMATES
-    )
+    unknown = "the parameter that is not known; switching_frequency stands for a lamp's, too"
+    add_option(parser, "--estimate", ESTIMATES[0], unknown, choices=ESTIMATES)
     parser.add_argument("--fit-gamma", action="store_true", help="also estimate gamma")
     add_option(parser, "--scan-axis", SCAN_AXES[0], choices=SCAN_AXES)
     add_option(parser, "--channel", CHANNELS[0], choices=CHANNELS)
@@ -82,8 +83,9 @@ def _run(options: argparse.Namespace) -> int:
     region = None if options.region is None else parse_region(options.region)
     scene = scene_of(options)
     if options.led_frequency is not None:
-        frequency = replace(SQUARE_FREQUENCY, name="--led-frequency").parse(options.led_frequency)
-        scene = send_square_wave(scene, frequency)
+        declared = replace(quantity("lamp_frequency"), name="--led-frequency")
+        frequency = declared.parse(options.led_frequency)
+        scene = scene.replace(light="lamp", lamp_frequency=frequency)
     if options.more:
         return run_many(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
@@ -102,7 +104,9 @@ def _run(options: argparse.Namespace) -> int:
             region=region,
             progress=lambda fraction: bar.update(fraction - bar.n),
         )
-    for line in _report_lines(match, _assumption_of_match(match, options), photo.exposure_time):
+    for line in _report_lines(
+        match, _assumption_of_match(match, scene, options), photo.exposure_time
+    ):
         print(line)
     if options.out:
         write_scene_file(options.out, match.scene)
@@ -142,16 +146,20 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
     for number, (lamp, match) in enumerate(matched, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):
-            lines += _report_lines(match, _assumption_of_match(match, options), photo.exposure_time)
+            lines += _report_lines(
+                match, _assumption_of_match(match, scene, options), photo.exposure_time
+            )
         else:
             lines.append(str(match))
         print("\n  ".join(lines))
     return 0
 
 
-def _assumption_of_match(match: Match, options: argparse.Namespace) -> str:
-    known = match.known
-    return assumption_of(known, getattr(match, known), match.pattern, options)
+def _assumption_of_match(match: Match, scene: Scene, options: argparse.Namespace) -> str:
+    """Name the value on which estimated times depend; empty if the command line states it."""
+    if is_stated(known_parameter(options.estimate, scene.transmitter), options):
+        return ""
+    return assumption(match.known, getattr(match, match.known))
 
 
 def _report_lines(match: Match, assumption: str, noted: float | None) -> list[str]:
@@ -182,6 +190,9 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
     if product is None or deviation is None:
         return lines
     estimate = Unit("chips a column").format_estimate(product, deviation)
+    if lamp.period is not None and lamp.period_uncertainty is not None:
+        cycles, deviation = 1.0 / lamp.period, lamp.period_uncertainty / lamp.period**2
+        estimate = Unit("periods a column").format_estimate(cycles, deviation)
     lines.append(f"frequency times readout time {estimate}")
     if lamp.periods is not None:
         lines.append(f"{lamp.periods:.1f} periods in view")

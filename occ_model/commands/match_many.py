@@ -6,14 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE, TABLE, OutputFiles
-from occ_model.commands.options import assumption_of, progress_bar, whole_number
+from occ_model.commands.options import is_stated, progress_bar, whole_number
 from occ_model.errors import ParameterError, counted, one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
 from occ_model.photo.match_facts import estimate_text
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
-from occ_model.results.match import counterpart
+from occ_model.results.match import known_parameter, known_value
 from occ_model.results.photo_table import (
     DOUBTFUL,
     SURE,
@@ -21,12 +21,12 @@ from occ_model.results.photo_table import (
     CombinedEstimate,
     PhotoRow,
     PhotoTable,
+    assumption,
     csv_text,
 )
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
 
 _MAX_FILE_CHARACTERS = 32
 
@@ -54,16 +54,14 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     paths = [options.file, *options.more]
     jobs = usual_jobs() if options.jobs is None else options.jobs
     check_count("jobs", jobs, 1, MOST_JOBS)
-    own = _parse_known(paths, options)
+    own = _parse_known(paths, scene, options)
     if options.out:
         check_replaceable(options.out)  # before minutes of work
     table = _match_with_bar(paths, scene, own, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
-    known = ""
-    if table.rests_on_the_scene:
-        pattern = table.scene.transmitter.pattern
-        known = assumption_of(table.known, float(table.scene.value(table.known)), pattern, options)
+    is_assumed = table.rests_on_the_scene and not is_stated(table.known, options)
+    known = assumption(*known_value(table.estimate, table.scene)) if is_assumed else ""
     paste = stated_lines(table, known)
     if options.out:
         write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))
@@ -74,11 +72,10 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     return EXIT_FAILURE if table.estimated is None else 0
 
 
-def _parse_known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
+def _parse_known(paths: list[Path], scene: Scene, options: argparse.Namespace) -> dict[int, float]:
     """Parse the known values of single photos, by index."""
     known: dict[int, float] = {}
-    of_cycles = options.led_frequency is not None and options.estimate == "readout_time"
-    declared = SQUARE_FREQUENCY if of_cycles else quantity(counterpart(options.estimate))
+    declared = quantity(known_parameter(options.estimate, scene.transmitter))
     for text in options.known:
         name, _, value = text.rpartition("=")
         places = _find_photo(name, paths)
@@ -88,7 +85,7 @@ def _parse_known(paths: list[Path], options: argparse.Namespace) -> dict[int, fl
                 f"--known {one_line(name)} is given again, as {one_line(value)}; allowed: one "
                 "value for a photo."
             )
-        known |= dict.fromkeys(places, number * (CHIPS_OF_A_CYCLE if of_cycles else 1))
+        known |= dict.fromkeys(places, number)
     return known
 
 

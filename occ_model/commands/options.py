@@ -13,7 +13,6 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.program import discard
 from occ_model.receiver.decode import DECODERS, decoders
-from occ_model.results.photo_table import assumption
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import (
@@ -165,12 +164,10 @@ def forced_effects(options: argparse.Namespace) -> dict[str, bool]:
     return {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)}
 
 
-def assumption_of(name: str, value: float, pattern: str, options: argparse.Namespace) -> str:
-    """Name the value on which estimated times depend; empty if the command line states it."""
+def is_stated(name: str, options: argparse.Namespace) -> bool:
+    """Whether the command line states a parameter, rather than a preset or a file."""
     stated = {setting.partition("=")[0].strip() for setting in options.settings}
-    if options.led_frequency is not None:
-        stated.add("switching_frequency")
-    return "" if name in stated else assumption(name, value, pattern)
+    return name in stated or (name == "lamp_frequency" and options.led_frequency is not None)
 
 
 _SETTINGS = "TQDM_"  # prefix of the environment variables that change tqdm's bars

@@ -228,9 +228,10 @@ def match_lines(match: Match, photo: str) -> list[str]:
         value = declared.unit.format_estimate(getattr(match, name), deviation)
         doubt = " (doubtful)" if name in match.doubtful_alone else ""
         lines.append(f"{declared.in_sentence} {value}{doubt}")
-    lines.append(
-        f"{match.exposure_in_chips:.3g} chips an exposure, residual {match.rmse:.2g} levels"
-    )
+    exposed = f"{match.exposure_in_chips:.3g} chips"
+    if match.lamp is not None:
+        exposed = f"{match.exposure_in_periods:.3g} periods of a {match.lamp.words}"
+    lines.append(f"{exposed} an exposure, residual {match.rmse:.2g} levels")
     return [*lines, *match.all_reasons]
 
 

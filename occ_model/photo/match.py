@@ -25,6 +25,7 @@ from occ_model.photo.fitted_scene import (
     exposure_time,
     readout_and_frequency,
 )
+from occ_model.photo.lamp_chips import in_chips, with_lamp
 from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Corners, Photo
 from occ_model.photo.stripes.find import find_stripes
@@ -33,6 +34,7 @@ from occ_model.results.match import ESTIMATES, Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT
 from occ_model.transmitter.scheme import sent_chips
 
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
@@ -67,13 +69,15 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         The photo. Where its samples are in proportion to the light, light is averaged and there is
         no gamma, whatever ``averaging``, ``fit_gamma`` and the scene say.
     scene
-        The known settings: the sent code or pattern (a square wave of F cycles per second is the
-        pattern "10" at a switching frequency of 2 F), and the switching frequency or readout time.
+        The known settings: the light that is sent, a code or a lamp of a frequency and a duty, and
+        its frequency or the readout time.
     estimate
-        The unknown one of these two: ``"readout_time"`` or ``"switching_frequency"``.
+        The unknown one of these two: ``"readout_time"`` or ``"switching_frequency"``, which stands
+        for a lamp's frequency, too.
     sent
-        ``"scene"``: the scene's pattern was sent. ``"read"``: the shortest pattern that explains
-        the stripes is read from them. ``"auto"``: whichever of them is more likely.
+        ``"scene"``: the scene's light was sent. ``"read"``: the shortest pattern that explains the
+        stripes is read from them. ``"auto"``: whichever of them is more likely; a lamp may have
+        another duty.
     averaging
         ``"pixel-value"`` or ``"light"``, as the scene's parameter, or ``"auto"``: the better match.
     fit_gamma
@@ -90,13 +94,14 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         The photo shows no stripes, or no pattern and settings in range explain them better than
         chance and than no code at all.
     ParameterError
-        ``estimate``, ``sent`` or ``averaging`` is not one of these words, or ``region`` is not a
-        rectangle of the photo.
+        ``estimate``, ``sent`` or ``averaging`` is not one of these words, ``region`` is not a
+        rectangle of the photo, or the scene's light is neither a code nor a lamp.
     """
+    check_words(estimate, sent, averaging)
+    given, scene = scene, in_chips(scene, is_read=sent == "read")
     if photo.is_linear:
         scene = scene.replace(gamma=1.0, enhancement="none")
         averaging, fit_gamma = "light", False
-    check_words(estimate, sent, averaging)
     report = _Progress(progress or (lambda _fraction: None))
     report(0.0)
     stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
@@ -117,7 +122,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         chosen = judge.choose(hypotheses)
     except MatchError as error:
         raise MatchError(*unread, *error.reasons) from None
-    case = _Case(photo, candidates, judge, hypotheses, sent, report)
+    case = _Case(photo, given, candidates, judge, hypotheses, sent, report)
     as_sent = next((one for one in hypotheses if not one.was_read), None)
     noted = candidates.as_noted(chosen) if chosen is as_sent and sent == "auto" else None
     match = case.concluded(noted or chosen)
@@ -132,6 +137,7 @@ class _Case:
     """The hypotheses about a photo, and what a conclusion from one of them needs."""
 
     photo: Photo
+    given: Scene  # What was known, before its lamp was in chips
     candidates: Candidates
     judge: Judge
     hypotheses: Sequence[Hypothesis]
@@ -146,7 +152,7 @@ class _Case:
         apart = [one for one in others if not is_turned(one, found)]
         verdict = self.judge.verdict(found, apart, is_given=self.sent == "scene")
         self.report(0.9)
-        match = described(
+        chips = described(
             photo,
             at_rate(scene, found.rate),
             estimate,
@@ -155,6 +161,7 @@ class _Case:
             self.report.again,
             was_read=found.was_read,
         )
+        match = with_lamp(chips, self.given)
         other = _exchanged_exposure(photo, match, self.sent)
         exchanged = () if other is None else (_doubt_of_exchange(match, other),)
         return replace(
@@ -174,15 +181,15 @@ class _Case:
         if self.sent == "read" or is_single_pulse(found.chips) or not blinks:
             return []
         return [
-            "What was read is not a repeated pulse, as is given: the frequency given may be that "
-            "of other chips."
+            "What was read is not a lamp's light, as is given: the frequency given may be that of "
+            "a code's chips."
         ]
 
     def may_be_as_sent(self, match: Match) -> bool:
         """Whether a duty that was searched is that of the scene, within its error."""
-        error = match.uncertainties.get("duty")  # a pulse's alone has one
+        error, duty = match.uncertainties.get("duty"), match.duty
         given = float(sent_chips(self.candidates.scene.transmitter).mean())
-        return error is not None and abs(match.duty - given) <= _SAME_DUTY * error
+        return error is not None and duty is not None and abs(duty - given) <= _SAME_DUTY * error
 
 
 class _Progress:
@@ -276,10 +283,10 @@ def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
     The stripes of a pulse are symmetric in its length and its exposure. Only a noted exposure, or a
     pulse that is stated to be sent, decides which of them is which.
     """
-    chips = np.array([int(chip) for chip in match.pattern], dtype=np.uint8)
-    if photo.exposure_time is not None or sent == "scene" or not is_single_pulse(chips):
+    lamp = match.lamp
+    if photo.exposure_time is not None or sent == "scene" or lamp is None:
         return None
-    lit, period = (count / match.switching_frequency for count in (chips.sum(), len(chips)))
+    lit, period = lamp.duty / lamp.frequency, 1.0 / lamp.frequency
     error = math.hypot(
         match.uncertainties["exposure_time"], match.uncertainties.get("duty", 0.0) * period
     )
@@ -288,12 +295,12 @@ def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
 
 
 def _doubt_of_exchange(match: Match, other: float) -> str:
-    fraction = 100.0 * match.exposure_in_chips / len(match.pattern)
+    fraction = PERCENT.format(match.exposure_in_periods, 3)
     time_ = quantity("exposure_time").format(other)
     return (
-        f"A pulse that is lit for {fraction:.3g} % of a period, exposed for {time_}, makes the "
-        "same stripes, and the photo notes no exposure time: the duty may be that of the exposure. "
-        "If the duty is known, state that the scene's chips are sent."
+        f"A lamp with a duty of {fraction}, exposed for {time_}, makes the same stripes, and the "
+        "photo notes no exposure time: the duty may be that of the exposure. If the duty is known, "
+        "state that what the scene sends is sent."
     )
 
 

@@ -7,25 +7,28 @@ from occ_model.results.fact import Fact
 from occ_model.results.match import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
-from occ_model.scene.square_wave import chips_of_cycle
-from occ_model.scene.units import HERTZ, Unit
+from occ_model.scene.units import PERCENT, Unit
 
-ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+_FREQUENCIES = ("switching_frequency", "lamp_frequency")
+ESTIMATES = ("readout_time", *_FREQUENCIES, "exposure_time", "start_time", "gamma")
 
 LABELS = {
     "readout_time": "Readout time a line",
     "frame": "Readout of the frame",
     "switching_frequency": quantity("switching_frequency").label,
+    "lamp_frequency": quantity("lamp_frequency").label,
     "exposure_time": quantity("exposure_time").label,
     "noted": "Noted by the camera",
     "others": "Or as well exposed",
     "start_time": quantity("start_time").label,
     "gamma": quantity("gamma").label,
+    "duty": quantity("duty").label,
     "pattern": "Chips",
     "chip": "Chip length",
+    "period": "Period of the lamp",
     "periods": "Periods in view",
     "exposed": "Exposure in chips",
-    "duty": "Duty",
+    "exposed_periods": "Exposure in periods",
     "averaging": "Averaging",
     "region": "Region",
     "correlation": "Correlation",
@@ -49,8 +52,10 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
     ``noted``: the exposure time in seconds that the camera recorded.
     """
     texts = dict[str, tuple[str, str]]()
+    other = _FREQUENCIES[match.lamp is None]  # of what is not sent
     for name in ESTIMATES:
-        texts[name] = _estimate(match, name, condition)
+        if name != other:
+            texts[name] = _estimate(match, name, condition)
     if (frame := frame_of_match(match)) is not None:
         texts["frame"] = condition + estimate_text(quantity("readout_time"), *frame), ""
     exposure = quantity("exposure_time")
@@ -75,10 +80,6 @@ def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
 def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
     deviation = match.uncertainties.get(name)
     text = estimate_text(quantity(name), getattr(match, name), deviation)
-    if name == "switching_frequency" and (chips := chips_of_cycle(match.pattern)):
-        # A blinking LED is specified by its cycles, not by its chips.
-        cycles = HERTZ.format(match.switching_frequency / chips, _DIGITS)
-        text += f": blinks at {cycles}"
     if deviation is None:
         return text, "assumed" if condition and name == match.known else "given"
     # Gamma is found from the shape of the stripes, not from their timing.
@@ -88,13 +89,9 @@ def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
 
 def _fit(match: Match) -> dict[str, tuple[str, str]]:
     stripes = match.stripes
-    how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
-    found = {
-        "pattern": (match.pattern, how),
-        "chip": (f"{match.columns_per_chip:.3f} columns, {len(match.pattern)} chips a period", ""),
+    found = _lamp(match) if match.lamp is not None else _chips(match)
+    found |= {
         "periods": (f"{match.periods_in_view:.3g}", ""),
-        "exposed": (f"{match.exposure_in_chips:.3g}", ""),
-        "duty": _duty(match),
         "averaging": (match.scene.model.averaging, ""),
         "region": (str(match.region), ""),
         # The comparison of both profiles leaves the rims out, where blur mixes in what is beside.
@@ -108,16 +105,30 @@ def _fit(match: Match) -> dict[str, tuple[str, str]]:
     return found
 
 
+def _chips(match: Match) -> dict[str, tuple[str, str]]:
+    how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
+    return {
+        "pattern": (match.pattern, how),
+        "chip": (f"{match.columns_per_chip:.3f} columns, {len(match.pattern)} chips a period", ""),
+        "exposed": (f"{match.exposure_in_chips:.3g}", ""),
+    }
+
+
+def _lamp(match: Match) -> dict[str, tuple[str, str]]:
+    columns = match.columns_per_chip * len(match.pattern)
+    return {
+        "duty": _duty(match),
+        "period": (f"{columns:.4g} columns", ""),
+        "exposed_periods": (f"{match.exposure_in_periods:.3g}", ""),
+    }
+
+
 def _duty(match: Match) -> tuple[str, str]:
-    deviation = match.uncertainties.get("duty")
+    deviation, duty = match.uncertainties.get("duty"), match.duty or 0.0
     if deviation is None:
-        text = f"lit for {100.0 * match.duty:.3g} % of a period"
-        if not chips_of_cycle(match.pattern):
-            return text, ""
-        return text, "assumed" if match.exposure_reasons else "given"
-    percent = Unit("%").format_estimate(100.0 * match.duty, 100.0 * deviation)
+        return PERCENT.format(duty, 3), "assumed" if match.exposure_reasons else "given"
     note = "doubtful" if match.only_exposure_is_doubtful else ""
-    return f"lit for {percent} of a period", note
+    return PERCENT.format_estimate(duty, deviation), note
 
 
 def _alternative(other: Alternative, estimated: str, condition: str) -> str:
@@ -126,6 +137,8 @@ def _alternative(other: Alternative, estimated: str, condition: str) -> str:
         f"{other.sent}: correlation {other.correlation:.3f}, log-likelihood {side} by "
         f"{abs(other.evidence):.1f}"
     )
+    if estimated in _FREQUENCIES:
+        estimated = _FREQUENCIES[other.lamp is not None]
     value, declared = getattr(other, estimated), quantity(estimated)
     if value is None or other.exposure_time is None:
         return text

@@ -8,19 +8,36 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import Region
-from occ_model.scene.scene import Scene
+from occ_model.scene.light_words import (
+    BlinkingLamp,
+    blinking_lamp,
+    frequency_parameter,
+    lamp_of_chips,
+)
+from occ_model.scene.scene import Scene, Transmitter
 
 ESTIMATES = ("readout_time", "switching_frequency")
-"""Two parameters, one of which is estimated from the other, as stripes show only their product."""
+"""Two parameters, one of which is estimated from the other, as stripes show only their product.
+
+The latter stands for the frequency of what is sent: of a lamp it is ``lamp_frequency``.
+"""
 
 
-def counterpart(name: str) -> str:
-    """Return the other one of :data:`ESTIMATES`."""
-    return ESTIMATES[1 - ESTIMATES.index(name)]
+def known_parameter(estimate: str, transmitter: Transmitter) -> str:
+    """Return the parameter of a scene that has to be known to estimate one of the two."""
+    return frequency_parameter(transmitter) if estimate == ESTIMATES[0] else ESTIMATES[0]
+
+
+def known_value(estimate: str, scene: Scene) -> tuple[str, float]:
+    """Return the name and value of what a scene states there, of what blinks as a lamp's."""
+    name, lamp = known_parameter(estimate, scene.transmitter), blinking_lamp(scene.transmitter)
+    if lamp is not None and name != ESTIMATES[0]:
+        return "lamp_frequency", lamp.frequency
+    return name, float(scene.value(name))
 
 
 PLAIN_STRIPES = (  # advice for a repeating pulse that is refused
-    "These look like the plain stripes of a lamp; if so, state that it sends a square wave."
+    "These look like the plain stripes of a lamp; if so, state that a lamp is sent."
 )
 
 
@@ -85,6 +102,17 @@ class Alternative:
     switching_frequency: float | None = None
     exposure_time: float | None = None
 
+    @property
+    def lamp(self) -> BlinkingLamp | None:
+        """The lamp that its chips are; None if they are a code's."""
+        frequency = self.switching_frequency
+        return None if frequency is None else lamp_of_chips(self.pattern, frequency)
+
+    @property
+    def lamp_frequency(self) -> float | None:
+        """The frequency of that lamp in Hz, or None."""
+        return None if self.lamp is None else self.lamp.frequency
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipReading:
@@ -132,15 +160,21 @@ class Match:
     Parameters
     ----------
     scene
-        The given scene with the parameters estimated from the photo.
+        The given scene with the parameters estimated from the photo. What blinks once in a period
+        is a lamp, whose depth is that of all its light: a photo does not tell the rest from other
+        steady light.
     stripes
         The matched stripes, with the fitted levels.
-    readout_time, switching_frequency, exposure_time, start_time, gamma
+    readout_time, exposure_time, start_time, gamma
         Those of the scene, in SI units; ``start_time`` is that of the photo's first column.
+    switching_frequency
+        Chips of ``pattern`` a second; the scene's, if it sends a code.
     uncertainties
-        Standard deviations of the estimated ones, in SI units, by name.
+        Standard deviations of the estimated ones, in SI units, by name; of a lamp
+        ``lamp_frequency`` and ``duty`` in place of ``switching_frequency``.
     pattern
-        The chips sent, from the start of a period.
+        The chips sent, from the start of a period; of a lamp, those that stand for its light in the
+        fit.
     pattern_was_read
         Whether it was read from the photo.
     profile : ndarray of float64, shape (columns of the region,)
@@ -176,14 +210,34 @@ class Match:
     exposure_reasons: tuple[str, ...] = ()
 
     @property
+    def lamp(self) -> BlinkingLamp | None:
+        """The lamp that is sent; None if that is a code."""
+        sent = self.scene.transmitter
+        return blinking_lamp(sent) if sent.light == "lamp" else None
+
+    @property
+    def lamp_frequency(self) -> float | None:
+        """Cycles of the lamp a second; None if a code is sent."""
+        return None if self.lamp is None else self.lamp.frequency
+
+    @property
+    def duty(self) -> float | None:
+        """Fraction of a cycle in which the lamp is lit, from 0 to 1; None if a code is sent."""
+        return None if self.lamp is None else self.lamp.duty
+
+    @property
+    def _frequency(self) -> str:
+        return "switching_frequency" if self.lamp is None else "lamp_frequency"
+
+    @property
     def known(self) -> str:
-        """The one of :data:`ESTIMATES` that was given."""
-        return next(name for name in reversed(ESTIMATES) if name not in self.uncertainties)
+        """The one of readout time and frequency that was given."""
+        return ESTIMATES[0] if self._frequency in self.uncertainties else self._frequency
 
     @property
     def estimate(self) -> str:
         """The other one, which was estimated."""
-        return counterpart(self.known)
+        return self._frequency if self.known == ESTIMATES[0] else ESTIMATES[0]
 
     @property
     def verdict(self) -> str:
@@ -248,9 +302,9 @@ class Match:
         return self.exposure_time * self.switching_frequency
 
     @property
-    def duty(self) -> float:
-        """Fraction of the pattern in which the LED is on, from 0 to 1."""
-        return self.pattern.count("1") / len(self.pattern)
+    def exposure_in_periods(self) -> float:
+        """The exposure time in periods of what is sent."""
+        return self.exposure_in_chips / len(self.pattern)
 
     @property
     def region(self) -> Region:

@@ -5,13 +5,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from occ_model.errors import counted, one_line, printable
-from occ_model.results.match import Match, counterpart
+from occ_model.results.match import Match, known_parameter
 from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import chips_of_cycle
-from occ_model.scene.units import HERTZ
 from occ_model.version import __version__
 
 SURE, DOUBTFUL, REFUSED, UNREADABLE = "sure", "doubtful", "refused", "unreadable"
@@ -45,7 +43,16 @@ class PhotoRow:
 
     @property
     def switching_frequency(self) -> float | None:
-        return None if self.match is None else self.match.switching_frequency
+        """That of a code; None of a lamp."""
+        return None if self.match is None or self.match.lamp else self.match.switching_frequency
+
+    @property
+    def lamp_frequency(self) -> float | None:
+        return None if self.match is None else self.match.lamp_frequency
+
+    @property
+    def duty(self) -> float | None:
+        return None if self.match is None else self.match.duty
 
     @property
     def exposure_time(self) -> float | None:
@@ -57,7 +64,8 @@ class PhotoRow:
 
     @property
     def pattern(self) -> str:
-        return "" if self.match is None else self.match.pattern
+        """The chips of a code; empty of a lamp."""
+        return "" if self.match is None or self.match.lamp else self.match.pattern
 
     def uncertainty(self, name: str) -> float | None:
         """Return the standard deviation of an estimate, None if it was not estimated."""
@@ -107,7 +115,8 @@ class PhotoTable:
     Parameters
     ----------
     estimate
-        The parameter that was measured: ``"readout_time"`` or ``"switching_frequency"``.
+        The parameter that was measured: ``"readout_time"``, ``"switching_frequency"``, or
+        ``"lamp_frequency"`` where every sure photo shows a lamp.
     rows
         One for each photo, in the given order.
     estimated, exposure_time
@@ -127,7 +136,7 @@ class PhotoTable:
     @property
     def known(self) -> str:
         """The parameter that was taken as known, the other one of the two."""
-        return counterpart(self.estimate)
+        return known_parameter(self.estimate, self.scene.transmitter)
 
     def count(self, verdict: str) -> int:
         """Count the photos with a verdict."""
@@ -154,7 +163,7 @@ _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",
     "switching frequency (Hz)", "its error (Hz)", "exposure time (s)", "its error (s)",
     "exposure time is", "rests on", "noted exposure time (s)", "correlation", "chips", "lines",
-    "camera", "note",
+    "camera", "note", "lamp frequency (Hz)", "its error (Hz)", "duty", "its error",
 )  # fmt: skip
 
 
@@ -193,7 +202,9 @@ def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
             csv_row(
                 [_quote_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
                  row.correlation, row.pattern, row.lines or None, _quote_text(row.camera or ""),
-                 _quote_text(row.note)]
+                 _quote_text(row.note), row.lamp_frequency,
+                 _format_error(row.uncertainty("lamp_frequency")), row.duty,
+                 _format_error(row.uncertainty("duty"))]
             )
         )  # fmt: skip
     return texts
@@ -235,16 +246,9 @@ def _quote_text(text: str) -> str:
     return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
 
 
-_FREQUENCY = "switching_frequency"
-
-
-def assumption(name: str, value: float, pattern: str) -> str:
-    """Return the condition of estimated times, such as ``"if f = 10 kHz: "``.
-
-    For an LED that only blinks, by its ``pattern`` of chips, it names the cycles.
-    """
+def assumption(name: str, value: float) -> str:
+    """Return the condition of estimated times, such as ``"if f = 10 kHz: "``."""
     known = quantity(name)
-    if name == _FREQUENCY and (chips := chips_of_cycle(pattern)):
-        cycles = HERTZ.format(value / chips)
-        return f"if it is a lamp of {cycles} ({known.format(value)} chips): "
+    if name == "lamp_frequency":
+        return f"if it is a lamp of {known.format(value)}: "
     return f"if {known.symbol} = {known.format(value)}: "

@@ -67,6 +67,8 @@ class Clock:
         In Hz, at the middle of the film.
     drift
         Its change in Hz a second; None if too few frames show it.
+    chips_of_cycle
+        How many such chips make a cycle of the lamp that is filmed; 0 of a code.
     readout_time
         From one column to the next in seconds, which is chips a column over chips a second.
     frame_period
@@ -93,6 +95,21 @@ class Clock:
     frames: int
     alternatives: tuple[tuple[float, float], ...] = ()
     problems: tuple[str, ...] = ()
+    chips_of_cycle: int = 0
+
+    @property
+    def lamp_frequency(self) -> MeasuredValue | None:
+        """The frequency of the lamp that is filmed, in Hz; None if a code is sent."""
+        return self._of_cycles(self.switching_frequency)
+
+    @property
+    def lamp_drift(self) -> MeasuredValue | None:
+        """The change of the lamp's frequency in Hz a second; None of a code, or if not known."""
+        return None if self.drift is None else self._of_cycles(self.drift)
+
+    def _of_cycles(self, measured: MeasuredValue) -> MeasuredValue | None:
+        chips = self.chips_of_cycle
+        return MeasuredValue(measured.value / chips, measured.error / chips) if chips else None
 
     @property
     def is_sure(self) -> bool:

@@ -34,10 +34,22 @@ def blinking_lamp(transmitter: Transmitter) -> BlinkingLamp | None:
     if sent.light == "pulses":
         duty = min(sent.pulse_length * sent.pulse_frequency, 1.0)
         return BlinkingLamp(sent.pulse_frequency, duty)
-    if sent.light == "code" and (sent.pattern + sent.pattern[:1]).count("01") == 1:
-        chips = len(sent.pattern)
-        return BlinkingLamp(sent.switching_frequency / chips, sent.pattern.count("1") / chips)
+    if sent.light == "code":
+        return lamp_of_chips(sent.pattern, sent.switching_frequency)
     return None
+
+
+def lamp_of_chips(pattern: str, frequency: float) -> BlinkingLamp | None:
+    """Return the lamp that chips with one pulse are, at a switching frequency in Hz, if any."""
+    if (pattern + pattern[:1]).count("01") != 1:
+        return None
+    return BlinkingLamp(frequency / len(pattern), pattern.count("1") / len(pattern))
+
+
+def frequency_parameter(transmitter: Transmitter) -> str:
+    """Return the name of the parameter that says how often a code's or lamp's light changes."""
+    lamps = {"lamp": "lamp_frequency", "pulses": "pulse_frequency"}
+    return lamps.get(transmitter.light, "switching_frequency")
 
 
 def has_chips(transmitter: Transmitter) -> bool:

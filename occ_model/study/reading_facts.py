@@ -85,10 +85,13 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
 def clock_facts(clock: Clock) -> Iterator[Fact]:
     """List what a film shows about the clocks of the camera and of the transmitter."""
     doubt = "" if clock.is_sure else ", not sure"
+    lamp, drift = clock.lamp_frequency, clock.lamp_drift or clock.drift
+    name = "lamp frequency" if lamp else "switching frequency"
     for key, label, unit, measured, mark, meaning in (
         (
-            "frequency", "Frequency", HERTZ, clock.switching_frequency, doubt,
-            "Switching frequency measured by the clock that gives the frames' times.",
+            "frequency", "Lamp frequency" if lamp else "Frequency", HERTZ,
+            lamp or clock.switching_frequency, doubt,
+            f"The {name} measured by the clock that gives the frames' times.",
         ),
         (
             "readout_time", "Readout time", SECOND, clock.readout_time, doubt,
@@ -106,9 +109,9 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
     ):  # fmt: skip
         text = unit.format_estimate(measured.value, measured.error) + mark
         yield Fact(key, label, text, meaning=meaning)
-    if clock.drift is not None:
-        text = _RATE.format_estimate(clock.drift.value, clock.drift.error)
-        meaning = "Change of the switching frequency during the film."
+    if drift is not None:
+        text = _RATE.format_estimate(drift.value, drift.error)
+        meaning = f"Change of the {name} during the film."
         yield Fact("drift", "Drift", text, meaning=meaning)
     yield Fact(
         "frame_starts",

@@ -74,9 +74,8 @@ def _chip_columns(scene: Scene) -> float:
 
 
 def _code(scene: Scene) -> float:
-    check_code(scene.transmitter)
-    if scene.transmitter.pattern:
-        raise OccError("The photo's chips are a pattern, not a packet: it has no code.")
+    if scene.transmitter.light != "code" or scene.transmitter.pattern:
+        raise OccError("The photo shows a lamp or a pattern, not a packet: it has no code.")
     return float(scene.transmitter.code)
 
 

@@ -142,9 +142,17 @@ def fit_film_clock(
 
 
 def describe_clock(
-    fits: tuple[ClockFit, ...], phases: FramePhases, times: FrameTimes, part: Part, columns: int
+    fits: tuple[ClockFit, ...],
+    phases: FramePhases,
+    times: FrameTimes,
+    part: Part,
+    columns: int,
+    chips_of_cycle: int,
 ) -> Clock:
-    """Return a film's clock for one part of its times, from fits sorted by likelihood."""
+    """Return a film's clock for one part of its times, from fits sorted by likelihood.
+
+    ``chips_of_cycle``: how many chips of the phases make a cycle of a lamp; 0 of a code.
+    """
     best = fits[0]
     readout = best.step / best.frequency
     relative = np.hypot(best.step_error / best.step, best.frequency_error / best.frequency)
@@ -164,12 +172,14 @@ def describe_clock(
         problems=(
             *times.problems,
             *(only if len(times.parts) > 1 else ()),
-            *_describe_problems(fits, phases),
+            *_describe_problems(fits, phases, chips_of_cycle or 1),
         ),
+        chips_of_cycle=chips_of_cycle,
     )
 
 
-def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases) -> list[str]:
+def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases, chips: int) -> list[str]:
+    """Say what does not fit; ``chips``: how many a stated frequency counts as one."""
     best = fits[0]
     problems = [
         f"At {SECOND.format(jump.time)} the stripes jump by "
@@ -178,18 +188,18 @@ def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases) -> list[
         for jump in best.jumps
     ]
     if len(fits) > 1:
+        named = [HERTZ.format(fit.frequency / chips) for fit in fits[: 1 + _MAX_NAMED_FREQUENCIES]]
         others = ", ".join(
-            f"{HERTZ.format(fit.frequency)} ({SECOND.format(fit.step / fit.frequency)} a column)"
-            for fit in fits[1 : 1 + _MAX_NAMED_FREQUENCIES]
+            f"{frequency} ({SECOND.format(fit.step / fit.frequency)} a column)"
+            for frequency, fit in zip(named[1:], fits[1:], strict=False)
         ) + (
             f" and {len(fits) - 1 - _MAX_NAMED_FREQUENCIES} more"
             if len(fits) > 1 + _MAX_NAMED_FREQUENCIES
             else ""
         )
         problems.append(
-            f"Several frequencies fit the frames equally well: {HERTZ.format(best.frequency)}, "
-            f"which is stated, and {others}; a more accurate readout time or a longer packet would "
-            "distinguish them."
+            f"Several frequencies fit the frames equally well: {named[0]}, which is stated, and "
+            f"{others}; a more accurate readout time or a longer packet would distinguish them."
         )
     outliers = int((~best.kept).sum())
     if outliers > _MAX_OUTLIER_FRACTION * len(best.kept):

@@ -12,6 +12,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.video_reading import Clock, FrameReading
+from occ_model.scene.light_words import blinking_lamp
 from occ_model.video.clock import describe_clock, fit_film_clock
 from occ_model.video.frame_times import FrameTimes, Part, fit_frame_times
 from occ_model.video.joining import JoinedChips
@@ -233,7 +234,9 @@ class PlacedFrames:
             phases, self._readout_time, self._tolerance, self.columns, period
         )
         if self._fits:
-            self.clock = describe_clock(self._fits, phases, times, part, self.columns)
+            is_lamp = blinking_lamp(self._period.transmitter) is not None
+            cycle = self._period.length if is_lamp else 0
+            self.clock = describe_clock(self._fits, phases, times, part, self.columns, cycle)
 
 
 def _fullest_part(times: FrameTimes, frames: Iterable[int]) -> Part:

@@ -1,4 +1,4 @@
-"""Describe a film without packets: frames that blink as a whole, bursts, or a square wave."""
+"""Describe a film without packets: frames that blink as a whole, bursts, or a lamp."""
 
 import math
 from collections.abc import Sequence
@@ -13,11 +13,12 @@ from occ_model.photo.stripes.period import correlated_columns, repeat_period, un
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
 from occ_model.results.video_reading import Clock, MeasuredValue
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.video.clock import describe_clock, fit_film_clock
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.phase_fit import FramePhases
+
+_HALVES = 2  # a lamp's phase is counted in halves of its cycle, as limits in chips suit these
 
 _MIN_PERIODS = 3.0  # minimum in a frame, because two may be equal by chance
 _MAX_UNREPEATED = 0.1  # of the stripes' variance that a repeated wave may leave unexplained
@@ -69,16 +70,14 @@ class WithoutPackets:
             columns=np.array([look.column for look in seen]),
             places=np.array([look.place for look in seen]),
             errors=np.array([look.place_error for look in seen]),
-            steps=np.array([CHIPS_OF_A_CYCLE / look.period for look in seen]),
-            step_errors=np.array(
-                [CHIPS_OF_A_CYCLE / look.period**2 * look.period_error for look in seen]
-            ),
-            period=float(CHIPS_OF_A_CYCLE),
+            steps=np.array([_HALVES / look.period for look in seen]),
+            step_errors=np.array([_HALVES / look.period**2 * look.period_error for look in seen]),
+            period=float(_HALVES),
         )
         fits = fit_film_clock(phases, readout_time, tolerance, columns, times.period.value)
         if not fits:
             return None
-        clock = describe_clock(fits, phases, times, times.parts[0], columns)
+        clock = describe_clock(fits, phases, times, times.parts[0], columns, _HALVES)
         # The lamp's shape shifts the stripes of all frames equally, which causes no scatter.
         readout, shared = clock.readout_time, self._period_error(seen)
         error = math.hypot(readout.error, shared * readout.value)
@@ -102,7 +101,7 @@ class WithoutPackets:
             return self._describe_levels()
         pulses, what = _select_pulses(seen), "The stripes repeat"
         if pulses:
-            seen, what = pulses, "The lamp sends a plain square wave or pulse: its stripes repeat"
+            seen, what = pulses, "A lamp is lit once in each period: its stripes repeat"
         period = float(np.median([look.period for look in seen]))
         columns = Unit("columns").format_estimate(period, period * self._period_error(seen))
         text = (
@@ -115,7 +114,7 @@ class WithoutPackets:
 
     @property
     def may_be_packets(self) -> bool:
-        """Whether the stripes may be those of a code: they repeat and are not a plain pulse."""
+        """Whether the stripes may be those of a code: they repeat and are not a lamp's."""
         seen = [look for look in self._looks if look.repeats]
         return bool(seen) and not _select_pulses(seen)
 
@@ -162,8 +161,8 @@ def _analyse_frame(time: float, level: float, even: FloatArray, first_column: in
         time,
         level,
         period,
-        CHIPS_OF_A_CYCLE * (phase / (2.0 * math.pi) % 1.0),
-        CHIPS_OF_A_CYCLE / (2.0 * math.pi) * math.sqrt(left / max(independent, 1.0)),
+        _HALVES * (phase / (2.0 * math.pi) % 1.0),
+        _HALVES / (2.0 * math.pi) * math.sqrt(left / max(independent, 1.0)),
         error,
         first_column + middle,
         is_pulse=rising <= columns / period + 1.0,

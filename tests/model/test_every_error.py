@@ -18,7 +18,6 @@ from occ_model.commands import command_line
 from occ_model.program import EXIT_MISUSE
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 
 @pytest.fixture
@@ -53,12 +52,12 @@ def test_every_wrong_value_is_named_with_its_unit_and_range(
         check_sentence(sentence, PARAMETERS[name], text, f"{name} is ")
 
 
-@pytest.mark.parametrize("text", wrong_texts(SQUARE_FREQUENCY))
-def test_a_wrong_frequency_of_the_led_is_named_as_it_was_given(
+@pytest.mark.parametrize("text", wrong_texts(PARAMETERS["lamp_frequency"]))
+def test_a_wrong_frequency_of_the_lamp_is_named_as_it_was_given(
     text: str, ended_with: list[BaseException]
 ) -> None:
     main(["match", "photo.png", "--led-frequency", text])
-    check_sentence(str(ended_with[0]), SQUARE_FREQUENCY, text, "--led-frequency is ")
+    check_sentence(str(ended_with[0]), PARAMETERS["lamp_frequency"], text, "--led-frequency is ")
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])

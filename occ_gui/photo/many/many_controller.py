@@ -16,7 +16,7 @@ from occ_gui.shell.results import ResultsStore
 from occ_gui.values.choices import MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import OccError
-from occ_model.results.match import counterpart
+from occ_model.results.match import known_parameter, known_value
 from occ_model.results.photo_table import PhotoRow, PhotoTable
 
 if TYPE_CHECKING:  # imported with the first match, not with the window
@@ -104,7 +104,7 @@ class ManyPhotosController(QObject):
             return
         from occ_model.photo.many.row import MatchSettings
 
-        known = counterpart(choice.estimate)
+        known = known_parameter(choice.estimate, scene.transmitter)
         settings = self._settings = MatchSettings(
             scene,
             choice.estimate,
@@ -115,7 +115,7 @@ class ManyPhotosController(QObject):
             known=self._view.rows.entered_values(known),
         )
         self._found, self._done, self.table = {}, 0, None
-        self._listed = ListedRows((), options, float(self._scenes.scene.value(known)))
+        self._listed = ListedRows((), options, known_value(choice.estimate, self._scenes.scene))
         self._put_rows()
         self._view.show_begun(choice.estimate, scene)
         self.runner.ask(ManyRequest(paths, settings, self._jobs))
@@ -125,7 +125,8 @@ class ManyPhotosController(QObject):
         table, settings = self.table, self._settings
         if table is None or settings is None:
             return
-        known = self._view.rows.entered_values(counterpart(settings.estimate))
+        parameter = known_parameter(settings.estimate, settings.scene.transmitter)
+        known = self._view.rows.entered_values(parameter)
         self._settings = settings = replace(settings, known=known)
         self._done, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)

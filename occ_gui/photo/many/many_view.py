@@ -8,19 +8,20 @@ from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, warn_of_stale
+from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, is_certain, warn_of_stale
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import counted
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
 from occ_model.photo.match_facts import LABELS, estimate_text
-from occ_model.results.match import counterpart
+from occ_model.results.match import known_parameter, known_value
 from occ_model.results.photo_table import (
     VERDICTS,
     CombinedEstimate,
     PhotoRow,
     PhotoTable,
+    assumption,
     csv_text,
 )
 from occ_model.scene.parameters import quantity
@@ -72,7 +73,7 @@ class ManyPhotosView(QWidget):
         self._asked: tuple[str, Scene] | None = None
         self._counts = ""
         self._scene: Scene | None = None
-        self._given = math.nan
+        self._given = ("", math.nan)
         self._certain: Mapping[str, float] = {}
         self._lay_out()
         self._show_title()
@@ -155,7 +156,8 @@ class ManyPhotosView(QWidget):
         self.files_shown.emit()
 
     def show_begun(self, estimate: str, scene: Scene) -> None:
-        self.rows.show_begun(estimate, float(scene.value(counterpart(estimate))))
+        known = known_parameter(estimate, scene.transmitter)
+        self.rows.show_begun(estimate, known, float(scene.value(known)))
         self.show_busy(estimate, scene)
 
     def show_busy(self, estimate: str, scene: Scene) -> None:
@@ -229,8 +231,10 @@ class ManyPhotosView(QWidget):
         self.stale.hide()
         if table is None or scene is None:
             return
-        then = float(table.scene.value(table.known))
-        stale = warn_of_stale(scene, table.known, then, self._given, self._certain)
+        stale = ""
+        if not is_certain(table.known, float(table.scene.value(table.known)), self._certain):
+            then = known_value(table.estimate, table.scene)
+            stale = warn_of_stale(scene, table.estimate, then, self._given)
         self.stale.setText(f"{stale}match all again.")
         self.stale.setVisible(bool(stale))
 
@@ -238,14 +242,15 @@ class ManyPhotosView(QWidget):
         """Name the value that an estimate depends on, unless the user is certain of it."""
         if self._found is not None and not self._found.rests_on_the_scene:
             return ""  # a value was entered for each photo
-        known = counterpart(estimate)
-        pattern = scene.transmitter.pattern
-        return condition(known, float(scene.value(known)), self._certain, pattern)
+        known = known_parameter(estimate, scene.transmitter)
+        if is_certain(known, float(scene.value(known)), self._certain):
+            return ""
+        return assumption(*known_value(estimate, scene))
 
     def _show_found(self, table: PhotoTable | None) -> None:
         if table is not None and table is not self._found and self._scene is not None:
-            # The known value of a square wave is its own frequency, not the scene's.
-            self._given = float(self._scene.value(table.known))
+            # The known value of a lamp stated in the form is its own frequency, not the scene's.
+            self._given = known_value(table.estimate, self._scene)
         self._found = table
         self._show_stale()
         for button in (self.copy, self.save):

@@ -18,7 +18,6 @@ from occ_gui.photo.match_result import SIGNS
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import ParameterError, one_line
 from occ_model.photo.match_facts import LABELS, estimate_text
-from occ_model.results.match import counterpart
 from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable
 from occ_model.scene.parameters import quantity
 from occ_model.scene.refusal import refusal_of
@@ -42,24 +41,20 @@ class PhotoRowsModel(QAbstractTableModel):
         self.paths: tuple[Path, ...] = ()
         self._rows: dict[int, PhotoRow] = {}
         self._table: PhotoTable | None = None
-        self._estimate = "readout_time"
+        self._estimate, self.known = "readout_time", "switching_frequency"
         self._condition = ""
         self._earlier: Path | None = None
         self._open: Path | None = None
         self._given: dict[str, dict[int, float]] = {}
-        """Values entered for single photos, by the parameter's name and the photo's index."""
+        """Values entered for single photos, by what they are of and the photo's index."""
         self._usual: float | None = None
         """Known value of all other photos, in SI units, once they have been matched with it."""
         self.is_busy = False
         """Whether the photos are being matched, so that no value can be entered for them."""
 
-    @property
-    def known(self) -> str:
-        return counterpart(self._estimate)
-
     def entered_values(self, name: str) -> tuple[tuple[int, float], ...]:
         """Return the values of a known parameter entered for single photos, in SI units."""
-        return tuple(sorted(self._given.get(name, {}).items()))
+        return tuple(sorted(self._given.get(_kind(name), {}).items()))
 
     def show_open(self, path: Path | None) -> None:
         self._open = path
@@ -76,14 +71,15 @@ class PhotoRowsModel(QAbstractTableModel):
         self._given, self._usual = {}, None
         self.endResetModel()
 
-    def show_begun(self, estimate: str, usual: float) -> None:
+    def show_begun(self, estimate: str, known: str, usual: float) -> None:
         """Clear the results before all photos are matched again to estimate this parameter.
 
-        ``usual``: the known value of the other parameter, in SI units, for photos without a value
-        of their own.
+        ``usual``: the value of the known parameter, in SI units, for photos without a value of
+        their own.
         """
         self.beginResetModel()
-        self._rows, self._table, self._estimate = {}, None, estimate
+        self._rows, self._table = {}, None
+        self._estimate, self.known = estimate, known
         self._earlier, self._usual = None, usual
         self.endResetModel()
 
@@ -93,6 +89,7 @@ class PhotoRowsModel(QAbstractTableModel):
 
     def show_table(self, table: PhotoTable) -> None:
         self._rows, self._table = dict(enumerate(table.rows)), table
+        self._estimate = table.estimate
         self._usual = float(table.scene.value(table.known))
         self._redraw()
 
@@ -162,7 +159,7 @@ class PhotoRowsModel(QAbstractTableModel):
             return False
         if text == self.text(place, KNOWN):
             return True
-        declared, given = quantity(self.known), self._given.setdefault(self.known, {})
+        declared, given = quantity(self.known), self._given.setdefault(_kind(self.known), {})
         try:
             entered = declared.parse(text, declared.unit.display(declared.default)[1])
         except ParameterError as error:
@@ -188,7 +185,7 @@ class PhotoRowsModel(QAbstractTableModel):
             return (
                 "The known value of this photo. Double-click to enter a value for this photo "
                 "alone, for example of another lamp; clear the field to use the common value "
-                "again.\nA lamp that only blinks has two chips per cycle."
+                "again."
             )
         if column == NOTE and row is not None and row.note:
             return one_line(row.note, LONGEST_TEXT)
@@ -198,7 +195,7 @@ class PhotoRowsModel(QAbstractTableModel):
         if column == PHOTO:
             return one_line(self.paths[place].name)
         if column == KNOWN:
-            known = self._given.get(self.known, {}).get(place, self._usual)
+            known = self._given.get(_kind(self.known), {}).get(place, self._usual)
             return "" if known is None else quantity(self.known).format(known)
         row = self._rows.get(place)
         if row is None:
@@ -207,7 +204,8 @@ class PhotoRowsModel(QAbstractTableModel):
             case 1:
                 return self._verdict(place, row)
             case 3:
-                return _estimate(row, self._estimate)
+                of_row = None if row.match is None else row.match.estimate
+                return _estimate(row, of_row or self._estimate)
             case 4:
                 text = _estimate(row, "exposure_time")
                 # In a doubtful photo, all values are doubtful.
@@ -230,6 +228,11 @@ class PhotoRowsModel(QAbstractTableModel):
 def _estimate(row: PhotoRow, name: str) -> str:
     value = getattr(row, name)
     return "" if value is None else estimate_text(quantity(name), value, row.uncertainty(name))
+
+
+def _kind(known: str) -> str:
+    """Return what a known value is of: a frequency is entered before it is known to be a lamp's."""
+    return known if known == "readout_time" else "frequency"
 
 
 def _alignment(column: int) -> Qt.AlignmentFlag:

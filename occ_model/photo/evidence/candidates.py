@@ -21,15 +21,16 @@ from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
 from occ_model.photo.fitted_scene import at_rate, exposure_time
+from occ_model.photo.lamp_chips import MOST_PARTS
 from occ_model.photo.photo_scene import with_chips
 from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT
 from occ_model.transmitter.scheme import sent_chips
 
 _STEP_CHANGES = np.arange(-4, 5) / 8.0  # changes of a known step, in chips at the last column
 _MOST_CORRECTIONS = 6  # maximum number of times that the chips read are replaced by similar ones
 _MOST_POWER_RATIO = 0.9  # ratio of squared residuals below which similar chips replace those read
-_PARTS_OF_A_PERIOD = 50  # number of parts of a period; a pulse lasts a whole number of them
 _DUTY_STEPS = (4, 2, 1)  # successive steps, in parts of a period, of the search for a duty
 _MOST_EXCHANGE_RATIO = 1.5  # maximum ratio of squared residuals after an exchange: both are rounded
 
@@ -116,7 +117,7 @@ class Candidates:
         width = float(np.mean(self.stripes.flattened > 0.5))
         for step in _DUTY_STEPS:
             middle = min(found, key=lambda on: found[on].fit.residual) if found else None
-            first = round(_PARTS_OF_A_PERIOD * width) if middle is None else middle
+            first = round(MOST_PARTS * width) if middle is None else middle
             for on in (first - step, first, first + step):
                 fitted = same._dimmed(on, period, len(sent)) if on not in found else None
                 if fitted is not None:
@@ -155,19 +156,17 @@ class Candidates:
         )
 
     def _swapped(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis | None:
-        on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(canonical(found.chips)))
+        on = round(MOST_PARTS * found.fit.timing.exposure / len(canonical(found.chips)))
         return self._dimmed(on, period, chips_sent)
 
     def _dimmed(self, on: int, period: float, chips_sent: int) -> Hypothesis | None:
-        if not 0 < on < _PARTS_OF_A_PERIOD:
+        if not 0 < on < MOST_PARTS:
             return None
-        chips = pulse(on, _PARTS_OF_A_PERIOD)
+        chips = pulse(on, MOST_PARTS)
         step = [self._near(len(chips) / period)]
-        sent = f"the scene's wave with a duty of {on * 100 // _PARTS_OF_A_PERIOD} %"
+        sent = f"the scene's lamp with a duty of {on * 100 // MOST_PARTS} %"
         rate = len(chips) / chips_sent
-        return self._fitted(
-            sent, chips, step, bits=np.log2(_PARTS_OF_A_PERIOD), was_read=True, rate=rate
-        )
+        return self._fitted(sent, chips, step, bits=np.log2(MOST_PARTS), was_read=True, rate=rate)
 
     def corrected(self, found: Hypothesis) -> tuple[Hypothesis, list[Hypothesis]]:
         """Take the nearest other chips instead of those that were read, while they explain more.
@@ -202,9 +201,13 @@ class Candidates:
         return step + _STEP_CHANGES / len(self.stripes.profile)
 
     def _named(self, chips: ByteArray) -> str:
-        """Name chips by their code where they are a packet, else by their number."""
+        """Name chips by the lamp or the packet that they are, else by their number."""
         sends = with_chips(self.scene, chips)[0].transmitter
-        return f"{len(chips)} chips" if sends.pattern else f"the code {sends.code:0{sends.bits}b}"
+        if not sends.pattern:
+            return f"the code {sends.code:0{sends.bits}b}"
+        if is_single_pulse(chips):
+            return f"a lamp with a duty of {PERCENT.format(float(chips.mean()), 3)}"
+        return f"a code of {len(chips)} chips"
 
     def _fitted(
         self,

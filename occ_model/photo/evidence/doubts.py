@@ -85,15 +85,13 @@ def _too_white(saturated: float, most: float) -> str:
 
 def _doubts_by_extent(found: Hypothesis) -> list[str]:
     reasons = []
-    chips = len(found.chips)
+    chips, one_pulse = len(found.chips), is_single_pulse(found.chips)
     is_long = chips >= _LONG_PATTERN and not found.was_read
     least = _LEAST_PERIODS if is_long else _LEAST_PERIODS_OF_OTHERS
     if found.periods < least:
         shown, limit = distinct_texts(found.periods, least)
-        reasons.append(
-            f"Only {shown} periods of {chips} chips are in view; at least {limit} are needed."
-        )
-    one_pulse = is_single_pulse(found.chips)
+        of_chips = "" if one_pulse else f" of {chips} chips"
+        reasons.append(f"Only {shown} periods{of_chips} are in view; at least {limit} are needed.")
     # Stripes are symmetric in a pulse and its exposure: only half a period counts.
     shortest = chips_as_one(found.chips) if one_pulse else min(runs_of(found.chips))
     exposure = found.fit.timing.exposure / shortest
@@ -102,8 +100,8 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
         what = "half a period" if one_pulse else what
         shown, limit = distinct_texts(exposure, _LONGEST_EXPOSURE)
         reasons.append(
-            f"The exposure is {shown} times as long as {what}; above {limit} different codes give "
-            "nearly the same stripes."
+            f"The exposure is {shown} times as long as {what}; above {limit} different "
+            f"{'duties' if one_pulse else 'codes'} give nearly the same stripes."
         )
     if found.was_read and found.rate == 1.0 and one_pulse:
         reasons.append(
@@ -162,8 +160,8 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
 def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     if found.read_again:
         return [
-            "The chips were found by trying many sequences of them, some of which may explain the "
-            "stripes of any object."
+            "What is sent was found by trying many sequences of chips, some of which may explain "
+            "the stripes of any object."
         ]
     reasons = []
     count, (together, longer) = len(found.chips), chips_if_longer(found.chips)

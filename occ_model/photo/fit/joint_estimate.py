@@ -220,11 +220,12 @@ def _exposure_doubts(seen: float, alike: Sequence[JointFit]) -> tuple[str, ...]:
             "exposure time. Expose less."
         )
     if alike:
-        *others, last = [f"{one:.2f}" for one in sorted(fit.exposure for fit in alike)]
-        chips = f"{', '.join(others)} or {last}" if others else last
+        times = sorted(0.5 * fit.exposure for fit in alike)  # two chips are a period
+        *others, last = [f"{one:.2f}" for one in times]
+        periods = f"{', '.join(others)} or {last}" if others else last
         doubts.append(
-            f"A square wave looks nearly the same at an exposure of {chips} chips, where the "
-            "surroundings are bright."
+            "A lamp that is lit for half of each period looks nearly the same at an exposure of "
+            f"{periods} periods, where the surroundings are bright."
         )
     return tuple(doubts)
 

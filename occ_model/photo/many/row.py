@@ -8,7 +8,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, check_words, match_photo
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.results.match import Match, counterpart
+from occ_model.results.match import Match, known_parameter
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow
 from occ_model.results.sweep import join_lines
 from occ_model.scene.argument_checks import check_choice
@@ -33,7 +33,8 @@ class MatchSettings:
         own = dict(self.known).get(place)
         if own is None:
             return self
-        return replace(self, scene=self.scene.replace(**{counterpart(self.estimate): own}))
+        known = known_parameter(self.estimate, self.scene.transmitter)
+        return replace(self, scene=self.scene.replace(**{known: own}))
 
     def check(self) -> None:
         check_words(self.estimate, self.sent, self.averaging)

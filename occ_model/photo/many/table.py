@@ -32,14 +32,17 @@ _LEAST_FOR_OUTLIERS = 3  # minimum number of estimates among which an outlier ca
 
 def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:
     sure = [place for place, row in enumerate(rows) if row.verdict == SURE]
-    estimated = _combined(rows, sure, settings.estimate)
+    estimate = settings.estimate
+    if estimate != "readout_time" and sure and all(rows[place].lamp_frequency for place in sure):
+        estimate = "lamp_frequency"
+    estimated = _combined(rows, sure, estimate)
     outliers = () if estimated is None else estimated.outliers
     counted = [place for place in sure if place not in outliers]
     noted = [row.noted_exposure for row in (rows[p] for p in counted) if row.noted_exposure]
     differ = bool(noted) and max(noted) > _SAME_EXPOSURE * min(noted)
     sure = [place for place in counted if rows[place].exposure_verdict == SURE]
     exposure = None if differ else _combined(rows, sure, "exposure_time")
-    table = PhotoTable(settings.scene, settings.estimate, tuple(rows), estimated, exposure)
+    table = PhotoTable(settings.scene, estimate, tuple(rows), estimated, exposure)
     return replace(table, notes=tuple(_notes(table, noted if differ else [])))
 
 

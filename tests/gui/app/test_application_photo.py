@@ -38,11 +38,11 @@ def photo_path(tmp_path: Path, camera_scene: Scene) -> Path:
     return path
 
 
-def choose_square_wave(application: Application) -> None:
+def choose_lamp(application: Application) -> None:
     """Enter what the lamp of the photo sends."""
     form = application.view("photo").form
-    form.sent.show_key("square")
-    form.square.set_value(SENT["switching_frequency"] / 2)
+    form.sent.show_key("lamp")
+    form.lamp.set_value(SENT["switching_frequency"] / 2)
 
 
 @pytest.fixture
@@ -51,7 +51,7 @@ def matched(
 ) -> Application:
     application.files.open_photo(photo_path)
     user.wait_until_idle()
-    choose_square_wave(application)
+    choose_lamp(application)
     user.choose("&Match photo")
     return application
 
@@ -146,7 +146,7 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
     user.wait_until_idle()
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
-    choose_square_wave(application)
+    choose_lamp(application)
     user.choose("&Match photo")
     assert all(actions[name].isEnabled() for name in with_match)
     application.photos.close()

@@ -69,13 +69,13 @@ def test_a_step_about_a_photo_shows_its_verdict_and_treats_its_frequency_as_cert
     application: Application, guide: LessonView, user: User
 ) -> None:
     story, photo = application.story, application.view("photo")
-    choose_sent(application, "square")  # of the user's own photo before
+    choose_sent(application, "lamp")  # of the user's own photo before
     guide.list.choices[5].click()
-    for frequency in (2e3, 6e3):
+    for known in ({"lamp_frequency": 1e3}, {"switching_frequency": 6e3}):
         user.wait_until_idle()
         assert photo.form.sent.key() == "auto"
         assert photo.form.certain.isChecked()
-        assert application.photos.choice.certain == {"switching_frequency": frequency}
+        assert application.photos.choice.certain == known
         assert photo.verdict.isVisible()
         assert not story.verdict.isVisible()
         guide.step.next.click()

@@ -63,7 +63,7 @@ def matched(
     """Open a photo and match it, as if with a known LED."""
     application.files.open_photo(photo_file)
     user.wait_until_idle()
-    application.view("photo").form.sent.show_key("square")
+    application.view("photo").form.sent.show_key("lamp")
     application.shell.pane("photo").match()
     user.wait_until_idle()
     assert application.shell.pane("photo").matching.match is not None

@@ -34,7 +34,7 @@ def everything_set() -> Workspace:
     scene = Scene().replace(iso=321.0)
     photo = PhotoChoice(
         HERE, LoadOptions("lines", "green"), parts={PhotoFrame(HERE): Region(1, 20, 3, 40)},
-        form=MatchChoice("square", 750.0, "switching_frequency", fit_gamma=True),
+        form=MatchChoice("lamp", 750.0, "switching_frequency", fit_gamma=True),
         certain={"readout_time": 8e-6},
     )  # fmt: skip
     recording = Recording(
@@ -74,7 +74,7 @@ DAMAGED: list[tuple[tuple[str, ...], object]] = [
     (("room", "photo"), "/nowhere/room.jpg"),
     (("photo", "load_options", "channel"), "infrared"),
     (("photo", "form", "sent"), "?"),
-    (("photo", "form", "square_frequency"), -1.0),
+    (("photo", "form", "lamp_frequency"), -1.0),
     (("photo", "form", "fit_gamma"), 2),
     (("photo", "certain", "iso"), 100.0),
     (("photo", "certain", "readout_time"), "8"),
@@ -135,6 +135,20 @@ def test_names_of_a_former_version_are_read() -> None:
     record["photo"]["reading"] = record["photo"].pop("load_options")
     record["view"]["whose"] = record["view"].pop("picture_kind")
     assert not_none(read_session(record)).workspace == workspace
+
+
+@pytest.mark.parametrize(("stated", "sent"), [("square", "lamp"), ("auto", "auto")])
+def test_a_lamp_that_was_a_square_wave_in_a_former_session_is_read(stated: str, sent: str) -> None:
+    record: Any = make_record(KeptSession(everything_set()))
+    record["photo"]["form"] |= {"sent": stated, "square_frequency": 750.0}
+    del record["photo"]["form"]["lamp_frequency"]
+    record["photo"]["certain"] = {"switching_frequency": 1500.0}
+    photo = not_none(read_session(record)).workspace.photo
+    assert (photo.form.sent, photo.form.lamp_frequency) == (sent, 750.0)
+    name, value = ("lamp_frequency", 750.0) if sent == "lamp" else ("switching_frequency", 1500.0)
+    assert photo.certain == {name: value}
+    record["photo"]["form"]["square_frequency"] = -1.0
+    assert not_none(read_session(record)).workspace.photo.form == MatchChoice()
 
 
 LONG_NUMBER = "9" * 4000

@@ -278,7 +278,7 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
     bench.photos.open(sample)
     bench.wait_until_idle()
-    bench.choose_sent("square")
+    bench.choose_sent("lamp")
     sheet.click()
     for _ in range(2):
         guide.step.next.click()
@@ -291,7 +291,7 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     guide.step.all.click()
     bench.wait_until_idle()
     assert bench.photos.path == sample
-    assert bench.photos.choice.form.sent == "square"
+    assert bench.photos.choice.form.sent == "lamp"
 
 
 def test_a_step_about_a_photo_reports_no_change_when_its_match_is_applied() -> None:

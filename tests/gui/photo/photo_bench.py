@@ -19,7 +19,7 @@ from occ_gui.values.choices import MatchChoice, PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
-from occ_model.results.match import Match
+from occ_model.results.match import Match, known_value
 from occ_model.scene.scene import Scene
 
 
@@ -118,5 +118,5 @@ class LiveView(PhotoView):
         if match is None or self._photo is None:
             self.show_match(None)
             return
-        given = 0.0 if self._scene is None else float(self._scene.value(match.known))
+        given = ("", 0.0) if self._scene is None else known_value(match.estimate, self._scene)
         self.show_match(FoundMatch(None, match, given), cure or cure_of_match(match))

@@ -25,7 +25,6 @@ from occ_model.results.match import Match
 from occ_model.results.photo_table import PhotoRow
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import SQUARE_WAVE
 
 PATIENCE_S = 10.0
 DAY = date(2026, 1, 31)
@@ -107,18 +106,18 @@ def test_a_match_of_what_was_chosen_is_announced_from_its_start_to_its_result(
     }]  # fmt: skip
 
 
-def test_a_square_wave_is_two_chips_a_cycle(bench: Bench, small_scene: Scene) -> None:
-    bench.start(sent="square", square_frequency=1234.5)
+def test_a_lamp_of_any_duty_is_asked_for(bench: Bench, small_scene: Scene) -> None:
+    bench.start(sent="lamp", lamp_frequency=1234.5)
     (asked,) = bench.asked
     # As the shell's --led-frequency asks for it: a lamp dimmed by its pulses' width blinks, too.
     assert asked["sent"] == "auto"
-    assert asked["scene"] == small_scene.replace(pattern=SQUARE_WAVE, switching_frequency=2469.0)
+    assert asked["scene"] == small_scene.replace(light="lamp", lamp_frequency=1234.5, duty=0.5)
 
 
-def test_an_impossible_square_wave_is_refused_with_a_sentence(bench: Bench) -> None:
-    bench.start(sent="square", square_frequency=1e12)
+def test_an_impossible_lamp_is_refused_with_a_sentence(bench: Bench) -> None:
+    bench.start(sent="lamp", lamp_frequency=1e12)
     (sentence,) = bench.failures
-    assert sentence.startswith("Switching frequency is ")
+    assert sentence.startswith("Lamp frequency is ")
     assert bench.asked == []
     bench.events.clear()
     bench.show_photo(None)
@@ -229,7 +228,7 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
     row = PhotoRow(photo.path, "sure", "", match_with())
 
     def show_listed(options: LoadOptions) -> None:
-        listed = ListedRows((row,), options, 1e4)
+        listed = ListedRows((row,), options, ("switching_frequency", 1e4))
         bench.results_store.put(replace(bench.results_store.results, listed=listed))
 
     show_listed(LoadOptions("lines"))
@@ -252,7 +251,7 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
 def test_applying_puts_what_was_found_into_the_scene_as_one_step(
     bench: Bench, small_scene: Scene
 ) -> None:
-    bench.start(sent="square")
+    bench.start(sent="lamp")
     assert bench.scenes.scene == small_scene
     bench.controller.apply()
     assert bench.controller.match is not None
@@ -289,15 +288,15 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_saved_match_records_values_photo_date_uncertainty_and_the_inputs_it_was_made_with(
     bench: Bench, own: Path
 ) -> None:
-    bench.start(sent="square", square_frequency=1000.0)
-    bench.choose(certain={"switching_frequency": 2000.0})
+    bench.start(sent="lamp", lamp_frequency=1000.0)
+    bench.choose(certain={"lamp_frequency": 1000.0})
     assert bench.controller.save("my phone", "Measured from stripes.png", DAY)
     assert (own / "my phone.toml").is_file()
     preset = preset_named("my phone")
     assert bench.controller.match is not None
     assert preset.scene == bench.controller.match.scene
     source = preset.sources["readout_time"]
-    for part in ("±2.0 ns", "photo stripes.png", "2026-01-31", "switching frequency being 2 kHz"):
+    for part in ("±2.0 ns", "photo stripes.png", "2026-01-31", "lamp frequency being 1 kHz"):
         assert part in source
     assert "±300 ns" in preset.sources["exposure_time"]
     assert "pattern" not in preset.sources

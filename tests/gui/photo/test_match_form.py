@@ -20,49 +20,51 @@ from occ_model.results.match import Match
 def test_every_option_of_the_models_match_can_be_chosen(view: LiveView) -> None:
     sent = [view.form.sent.itemData(place) for place in range(view.form.sent.count())]
     estimates = [view.form.estimate.itemData(p) for p in range(view.form.estimate.count())]
-    assert set(sent) == {*PATTERN_SOURCES, "square"}
+    assert set(sent) == {*PATTERN_SOURCES, "lamp"}
     assert estimates == list(ESTIMATES)
 
 
 def test_the_button_asks_for_a_match_as_it_is_chosen(view: LiveView, qtbot: QtBot) -> None:
     asked = collect(view.form.asked)
     qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
-    choose(qtbot, view.form.sent, "square")
+    choose(qtbot, view.form.sent, "lamp")
     choose(qtbot, view.form.estimate, "switching_frequency")
     view.form.gamma.click()
-    view.form.square.selectAll()
-    qtbot.keyClicks(view.form.square, "1.5 kHz")
+    view.form.lamp.selectAll()
+    qtbot.keyClicks(view.form.lamp, "1.5 kHz")
     qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
-    assert asked == [MatchChoice(), MatchChoice("square", 1500.0, "switching_frequency", True)]
+    assert asked == [MatchChoice(), MatchChoice("lamp", 1500.0, "switching_frequency", True)]
 
 
 def test_what_is_known_beside_the_estimate_is_shown(view: LiveView, qtbot: QtBot) -> None:
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
-    assert view.form.hint.text() == "chip rate; an LED that only blinks does so at 3.5 kHz"
-    for key in ("scene", "read", "auto", "square"):
+    assert view.form.hint.text() == "chips or levels per second"
+    for key in ("scene", "read", "auto", "lamp"):
         choose(qtbot, view.form.sent, key)
-        assert view.form.square.isVisible() == (key == "square")
-    assert (frequency.text(), frequency.isEnabled()) == ("2 kHz", False)
-    assert view.form.hint.text() == "two chips per cycle at 1 kHz"
+        assert view.form.lamp.isVisible() == (key == "lamp")
+    lamp = view.form.known["lamp_frequency"]
+    assert (lamp.text(), lamp.isVisible(), lamp.isEnabled()) == ("1 kHz", True, False)
+    assert not frequency.isVisible()
+    assert not view.form.hint.isVisible()
     choose(qtbot, view.form.estimate, "switching_frequency")
     assert (readout.text(), frequency.isVisible()) == ("9 µs", False)
     assert not view.form.hint.isVisible()
 
 
-def test_choosing_a_square_wave_confirms_its_frequency_until_another_choice(
+def test_choosing_a_lamp_confirms_its_frequency_until_another_choice(
     view: LiveView, qtbot: QtBot
 ) -> None:
     assert not view.form.certain.isChecked()
-    choose(qtbot, view.form.sent, "square")
-    assert view.choice.certain == {"switching_frequency": 2e3}
+    choose(qtbot, view.form.sent, "lamp")
+    assert view.choice.certain == {"lamp_frequency": 1e3}
     view.form.certain.click()
     assert not view.form.certain.isChecked()
-    view.form.square.selectAll()
-    qtbot.keyClicks(view.form.square, "1.5 kHz\r")
+    view.form.lamp.selectAll()
+    qtbot.keyClicks(view.form.lamp, "1.5 kHz\r")
     assert view.form.certain.isChecked()
-    assert view.choice.certain == {"switching_frequency": 3e3}
+    assert view.choice.certain == {"lamp_frequency": 1.5e3}
     choose(qtbot, view.form.sent, "auto")
     assert view.choice.certain == {}
     assert not view.form.certain.isChecked()
@@ -154,7 +156,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
         lambda name, value, _: view.show_scene(occ.Scene().replace(**{name: value}))
     )
     refused = collect(view.refused)
-    fields = {"auto": view.form.known["switching_frequency"], "square": view.form.square}
+    fields = {"auto": view.form.known["switching_frequency"], "lamp": view.form.lamp}
     for sent, field in fields.items():
         choose(qtbot, view.form.sent, sent)
         shown, notice = field.text(), view.form.notices[field]
@@ -178,19 +180,19 @@ def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
 def test_a_value_certain_for_one_photo_is_only_assumed_for_the_next(
     view: LiveView, photo: Photo, qtbot: QtBot, how: str
 ) -> None:
-    choose(qtbot, view.form.sent, "square")
+    choose(qtbot, view.form.sent, "lamp")
     assert view.form.certain.isChecked()
     assert "assumed" not in view.form.hint.text()
     others = [Path("b.png"), Path("c.png")]
     if how == "several photos":
         view.many.show_files(others)
     view.open(replace(photo, path=others[0]))
-    assert (view.form.sent.key(), view.form.certain.isChecked()) == ("square", False)
+    assert (view.form.sent.key(), view.form.certain.isChecked()) == ("lamp", False)
     assert view.form.hint.isVisible()
     assert "Only assumed here" in view.form.hint.text()
     choose(qtbot, view.form.sent, "auto")  # the scene's frequency was never confirmed
     assert "assumed" not in view.form.hint.text()
-    choose(qtbot, view.form.sent, "square")
+    choose(qtbot, view.form.sent, "lamp")
     assert view.form.certain.isChecked()
     view.form.certain.click()
     view.form.certain.click()

@@ -77,7 +77,7 @@ def test_every_lamp_has_an_outline_with_its_number_above_it_and_a_row(bench: Ben
     table = bench.form.table
     assert len(bench.outlines.items) == table.rowCount() == len(LAMPS)
     texts = [[not_none(table.item(row, column)).text() for column in range(4)] for row in range(3)]
-    assert texts[0] == ["1", "10\u201339", "10.000 ± 0.010", "6.0"]
+    assert texts[0] == ["1", "10\u201339", "20.000 ± 0.020", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
     tip = not_none(table.item(2, 3)).toolTip()
@@ -255,9 +255,17 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     many.show_row(0, row, 1)
     is_marked = many.rows.data(many.rows.index(0, 0), Qt.ItemDataRole.BackgroundRole) is not None
     assert is_marked, "it is the photo that is open"
-    listed = replace(bench.results_store.results, listed=ListedRows((row,), LoadOptions(), 1e4))
+    listed = replace(
+        bench.results_store.results,
+        listed=ListedRows((row,), LoadOptions(), ("switching_frequency", 1e4)),
+    )
     document = not_none(listed.document)
-    own = replace(listed, document=replace(document, found=FoundMatch(None, match_with(), 1e4)))
+    own = replace(
+        listed,
+        document=replace(
+            document, found=FoundMatch(None, match_with(), ("switching_frequency", 1e4))
+        ),
+    )
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):
         bench.results_store.put(results)
         assert ("earlier match" in many.rows.text(0, VERDICT)) == is_earlier

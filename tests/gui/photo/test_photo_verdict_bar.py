@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from gui.kinds import collect
 from gui.photo.photo_bench import LiveView
+from matches import match_of_lamp
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -53,11 +54,11 @@ def test_a_sure_match_says_what_was_found_and_what_it_depends_on(
     assert "readout time 14.57770 ± 0.00027 µs" in said
     assert "exposure time 62.50 ± 0.21 µs" in said
     assert "If f = 2 kHz" in said
-    view.show_matched(replace(match, pattern="10"))  # named by the lamp's own frequency
-    assert "If it is a lamp of 1 kHz (2 kHz chips): readout" in bar.accessibleDescription()
-    dimmed = replace(match, pattern="1" * 30 + "0" * 20, switching_frequency=50e3)
-    view.show_matched(dimmed)  # its duty was fitted in fiftieths of a cycle
-    assert "If it is a lamp of 1 kHz (50 kHz chips): readout" in bar.accessibleDescription()
+    view.show_matched(match_of_lamp())  # named by the lamp's own frequency
+    assert "If it is a lamp of 1 kHz: readout" in bar.accessibleDescription()
+    dimmed = match_of_lamp(0.6, uncertainties={**match.uncertainties, "duty": 0.01})
+    view.show_matched(dimmed)
+    assert ", duty 60.0 ± 1.0 %." in bar.accessibleDescription()
     view.show_matched(replace(match, reasons=REASONS))
     assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
     assert f"{REASONS[0]} And 1 more reason." in bar.accessibleDescription()
@@ -120,7 +121,7 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
     view.verdict.show_ended([PLAIN_STRIPES, "They repeat after 40.0 columns."])
     assert not bar.step.isHidden()
     qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
-    assert [one.sent for one in asked] == ["square"]
+    assert [one.sent for one in asked] == ["lamp"]
     assert not view.form.certain.isChecked()
     view.show_match_running(True)
     assert bar.step.isHidden()

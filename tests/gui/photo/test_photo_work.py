@@ -83,7 +83,7 @@ class Bench(PhotoBench):
 
     def show_match(self, stripes: Stripes, scene: occ.Scene | None = None) -> None:
         match = match_with(scene=scene or occ.Scene(), stripes=stripes, profile=stripes.profile)
-        self.change(found=FoundMatch(None, match, 1e4))
+        self.change(found=FoundMatch(None, match, ("switching_frequency", 1e4)))
 
     def set_enhanced(self, enhanced: bool) -> None:
         self.store.put(replace(self.store.workspace, is_enhanced=enhanced))

@@ -31,7 +31,7 @@ def states(photo: Photo, snapshot_of: SnapshotOf) -> dict[str, tuple[Workspace, 
     source = PhotoSource(Path("a.png"), LoadOptions(), 1)
     document = PhotoDocument(photo, source)
     workspace, results = Workspace(Scene()), Results(document=document)
-    found = replace(document, found=FoundMatch(None, None, 1e4, ("No.",)))
+    found = replace(document, found=FoundMatch(None, None, ("switching_frequency", 1e4), ("No.",)))
     return {
         "nothing": (workspace, results),
         "pane": (replace(workspace, is_enhanced=True), replace(results, listed=None)),

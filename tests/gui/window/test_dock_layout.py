@@ -144,8 +144,8 @@ def pages(application: Application) -> Iterator[str]:
 def show_all_of_photo(application: Application) -> None:
     """Show a running match, a failure, and the result of the match before."""
     photo = application.view("photo")
-    photo.form.sent.show_key("square")
-    photo.form.sent.chosen.emit("square")
+    photo.form.sent.show_key("lamp")
+    photo.form.sent.chosen.emit("lamp")
     photo.result.show()
     photo.verdict.show_ended(["No scene explains the stripes of this photo at all. " * 4])
     photo.form.show_running(True)

@@ -8,7 +8,7 @@ from typing import NoReturn
 import numpy as np
 import pytest
 from interruption import interrupted
-from matches import match_with
+from matches import match_of_lamp, match_with
 from PIL import Image
 
 import occ_model as occ
@@ -148,10 +148,10 @@ def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
     monkeypatch.setattr(match_many, "match_photos", match_lamps_of)
     one = ["match", *map(str, paths), "--led-frequency", "2.5kHz", "--jobs", "1", "--out", str(out)]
     assert main([*one, "--known", "a=b.png=4kHz"]) == 0
-    assert asked == [{1: 8e3}]
+    assert asked == [{1: 4e3}]
     said = capsys.readouterr().out.splitlines()
-    assert ["given: 8 kHz" in line for line in said[:2]] == [False, True]
-    assert "f = 8 kHz, given" in out.read_text()
+    assert ["given: 4 kHz" in line for line in said[:2]] == [False, True]
+    assert "F = 4 kHz, given" in out.read_text()
 
 
 SAMPLE = resource_path("photos") / "packets-6khz.jpg"
@@ -186,7 +186,7 @@ def test_the_cameras_exposure_is_below_the_fitted_one(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sample = SAMPLE.with_name("led-1khz.jpg")
-    found = match_with(pattern="10", pattern_was_read=False, exposure_time=68.5e-6)
+    found = match_of_lamp(pattern_was_read=False, exposure_time=68.5e-6)
     monkeypatch.setattr(match, "match_photo", lambda *_, **__: found)
     out = print_lines(capsys, sample, "--led-frequency", "1kHz")
     names = [line[:22].strip() for line in out.splitlines()]
@@ -194,6 +194,7 @@ def test_the_cameras_exposure_is_below_the_fitted_one(
     assert names[place + 1] == "noted by the camera"
     lines = lines_of(out)
     assert lines["noted by the camera"] == "68 µs"
-    assert lines["duty"] == "lit for 50 % of a period (given)"
+    assert lines["duty cycle"] == "50 % (given)"
     assert lines["exposure_time"].startswith("68.5")
-    assert float(lines["exposure in chips"]) == pytest.approx(68.5e-6 * 2e3, rel=5e-3)
+    assert float(lines["exposure in periods"]) == pytest.approx(68.5e-6 * 1e3, rel=5e-3)
+    assert "chip" not in out

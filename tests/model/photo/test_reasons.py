@@ -124,12 +124,12 @@ def chips(pattern: str, columns: int, noise: float) -> occ.Photo:
 
 
 def test_chips_that_were_read_are_not_said_to_be_unread() -> None:
-    """A square wave of a stated frequency is read as one, and is not taken for another."""
+    """A lamp of a stated frequency is read as one, and is not taken for another."""
     photo = chips("10", 250, noise=10.0)
     (said,) = refused(photo, KNOWN)
     assert re.search(r"what the scene sends than by chance by \d\d bits only; at least 30", said)
     (read,) = refused(photo, KNOWN, sent="read")
-    assert "explained by 2 chips read from the photo than by chance" in read
+    assert "explained by a lamp with a duty of 50 % read from the photo than by chance" in read
 
 
 def test_chips_that_are_not_read_are_said_to_be_unread(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,7 +141,7 @@ def test_chips_that_are_not_read_are_said_to_be_unread(monkeypatch: pytest.Monke
     )
     assert float(period[1]) == pytest.approx(300.0, abs=1.0)
     assert not any("no sequence" in why for why in refused(photo, told, sent="scene"))
-    # Who has stated a square wave is not asked what is sent.
+    # Who has stated a lamp is not asked what is sent.
     unread, *_ = refused(photo, KNOWN)
     assert "no sequence" in unread
     assert "say what is sent" not in unread
@@ -195,7 +195,7 @@ JUDGED: dict[str, tuple[dict[str, Any], str | None]] = {
         {"blinks": False, "left": SHAPE}, "A wave of another shape that repeats as often"),
     "no other shape": ({"blinks": False}, None),
     "another shape where a lamp blinks": ({"left": SHAPE}, None),
-    "plain stripes": ({"blinks": False, "sent": "1100"}, "state that it sends a square wave"),
+    "plain stripes": ({"blinks": False, "sent": "1100"}, "state that a lamp is sent"),
     "a lamp that blinks": ({"blinks": True, "sent": "1100"}, None),
 }  # fmt: skip
 

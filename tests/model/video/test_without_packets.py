@@ -1,4 +1,4 @@
-"""A film without packets is described: square waves and their clock, bursts, blinking frames."""
+"""A film without packets is described: lamps and their clock, bursts, blinking frames."""
 
 import re
 
@@ -47,13 +47,13 @@ def read(pictures: list[np.ndarray]) -> VideoReading:
 @pytest.mark.parametrize(
     ("chips", "chip_rate"), [("10", 2345.0), ("1110000000", 6000.0), ("1111111100", 5123.0)]
 )
-def test_a_square_wave_or_pulse_gives_its_clock(chips: str, chip_rate: float) -> None:
+def test_a_lamp_gives_its_clock(chips: str, chip_rate: float) -> None:
     found = read([stripes(number, chips, chip_rate) for number in range(8)])
-    assert found.failure.startswith("The lamp sends a plain square wave or pulse: its stripes")
+    assert found.failure.startswith("A lamp is lit once in each period: its stripes")
     assert "header" not in found.failure
-    frequency, readout = found.clock.switching_frequency, found.clock.readout_time
-    cycles = 2.0 * chip_rate / len(chips)
-    others = [frequency.value, *(one for one, _ in found.clock.alternatives)]
+    frequency, readout = found.clock.lamp_frequency, found.clock.readout_time
+    cycles = chip_rate / len(chips)
+    others = [frequency.value, *(0.5 * one for one, _ in found.clock.alternatives)]
     assert min(abs(one - cycles) for one in others) < 4.0 * frequency.error + 1e-6 * cycles
     if len(others) == 1:
         assert readout.value == pytest.approx(READOUT, abs=3.0 * readout.error)
@@ -64,7 +64,7 @@ def test_the_failure_of_an_overexposed_film_states_the_overexposure() -> None:
     frames = [stripes(number, "10", 2345.0) for number in range(8)]
     dim, bright = read(frames), read([4.0 * frame for frame in frames])
     assert "Overexposed" not in dim.failure
-    assert bright.failure.startswith("The lamp sends a plain square wave or pulse")
+    assert bright.failure.startswith("A lamp is lit once in each period")
     assert re.search(r" Overexposed: [3-5]\d % of the panel's columns are white", bright.failure)
 
 
@@ -89,7 +89,7 @@ def test_whole_frames_that_blink_are_described() -> None:
     assert "slow" not in found.failure
 
 
-def test_a_repeated_pattern_is_not_a_square_wave() -> None:
+def test_a_repeated_pattern_is_not_a_lamp() -> None:
     found = read([stripes(number, "1101000", 5000.0) for number in range(6)])
     assert found.failure.startswith("The stripes repeat after 56.")
     assert found.clock is None
@@ -103,5 +103,5 @@ def test_frames_that_show_nothing_and_hardly_change_fail_without_a_description()
 def test_if_nine_of_ten_frames_show_a_pulse_packets_are_not_mentioned() -> None:
     sent = [*["10"] * 9, "1101000"]
     found = read([stripes(number, chips, 5000.0) for number, chips in enumerate(sent)])
-    assert found.failure.startswith("The lamp sends a plain square wave or pulse")
+    assert found.failure.startswith("A lamp is lit once in each period")
     assert found.failure.endswith("No frame contains packets as the scene sends them.")

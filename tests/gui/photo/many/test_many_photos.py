@@ -284,7 +284,7 @@ def bench(view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> Generator[Be
 def test_rows_appear_as_they_are_found_and_then_the_mean(
     bench: Bench, view: ManyPhotosView, qtbot: QtBot
 ) -> None:
-    bench.start(sent="square", square_frequency=1000.0)
+    bench.start(sent="lamp", lamp_frequency=1000.0)
     qtbot.waitUntil(lambda: column(view, VERDICT)[0] == "● sure")
     assert column(view, VERDICT)[1:] == [""] * 5
     assert not view.start.isEnabled()
@@ -292,7 +292,9 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
         bench.go_on.set()
     (settings,) = bench.settings
     assert (settings.sent, settings.scan_axis, settings.channel) == ("auto", "lines", "green")
-    assert settings.scene.transmitter.switching_frequency == 2e3
+    assert (settings.scene.transmitter.light, settings.scene.transmitter.lamp_frequency) == (
+        "lamp", 1e3,
+    )  # fmt: skip
     assert bench.controller.table is not None
     assert bench.controller.table.rows == ROWS
     assert view.mean.text()

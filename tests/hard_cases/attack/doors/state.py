@@ -47,7 +47,7 @@ def session_text() -> str:
     settings = SimulationSettings(tolerance=0.5, force={"vignetting": False}, seed=3)
     with TemporaryDirectory() as folder:
         file = SessionFile(Path(folder))
-        path, form = Path(__file__), MatchChoice("square", 500.0, "switching_frequency")
+        path, form = Path(__file__), MatchChoice("lamp", 500.0, "switching_frequency")
         room = load_room("hall").replace(x=1.0, y=-2.0)
         there = RoomChoice("hall", room, path, 0.026)
         moved = replace(there, room=room.replace(y=1.0), photo=None)

@@ -92,11 +92,9 @@ def test_stripes_that_do_not_repeat_are_not_read() -> None:
 
 @pytest.mark.parametrize(
     ("changes", "name"),
-    [({"code": 345}, "the code 0101011001"), ({"pattern": "110100"}, "6 chips")],
+    [({"code": 345}, "the code 0101011001"), ({"pattern": "110100"}, "a code of 6 chips")],
 )
-def test_chips_are_named_by_their_code_or_by_their_number(
-    changes: dict[str, Any], name: str
-) -> None:
+def test_chips_are_named_by_their_code_or_as_one(changes: dict[str, Any], name: str) -> None:
     found = Case(NEAR.replace(**changes), told=NEAR).candidates.read()
     assert max(found, key=lambda one: one.fit.correlation).sent == f"{name} read from the photo"
 

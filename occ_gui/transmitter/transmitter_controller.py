@@ -6,6 +6,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.task import Task
+from occ_gui.core.store import NO_GESTURE
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Service
@@ -134,7 +135,7 @@ class TransmitterController(Service):
             self.dialog.show_refusal(str(error))
             return
         facts = " ".join(frequency_lines(self._sent))
-        self.dialog.show_sent(facts, differs=not self._sent.timing.is_as_asked)
+        self.dialog.show_sent(facts, differs=not self._sent.is_as_asked)
         self.drawing.ask(self._sent)
 
     def _show_wiring(self, drawn: WiringDrawing) -> None:
@@ -148,7 +149,7 @@ class TransmitterController(Service):
 
     def _take_frequency(self) -> None:
         if self._sent is not None:
-            self._store.change(switching_frequency=float(self._sent.timing.frequency))
+            self._store.change(NO_GESTURE, **self._sent.sent_values)
 
     def ask_to_save(self) -> None:
         """Ask where to make the new folder, and save the files there."""

@@ -7,9 +7,9 @@ exact to a cycle of the clock, however late the interrupt runs.
 from dataclasses import replace
 from string import Template
 
-from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.board import LampTimer, TransmitterBoard
 from occ_model.boards.chip_table import c_table, head_comment
-from occ_model.boards.transmission import Transmission
+from occ_model.boards.transmission import LampTransmission, Transmission
 from occ_model.scene.units import HERTZ
 
 _CLOCK_SELECT = {  # bits of TCCR1B by prescaler: ATmega328P data sheet, table 16-5
@@ -30,6 +30,14 @@ UNO = TransmitterBoard(
     largest_count=65_536,
     least_cycles=128,
     limit_reason="its interrupt takes about 100 of the clock's cycles for each chip",
+    # In fast PWM the timer counts from 0 to TOP, which is at least 3 (data sheet, 16.9.3).
+    lamp_timer=LampTimer(
+        prescalers=tuple(_CLOCK_SELECT),
+        least_count=4,
+        largest_count=65_536,
+        least_part=1,
+        limit_reason="its timer counts at least 4 cycles",
+    ),
     pin="pin 9",
     ground="GND",
     volts=5.0,
@@ -104,16 +112,49 @@ void loop() { sleep_cpu(); }
 """)
 
 
+_LAMP_SKETCH = Template("""\
+$head
+
+#include <avr/interrupt.h>
+#include <avr/io.h>
+
+// Timer 1 counts $counted.
+// It counts from 0 to TOP and then starts again: a period lasts TOP + 1 counts. Its output OC1A,
+// $pin, is lit from 0 on until it has counted COMPARE + 1 of them ("fast PWM", mode 14).
+const uint8_t CLOCK_SELECT = $clock_select;
+const uint16_t TOP = $count - 1;
+const uint16_t COMPARE = $lit - 1;
+
+void setup() {
+  cli();
+  TIMSK0 = 0;                          // no interrupts: millis() and delay() stand still
+  TIMSK1 = 0;
+  TCCR1A = 0;                          // not running, and not yet comparing
+  TCCR1B = 0;
+  OCR1A = COMPARE;
+  TCCR1A = _BV(COM1A1) | _BV(WGM11);
+  TCCR1B = _BV(WGM13) | _BV(WGM12);
+  ICR1 = TOP;                          // it can be written only in such a mode
+  TCNT1 = 0;
+  DDRB |= _BV(DDB1);                   // $pin is an output
+  TCCR1B = _BV(WGM13) | _BV(WGM12) | CLOCK_SELECT;  // go
+}
+
+void loop() {}
+""")
+
+
 def arduino_sketch(sent: Transmission) -> str:
     """Write the sketch in C++ for the Arduino IDE, or for avr-g++ with a ``main`` added."""
     timing = sent.timing
     clock = f"the cycles of the {HERTZ.format(timing.clock)} clock"
-    return _SKETCH.substitute(
-        head=head_comment(sent, "//"),
-        chips=len(sent.chips),
-        table=c_table(sent.chips),
-        counted=clock if timing.prescaler == 1 else f"every {timing.prescaler}th of {clock}",
-        clock_select=_CLOCK_SELECT[timing.prescaler],
-        count=timing.count,
-        pin=sent.board.pin,
-    )
+    words: dict[str, object] = {
+        "head": head_comment(sent, "//"),
+        "counted": clock if timing.prescaler == 1 else f"every {timing.prescaler}th of {clock}",
+        "clock_select": _CLOCK_SELECT[timing.prescaler],
+        "count": timing.count,
+        "pin": sent.board.pin,
+    }
+    if isinstance(sent, LampTransmission):
+        return _LAMP_SKETCH.substitute(words, lit=sent.timing.lit_count)
+    return _SKETCH.substitute(words, chips=len(sent.chips), table=c_table(sent.chips))

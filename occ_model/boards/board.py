@@ -11,6 +11,17 @@ LED_CURRENT = 0.010  # current of a single LED in A, half of what common ones be
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LampTimer:
+    """How a board blinks a lamp: ``prescaler * count`` cycles of its clock a period."""
+
+    prescalers: tuple[int, ...]
+    least_count: int
+    largest_count: int
+    least_part: int  # Fewest counts for the lit and for the dark part
+    limit_reason: str  # Why there must not be fewer for a period, as the end of a sentence
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TransmitterBoard:
     """A microcontroller board; a chip lasts ``prescaler * count`` cycles of its clock."""
 
@@ -23,6 +34,7 @@ class TransmitterBoard:
     largest_count: int  # Largest number of divided cycles that the timer can count
     least_cycles: int  # Fewest cycles of the clock for a chip
     limit_reason: str  # Why there must not be fewer, as the end of a sentence
+    lamp_timer: LampTimer
     # The board's labels of the pin that blinks and of its ground
     pin: str
     ground: str

@@ -5,8 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.boards.transmission import Transmission
+from occ_model.boards.transmission import LampTransmission, Transmission
 from occ_model.errors import one_line
+from occ_model.scene.light_words import describe_light
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Transmitter
 from occ_model.scene.units import HERTZ
 from occ_model.version import __version__
@@ -41,12 +43,20 @@ def head_comment(sent: Transmission, mark: str) -> str:
 
     No line ends with the user's text, since a backslash at its end would continue the comment.
     """
+    if isinstance(sent, LampTransmission):
+        purpose = "shows stripes"
+        content = [f"Blinks as a {describe_light(sent.sent_scene.transmitter)}."]
+    else:
+        purpose = "can read it"
+        content = [
+            *_content_lines(sent.scene.transmitter),
+            f"Packet: {len(sent.chips):,} chips, sent repeatedly.",
+            *_chip_lines(sent.chips),
+        ]
     lines = [
-        f"Blinks an LED so that a rolling-shutter camera can read it: {sent.board.title}.",
+        f"Blinks an LED so that a rolling-shutter camera {purpose}: {sent.board.title}.",
         "",
-        *_content_lines(sent.scene.transmitter),
-        f"Packet: {len(sent.chips):,} chips, sent repeatedly.",
-        *_chip_lines(sent.chips),
+        *content,
         *frequency_lines(sent),
         "",
         f"Written by occ_model {__version__}.",
@@ -78,11 +88,25 @@ def frequency_lines(sent: Transmission) -> list[str]:
     """State the sent frequency, its error by rounding, and the possible error of the clock."""
     timing = sent.timing
     asked = "as asked"
-    if not timing.is_as_asked:
+    if float(timing.frequency) != float(timing.asked):
         error, wanted = float(timing.error_ppm), HERTZ.format(float(timing.asked), 9)
         asked = f"{error:+.3g} ppm from the {wanted} asked"
     return [
-        f"Switching frequency: {HERTZ.format(float(timing.frequency), 9)}, {asked}:",
-        f"a chip lasts {timing.cycles:,} cycles of the {HERTZ.format(timing.clock)} clock, which "
-        f"may be off by up to {sent.board.clock_error:,.0f} ppm.",
+        f"{sent.frequency.capitalize()}: {HERTZ.format(float(timing.frequency), 9)}, {asked}:",
+        f"a {sent.unit} lasts {timing.cycles:,} cycles of the {HERTZ.format(timing.clock)} clock, "
+        f"which may be off by up to {sent.board.clock_error:,.0f} ppm.",
+        *(_lit_lines(sent) if isinstance(sent, LampTransmission) else ()),
+    ]
+
+
+def _lit_lines(sent: LampTransmission) -> list[str]:
+    timing, lamp = sent.timing, sent.scene.transmitter
+    name, value = list(sent.sent_values.items())[1]
+    unit = quantity(name).unit
+    asked = "as asked"
+    if value != getattr(lamp, name):
+        asked = f"for the {unit.format(getattr(lamp, name), 9)} asked"
+    return [
+        f"It is lit for {timing.lit_cycles:,} of them: {quantity(name).label.lower()} "
+        f"{unit.format(value, 9)}, {asked}."
     ]

@@ -2,14 +2,15 @@
 
 The transmission is endless: a function fills one half of the peripheral's memory while the other
 half is sent. It uses ``driver/rmt_tx.h`` and ``driver/rmt_encoder.h`` of ESP-IDF 5.3, which are in
-the Arduino core 3.1 for the ESP32.
+the Arduino core 3.1 for the ESP32. Lamps are sent so, too: the chip's LED controller divides the
+clock by fractions, which move single edges, and a period has a power of two of its counts.
 """
 
 from string import Template
 
-from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.board import LampTimer, TransmitterBoard
 from occ_model.boards.chip_table import c_table, head_comment
-from occ_model.boards.transmission import Transmission
+from occ_model.boards.transmission import LampTransmission, Transmission
 
 _CLOCK = 80_000_000
 
@@ -28,6 +29,18 @@ ESP32 = TransmitterBoard(
         "the 64 chips that are refilled at a time would then last less than 64 µs (an estimate, "
         "not measured)"
     ),
+    # A period of 32 bits takes as many symbols as it needs. Its parts last longer than 8 cycles,
+    # below which the peripheral of newer chips does not work (their manuals: 3 + 5 cycles).
+    lamp_timer=LampTimer(
+        prescalers=(1,),
+        least_count=160,
+        largest_count=2**32 - 1,
+        least_part=9,
+        limit_reason=(
+            "the 32 periods that are refilled at a time would then last less than 64 µs (an "
+            "estimate, not measured)"
+        ),
+    ),
     pin="GPIO 4",
     ground="GND",
     volts=3.3,
@@ -40,7 +53,7 @@ ESP32 = TransmitterBoard(
     ending=".ino",
 )
 
-_SKETCH = Template("""\
+_INCLUDES = """\
 $head
 //
 // Needs the Arduino core for the ESP32, version 3.1 or later.
@@ -51,6 +64,9 @@ $head
 #include "driver/rmt_encoder.h"
 #include "driver/rmt_tx.h"
 
+"""
+
+_CHIP_SYMBOLS = """\
 // The packet, eight chips to a byte: the first chip is the highest bit of the first byte, and a 1
 // is light.
 const uint32_t CHIPS = $chips;
@@ -80,6 +96,40 @@ static size_t nextSymbols(const void *, size_t, size_t, size_t room, rmt_symbol_
   return room;
 }
 
+"""
+
+_LAMP_SYMBOLS = """\
+// The lamp is lit, then dark, for so many cycles of the peripheral's clock.
+const uint32_t TICKS_PER_SECOND = $resolution;
+const uint32_t PARTS[] = {$lit, $dark};
+
+// RMT asks for the next symbols whenever half of its memory is sent. A symbol is two levels, each
+// with its length of 15 bits: a longer part of the period takes several. It is never done.
+static uint16_t nextTicks(uint16_t *level) {
+  static uint8_t part = 0;
+  static uint32_t left = PARTS[0];
+  const uint16_t ticks = left > 0x7FFF ? 0x4000 : left;
+  *level = part == 0;
+  left -= ticks;
+  if (left == 0) left = PARTS[part = 1 - part];
+  return ticks;
+}
+
+static size_t nextSymbols(const void *, size_t, size_t, size_t room, rmt_symbol_word_t *symbols,
+                          bool *, void *) {
+  for (size_t place = 0; place < room; ++place) {
+    uint16_t level;
+    symbols[place].duration0 = nextTicks(&level);
+    symbols[place].level0 = level;
+    symbols[place].duration1 = nextTicks(&level);
+    symbols[place].level1 = level;
+  }
+  return room;
+}
+
+"""
+
+_SETUP = """\
 void setup() {
   rmt_tx_channel_config_t channelSettings = {};
   channelSettings.gpio_num = GPIO_NUM_4;
@@ -97,21 +147,29 @@ void setup() {
 
   ESP_ERROR_CHECK(rmt_enable(channel));
   rmt_transmit_config_t sendOnce = {};  // one transmission, which has no end
-  ESP_ERROR_CHECK(rmt_transmit(channel, encoder, PACKET, sizeof(PACKET), &sendOnce));
+  ESP_ERROR_CHECK(rmt_transmit(channel, encoder, $data, sizeof($data), &sendOnce));
 }
 
 void loop() {}
-""")
+"""
 
 
 def esp32_sketch(sent: Transmission) -> str:
     """Write the sketch in C++ for the Arduino IDE with the core for the ESP32."""
     timing = sent.timing
-    return _SKETCH.substitute(
-        head=head_comment(sent, "//"),
+    words: dict[str, object] = {
+        "head": head_comment(sent, "//"),
+        "resolution": timing.clock // timing.prescaler,
+    }
+    if isinstance(sent, LampTransmission):
+        lit = sent.timing.lit_count
+        words |= {"lit": lit, "dark": timing.count - lit, "data": "PARTS"}
+        return Template(_INCLUDES + _LAMP_SYMBOLS + _SETUP).substitute(words)
+    return Template(_INCLUDES + _CHIP_SYMBOLS + _SETUP).substitute(
+        words,
         chips=len(sent.chips),
         table=c_table(sent.chips),
-        resolution=timing.clock // timing.prescaler,
         prescaler=timing.prescaler,
         count=timing.count,
+        data="PACKET",
     )

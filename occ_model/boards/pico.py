@@ -2,18 +2,20 @@
 
 The state machine's program is one instruction. The clock's divider is a whole number, so that all
 chips last equally long (RP2040 data sheet, 3.5.5). A queue of 256 chips bridges the gaps between
-turns of the loop.
+turns of the loop. For a lamp it counts cycles by itself: the chip's pulse-width modulation (PWM)
+comes no nearer to a frequency with whole dividers, and with fractions it moves single edges.
 """
 
 from string import Template
 
 import numpy as np
 
-from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.board import LampTimer, TransmitterBoard
 from occ_model.boards.chip_table import head_comment, python_table
-from occ_model.boards.transmission import Transmission, count_repeats
+from occ_model.boards.transmission import LampTransmission, Transmission, count_repeats
 
 _MAX_CYCLES = 32  # an instruction takes one cycle and up to 31 more
+_LAMP_CYCLES = 3  # of a part of a lamp's period, if its loop runs once
 
 PICO = TransmitterBoard(
     name="raspberry-pi-pico",
@@ -27,6 +29,13 @@ PICO = TransmitterBoard(
     least_cycles=125,
     limit_reason=(
         "the queue of 256 chips would then be empty within 256 µs (an estimate, not measured)"
+    ),
+    lamp_timer=LampTimer(
+        prescalers=(1,),
+        least_count=2 * _LAMP_CYCLES,
+        largest_count=2**32,
+        least_part=_LAMP_CYCLES,
+        limit_reason="its program takes 3 cycles for each part of a period",
     ),
     pin="GP15",
     ground="GND",
@@ -101,7 +110,56 @@ while True:
 """)
 
 
+_LAMP_SKETCH = Template("""\
+$head
+#
+# Save it on the Pico as main.py: it then runs whenever the Pico is powered.
+
+import machine
+import rp2
+
+# The lamp is lit, then dark, for so many cycles of the processor's clock, which is also that of the
+# state machine.
+PROCESSOR_HZ = $clock
+LIT = $lit
+DARK = $dark
+
+
+# The state machine blinks by itself. Each part takes the cycles of its loop, which runs once more
+# than the number counted down, one to set the pin and one to take the next number.
+@rp2.asm_pio(set_init=rp2.PIO.OUT_LOW)
+def blink():
+    pull()
+    mov(isr, osr)
+    pull()
+    wrap_target()
+    mov(x, osr)
+    set(pins, 1)
+    label("lit")
+    jmp(x_dec, "lit")
+    mov(x, isr)
+    set(pins, 0)
+    label("dark")
+    jmp(x_dec, "dark")
+    wrap()
+
+
+machine.freq(PROCESSOR_HZ)
+sender = rp2.StateMachine(0, blink, set_base=machine.Pin($pin))
+sender.put(DARK - $cycles)
+sender.put(LIT - $cycles)
+sender.active(True)
+""")
+
+
 def pico_sketch(sent: Transmission) -> str:
+    if isinstance(sent, LampTransmission):
+        lit = sent.timing.lit_count
+        return _LAMP_SKETCH.substitute(
+            head=head_comment(sent, "#"), clock=sent.timing.clock, lit=lit,
+            dark=sent.timing.count - lit, cycles=_LAMP_CYCLES,
+            pin=sent.board.pin.removeprefix("GP"),
+        )  # fmt: skip
     timing, packets = sent.timing, count_repeats(len(sent.chips))
     waits = timing.prescaler - 1
     return _SKETCH.substitute(

@@ -36,9 +36,9 @@ def write_sketch(sent: Transmission) -> str:
 def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
     """Write a complete program that lets a board blink what a scene's transmitter sends.
 
-    The pin repeats :func:`occ_model.packet` without gaps. A chip lasts a whole number of cycles of
-    the board's clock, so that the sent frequency may differ from the scene's; the comment at the
-    head states it and its error.
+    The pin repeats :func:`occ_model.packet` without gaps, or blinks as a lamp or in flashes. A
+    chip, or a lamp's period and its lit part, last whole numbers of cycles of the board's clock, so
+    that what is sent may differ from the scene's; the comment at the head states it and its error.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
     Raises
     ------
     ParameterError
-        There is no such board, it cannot blink that fast or slowly, or the packet does not fit into
-        its memory.
+        There is no such board, it cannot blink that fast or slowly, the light has more levels than
+        lit and dark, or the packet does not fit into its memory.
     PluginError
         A plug-in fails.
     """

@@ -1,91 +1,26 @@
-"""What a board sends for a scene: the chips, how long each lasts, and visible flicker.
+"""What a board sends for a scene: its chips or its lamp's period, and visible flicker.
 
 A chip's length is rounded to whole cycles of the clock, and the error is stated exactly. Spreading
 the fraction over the chips would keep the mean frequency but move single edges by up to half a
 cycle, which cannot be corrected in a photo, whereas the exact frequency can be put into the scene.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import floor
+from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.timing import BoardTiming, LampTiming, choose_lamp_timing, choose_timing
 from occ_model.errors import ParameterError
-from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import HERTZ, SECOND
+from occ_model.scene.units import HERTZ, PERCENT, SECOND
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT
 from occ_model.transmitter.scheme import packet, shortest_period
-
-
-@dataclass(frozen=True, slots=True)
-class BoardTiming:
-    clock: int  # Frequency of the board's clock in Hz
-    prescaler: int
-    count: int  # Divided cycles for a chip
-    asked: Fraction  # The requested switching frequency, in Hz
-
-    @property
-    def cycles(self) -> int:
-        return self.prescaler * self.count
-
-    @property
-    def frequency(self) -> Fraction:
-        """The switching frequency that is sent, in Hz."""
-        return Fraction(self.clock, self.cycles)
-
-    @property
-    def period(self) -> Fraction:
-        return Fraction(self.cycles, self.clock)
-
-    @property
-    def error_ppm(self) -> Fraction:
-        """Relative error of the frequency in parts per million, positive if it is too high."""
-        return (self.frequency / self.asked - 1) * 10**6
-
-    @property
-    def is_as_asked(self) -> bool:
-        """Whether the frequency is the requested one to the precision of a scene's numbers."""
-        return float(self.frequency) == float(self.asked)
-
-
-def choose_timing(board: TransmitterBoard, frequency: float) -> BoardTiming:
-    """Choose the timer's setting with the nearest frequency; among equals the finest timer."""
-    asked = Fraction(frequency)
-    if not board.lowest_frequency <= asked <= board.highest_frequency:
-        raise _refuse_frequency(board, frequency)
-    settings = (
-        BoardTiming(board.clock, prescaler, count, asked)
-        for prescaler in board.prescalers
-        for count in _list_counts(board, prescaler, asked)
-    )
-    return min(settings, key=lambda timing: (abs(timing.error_ppm), timing.prescaler))
-
-
-def _list_counts(board: TransmitterBoard, prescaler: int, asked: Fraction) -> Iterator[int]:
-    """Yield the whole numbers next to the exact count, as far as the board allows them."""
-    below = floor(board.clock / (prescaler * asked))
-    for count in (below, below + 1):
-        if 1 <= count <= board.largest_count and prescaler * count >= board.least_cycles:
-            yield count
-
-
-def _refuse_frequency(board: TransmitterBoard, frequency: float) -> ParameterError:
-    declared = quantity("switching_frequency")
-    low, high = float(board.lowest_frequency), float(board.highest_frequency)
-    why = board.limit_reason if frequency > high else "the timer cannot count longer"
-    return ParameterError.of(
-        declared.name,
-        declared.format(frequency),
-        f"{declared.format(low)} to {declared.format(high)}, since {why}",
-        condition=f"on {board.title}",
-        parameters=(declared.name,),
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,10 +32,33 @@ class Transmission:
     chips: ByteArray  # Shape (chips,): one period in the order sent; 1 is lit
     timing: BoardTiming
 
+    unit: ClassVar = "chip"  # What lasts the timing's period, and its frequency
+    frequency: ClassVar = "switching frequency"
+    repeats: ClassVar = "packet"
+    part: ClassVar = "chip"  # What is lit or dark
+
+    @property
+    def sent_values(self) -> dict[str, float]:
+        """The scene's parameters as they are actually sent."""
+        return {"switching_frequency": float(self.timing.frequency)}
+
     @property
     def sent_scene(self) -> Scene:
-        """The scene with the switching frequency that is actually sent."""
-        return self.scene.replace(switching_frequency=float(self.timing.frequency))
+        """The scene with the values that are actually sent."""
+        return self.scene.replace(**self.sent_values)
+
+    @property
+    def is_as_asked(self) -> bool:
+        """Whether the scene's values are those sent, to the precision of its numbers."""
+        return self.sent_scene == self.scene
+
+    def start_of(self, chip: int) -> int:
+        """Return the clock's cycles before a chip; those of a period for the one after the last."""
+        return chip * self.timing.cycles
+
+    def samples(self, count: int) -> ByteArray:
+        """Return one period in samples, so many in the timing's period; 1 is lit."""
+        return np.repeat(self.chips, count)
 
     @cached_property
     def edges(self) -> tuple[int, ...]:
@@ -112,9 +70,9 @@ class Transmission:
         """Longest time in s without an edge in the repeated period; None if there are no edges."""
         if not self.edges:
             return None
-        following = (*self.edges[1:], self.edges[0] + len(self.chips))
-        runs = (end - start for start, end in zip(self.edges, following, strict=True))
-        return max(runs) * self.timing.period
+        starts = [self.start_of(edge) for edge in self.edges]
+        starts.append(starts[0] + self.start_of(len(self.chips)))
+        return Fraction(max(end - start for start, end in pairwise(starts)), self.timing.clock)
 
     @property
     def lowest_frequency(self) -> Fraction | None:
@@ -129,8 +87,40 @@ class Transmission:
         return self.lowest_frequency is not None and self.lowest_frequency < VISIBLE_LIMIT
 
 
+@dataclass(frozen=True, eq=False)
+class LampTransmission(Transmission):
+    """One period of a lamp that a board blinks: lit, then dark."""
+
+    timing: LampTiming
+
+    unit: ClassVar = "period"
+    frequency: ClassVar = "frequency"
+    repeats: ClassVar = "period"
+    part: ClassVar = "part"
+
+    @property
+    def sent_values(self) -> dict[str, float]:
+        frequency = float(self.timing.frequency)
+        if self.scene.transmitter.light == "pulses":
+            return {"pulse_frequency": frequency, "pulse_length": float(self.timing.lit_time)}
+        return {"lamp_frequency": frequency, "duty": float(self.timing.duty)}
+
+    def start_of(self, chip: int) -> int:
+        return (0, self.timing.lit_cycles, self.timing.cycles)[chip]
+
+    def samples(self, count: int) -> ByteArray:
+        lit = min(max(round(self.timing.duty * count), 1), count - 1)
+        return np.repeat(self.chips, [lit, count - lit])
+
+    @property
+    def lowest_frequency(self) -> Fraction:
+        return self.timing.frequency
+
+
 def prepare_transmission(scene: Scene, board: TransmitterBoard) -> Transmission:
-    """Prepare what a board sends; ParameterError if it cannot send at that frequency or so much."""
+    """Prepare what a board sends; ParameterError if it cannot send that."""
+    if scene.transmitter.light != "code":
+        return _prepare_lamp(scene, board)
     chips = packet(scene)
     room = count_table_bytes(board, len(chips))
     if room > board.table_bytes:
@@ -141,6 +131,40 @@ def prepare_transmission(scene: Scene, board: TransmitterBoard) -> Transmission:
         )
     return Transmission(
         scene, board, chips, choose_timing(board, scene.transmitter.switching_frequency)
+    )
+
+
+def _prepare_lamp(scene: Scene, board: TransmitterBoard) -> LampTransmission:
+    sent, duty, length = scene.transmitter, Fraction(scene.transmitter.duty), None
+    if sent.light == "pulses":
+        name, frequency, length = "pulse_frequency", sent.pulse_frequency, sent.pulse_length
+        if Fraction(length) * Fraction(frequency) >= 1:
+            longest = f"below {SECOND.format(1.0 / frequency)}: others are steady light"
+            raise _refuse(board, "pulse_length", SECOND.format(length), longest)
+    elif sent.light == "lamp":
+        name, frequency = "lamp_frequency", sent.lamp_frequency
+        if sent.depth != 1.0:
+            raise _refuse(board, "depth", PERCENT.format(sent.depth), f"100 %, since {_ON_OR_OFF}")
+        if not 0 < duty < 1:
+            raise _refuse(
+                board, "duty", PERCENT.format(sent.duty),
+                "more than 0 % and less than 100 %: others are steady light",
+            )  # fmt: skip
+    else:
+        raise _refuse(board, "light", sent.light, f"code, lamp or pulses, since {_ON_OR_OFF}")
+    timing = choose_lamp_timing(
+        board, name, frequency,
+        lambda period: duty * period if length is None else Fraction(length),
+    )  # fmt: skip
+    return LampTransmission(scene, board, np.array([1, 0], dtype=np.uint8), timing)
+
+
+_ON_OR_OFF = "a pin is either on or off"
+
+
+def _refuse(board: TransmitterBoard, name: str, value: str, allowed: str) -> ParameterError:
+    return ParameterError.of(
+        name, value, allowed, condition=f"on {board.title}", parameters=(name,)
     )
 
 
@@ -173,13 +197,16 @@ def flicker_sentence(sent: Transmission) -> str:
     if lowest is None or run is None:
         return "The light does not change: all chips are equal."
     limit = HERTZ.format(VISIBLE_LIMIT)
+    is_lamp = isinstance(sent, LampTransmission)
     said = (
         f"The lowest frequency in the light is {HERTZ.format(float(lowest), 4)}, at which the "
-        f"packet repeats; its longest time without an edge is {SECOND.format(float(run), 4)}."
+        f"{'lamp blinks' if is_lamp else 'packet repeats'}; its longest time without an edge is "
+        f"{SECOND.format(float(run), 4)}."
     )
     if sent.is_visible:
+        raised = "its frequency" if is_lamp else "the switching frequency, or send fewer bits"
         return (
-            f"{said} Below {limit} (IEEE 802.15.7) it may be seen as flicker: raise the switching "
-            f"frequency, or send fewer bits. {SEIZURES}"
+            f"{said} Below {limit} (IEEE 802.15.7) it may be seen as flicker: raise {raised}. "
+            f"{SEIZURES}"
         )
     return f"{said} It is above {limit}, below which flicker may be seen (IEEE 802.15.7)."

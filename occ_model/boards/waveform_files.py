@@ -13,7 +13,7 @@ from occ_model.boards.transmission import Transmission
 from occ_model.errors import OutputError
 from occ_model.scene.units import HERTZ
 
-HEADER = ("chip", "clock cycles", "time in s", "lit")  # columns of the table of edges
+COLUMNS = ("clock cycles", "time in s", "lit")  # of the table of edges, after their number
 
 # For the VCD file: a cycle of any board's clock is a whole number of the finest ticks. The coarsest
 # tick is 1 s; the format allows longer ones, but sigrok takes these as 0 Hz.
@@ -35,8 +35,9 @@ def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:
     count = len(sent.chips)
     places = sorted({0, *sent.edges, count})
     for chip in places:
-        time = chip * sent.timing.period
-        yield chip, chip * sent.timing.cycles, format_decimal(time), int(sent.chips[chip % count])
+        cycles = sent.start_of(chip)
+        time = format_decimal(Fraction(cycles, sent.timing.clock))
+        yield chip, cycles, time, int(sent.chips[chip % count])
 
 
 def format_decimal(value: Fraction) -> str:
@@ -58,7 +59,7 @@ def vcd_text(sent: Transmission) -> str:
     zeros = next(n for n in range(_DECIMALS, -1, -1) if gcd(*times) % 10**n == 0)
     thousands, tens = divmod(zeros - _DECIMALS, 3)
     lines = [
-        "$comment one packet, sent repeatedly $end",
+        f"$comment one {sent.repeats}, sent repeatedly $end",
         f"$timescale {10**tens} {_TICK_UNITS[-thousands]} $end",
         "$scope module transmitter $end",
         "$var wire 1 ! light $end",
@@ -73,15 +74,15 @@ def vcd_text(sent: Transmission) -> str:
 
 @dataclass(frozen=True, slots=True)
 class WavTiming:
-    """Sample rate in Hz and samples a chip of a WAV file, and the error of the frequency."""
+    """Sample rate in Hz and samples in each chip, or a lamp's period, and the frequency's error."""
 
     sample_rate: int
-    samples_a_chip: int
+    samples: int
     error_ppm: Fraction
 
 
 def choose_wav_timing(sent: Transmission) -> WavTiming:
-    """Choose a WAV file's sample rate, such that each chip has equally many samples.
+    """Choose a WAV file's sample rate, such that each chip, or period, has equally many samples.
 
     It is the whole number of Hz that gives the nearest frequency; common rates are preferred.
     """
@@ -91,8 +92,8 @@ def choose_wav_timing(sent: Transmission) -> WavTiming:
     if most < fewest:
         raise OutputError(
             f"A WAV file has up to {HERTZ.format(HIGHEST_SAMPLE_RATE)}, and at least two samples a "
-            f"chip, for up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}; the switching frequency is "
-            f"{HERTZ.format(float(frequency))}."
+            f"{sent.unit}, for up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}; the {sent.frequency} "
+            f"is {HERTZ.format(float(frequency))}."
         )
     tried = range(max(fewest, most - _MAX_RATES), most + 1)
     found = (_wav_timing(frequency, samples) for samples in tried)
@@ -114,18 +115,17 @@ def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
 def wav_bytes(sent: Transmission) -> bytes:
     """Write whole periods of at least one second as a WAV file of 8 bits; 255 is lit, 0 is dark."""
     timing = choose_wav_timing(sent)
-    period = len(sent.chips) * timing.samples_a_chip
-    periods = ceil(timing.sample_rate / period)
-    if periods * period > _LARGEST_WAV:
+    samples = sent.samples(timing.samples) * np.uint8(255)
+    periods = ceil(timing.sample_rate / len(samples))
+    if periods * len(samples) > _LARGEST_WAV:
         raise OutputError(
-            f"The waveform takes {periods * period:,} samples; allowed in a WAV file: "
+            f"The waveform takes {periods * len(samples):,} samples; allowed in a WAV file: "
             f"{_LARGEST_WAV:,}. Raise the switching frequency or send fewer bits."
         )
-    samples = np.tile(np.repeat(sent.chips, timing.samples_a_chip), periods) * np.uint8(255)
     buffer = BytesIO()
     with wave.open(buffer, "wb") as file:
         file.setnchannels(1)
         file.setsampwidth(1)
         file.setframerate(timing.sample_rate)
-        file.writeframes(samples.tobytes())
+        file.writeframes(samples.tobytes() * periods)
     return buffer.getvalue()

@@ -54,7 +54,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _frequency_facts(sent: Transmission) -> list[str]:
     facts = [" ".join(frequency_lines(sent))]
-    if not sent.timing.is_as_asked:
+    if not sent.is_as_asked:
         facts.append(f"{SCENE} has the frequency that is sent; match your photos with it.")
     return facts
 
@@ -63,7 +63,7 @@ def _wav_sentence(sent: Transmission) -> str:
     """State the frequency error of the WAV file, whose sample rate is a whole number of Hz."""
     timing = choose_wav_timing(sent)
     return (
-        f"WAV: {timing.samples_a_chip} samples a chip at {HERTZ.format(timing.sample_rate)}, "
+        f"WAV: {timing.samples} samples a {sent.unit} at {HERTZ.format(timing.sample_rate)}, "
         f"{float(timing.error_ppm):+.3g} ppm from the frequency sent; sound cards block steady "
         "light and smooth the edges."
     )

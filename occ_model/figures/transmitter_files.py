@@ -18,8 +18,8 @@ from occ_model.boards.board import (
     TransmitterBoard,
 )
 from occ_model.boards.sketch import file_names, write_sketch
-from occ_model.boards.transmission import EYES, Transmission, flicker_sentence
-from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes
+from occ_model.boards.transmission import EYES, LampTransmission, Transmission, flicker_sentence
+from occ_model.boards.waveform_files import COLUMNS, edge_rows, vcd_text, wav_bytes
 from occ_model.errors import OutputError
 from occ_model.figures.drawing import figure_bytes, house_style, table_text
 from occ_model.files.writing import make_folder, write_whole
@@ -43,7 +43,7 @@ def _contents(folder: Path, sent: Transmission) -> tuple[dict[str, bytes], str]:
     sketch, table, vcd, wav, pdf, svg, png, scene = file_names(folder, sent.board)
     contents = {
         sketch: write_sketch(sent).encode("utf-8"),
-        table: table_text(HEADER, edge_rows(sent), provenance(sent)).encode("utf-8"),
+        table: table_text((sent.part, *COLUMNS), edge_rows(sent), provenance(sent)).encode("utf-8"),
         vcd: vcd_text(sent).encode("ascii"),
         pdf: wiring_bytes(sent, "pdf"),
         svg: wiring_bytes(sent, "svg"),
@@ -94,15 +94,19 @@ def circuit_notes(sent: Transmission) -> list[str]:
     """Explain the values of the circuit, and warn of flicker and bright light."""
     board = sent.board
     edge = SECOND.format(board.rise_time, 2)
-    fraction = 100 * board.rise_time / float(sent.timing.period)
+    if isinstance(sent, LampTransmission):
+        shortest, part, light = sent.timing.lit_time, "the time lit", "light"
+    else:
+        shortest, part, light = sent.timing.period, "a chip", "chips"
+    fraction = 100 * board.rise_time / float(shortest)
     return [
         f"A: {board.gate_resistor} Ω limit the current from the pin ({board.volts:g} V) into the "
         f"gate to {1e3 * board.volts / board.gate_resistor:.2g} mA; it may give "
         f"{1e3 * board.pin_current:g} mA. With the assumed {1e9 * GATE_CAPACITANCE:g} nF of the "
-        f"gate, its voltage rises within {edge}, {fraction:.2g} % of a chip. "
+        f"gate, its voltage rises within {edge}, {fraction:.2g} % of {part}. "
         f"{PULL_DOWN // 1000} kΩ keep the panel dark while the board starts.",
         f"MOSFET: n-channel, fully on at {board.volts:g} V. Panel: LEDs with resistors for a "
-        "constant voltage. One with a driver or a capacitor inside does not follow the chips.",
+        f"constant voltage. One with a driver or a capacitor inside does not follow the {light}.",
         f"B, without a panel: {board.led_resistor} Ω give {1e3 * board.led_current:.2g} mA in an "
         f"LED of {LED_VOLTS:g} V (assumed, red); the target is {1e3 * LED_CURRENT:g} mA.",
         "",

@@ -93,9 +93,7 @@ def refine_period(flattened: FloatArray, period: float, least: int = 1) -> tuple
 
 def unrepeated_fraction(flattened: FloatArray, period: float, least: int = 1) -> float:
     """Return the fraction of a profile's variance that no repeated wave of a period explains."""
-    residual = _residual(
-        flattened, period, max(least, harmonics_within(len(flattened), period))
-    )
+    residual = _residual(flattened, period, max(least, harmonics_within(len(flattened), period)))
     about = flattened - flattened.mean()
     return float(residual @ residual) / max(float(about @ about), 1e-300)
 

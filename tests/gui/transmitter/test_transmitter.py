@@ -217,3 +217,23 @@ def test_folders_of_one_name_are_numbered_up_to_a_limit(
     assert all(folder.is_dir() for folder in made)
     with pytest.raises(OutputError, match="already has 3 folders uno; choose another"):
         new_folder(tmp_path, "uno")
+
+
+def test_a_lamp_is_shown_with_its_true_values_which_the_scene_can_take(
+    transmitter: TransmitterController, dialog: TransmitterDialog, store: SceneStore, qtbot: QtBot
+) -> None:
+    choose_board(dialog, "arduino-uno")
+    store.change(light="lamp")
+    store.change(lamp_frequency=239.0)
+    store.change(duty=0.3)
+    wait(qtbot, transmitter)
+    assert "239.005736 Hz" in dialog.facts.text()
+    assert "29.9952199 %" in dialog.facts.text()
+    dialog.take.click()
+    wait(qtbot, transmitter)
+    assert store.scene.transmitter.duty == 2510 / 8368
+    assert store.scene.transmitter.lamp_frequency == 16e6 / 66_944
+    assert not dialog.take.isEnabled()
+    store.change(light="mains")
+    assert dialog.facts.text().startswith("light is mains; allowed on Arduino Uno: code, lamp")
+    assert not dialog.save.isEnabled()

@@ -9,8 +9,8 @@ from model.boards.simulated_uno import SimulatedUno, missing_tools, worst_error
 import occ_model as occ
 from occ_model.boards.arduino import UNO
 from occ_model.boards.sketch import write_sketch
+from occ_model.boards.timing import BoardTiming
 from occ_model.boards.transmission import (
-    BoardTiming,
     Transmission,
     count_table_bytes,
     prepare_transmission,

@@ -10,7 +10,8 @@ import occ_model as occ
 from occ_model.boards.arduino import UNO
 from occ_model.boards.board import TransmitterBoard
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.transmission import choose_timing, prepare_transmission
+from occ_model.boards.timing import choose_timing
+from occ_model.boards.transmission import prepare_transmission
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -52,7 +53,7 @@ def test_a_frequency_that_was_sent_can_be_sent_exactly(
     assert again.timing.cycles == first.timing.cycles
     # A float has only 16 digits of 1/3.
     assert abs(again.timing.error_ppm) < Fraction(1, 10**9)
-    assert again.timing.is_as_asked
+    assert again.is_as_asked
     assert again.sent_scene == first.sent_scene
 
 

@@ -90,12 +90,12 @@ def test_a_wav_file_holds_whole_packets_with_even_edges(board: str, frequency: f
         assert (file.getnchannels(), file.getsampwidth()) == (1, 1)
         assert file.getframerate() == timing.sample_rate <= HIGHEST_SAMPLE_RATE
         samples = np.frombuffer(file.readframes(file.getnframes()), dtype=np.uint8)
-    chips = samples.reshape(-1, timing.samples_a_chip)
+    chips = samples.reshape(-1, timing.samples)
     assert (chips == chips[:, :1]).all()
     assert len(chips) % len(sent.chips) == 0
     np.testing.assert_array_equal(chips[:, 0], np.resize(sent.chips, len(chips)) * 255)
     assert len(samples) >= timing.sample_rate
-    told = Fraction(timing.sample_rate, timing.samples_a_chip)
+    told = Fraction(timing.sample_rate, timing.samples)
     assert told == sent.timing.frequency * (1 + timing.error_ppm / 10**6)
     assert abs(timing.error_ppm) < 10
 

@@ -69,3 +69,22 @@ def test_without_a_wav_file_the_reason_is_stated(
     assert run("--set", "switching_frequency=120kHz", "-o", folder) == 0
     assert not (folder / "waveform.wav").exists()
     assert "A WAV file has up to 192 kHz" in capsys.readouterr().out
+
+
+def test_a_lamp_is_written_with_its_true_frequency_and_duty(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda *_: b"")  # drawing takes long
+    folder = tmp_path / "lamp"
+    lamp = ("--set", "light=lamp", "--set", "lamp_frequency=239Hz", "--set", "duty=30%")
+    assert run(*lamp, "-o", folder) == 0
+    said = capsys.readouterr().out
+    assert "duty cycle 29.9952199 %, for the 30 % asked" in said
+    assert "523 samples a period" in said
+    sent = occ.Scene.from_toml((folder / "scene.toml").read_text()).transmitter
+    assert (sent.light, sent.lamp_frequency, sent.duty) == ("lamp", 16e6 / 66_944, 2510 / 8368)
+    rows = [line for line in (folder / "waveform.csv").read_text().splitlines() if line[0] != "#"]
+    assert rows == ["part,clock cycles,time in s,lit", "0,0,0,1", "1,20080,0.001255,0",
+                    "2,66944,0.004184,1"]  # fmt: skip
+    assert run("--set", "light=mains", "-o", folder) != 0
+    assert "a pin is either on or off" in capsys.readouterr().err

@@ -14,6 +14,7 @@ from occ_model.errors import ParameterError, one_line, shown
 from occ_model.program import discard
 from occ_model.receiver.decode import DECODERS, decoders
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
+from occ_model.scene.parameters import parameter_named
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import (
     NOISE_SOURCES,
@@ -104,13 +105,24 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=VALUE",
         action="append",
         default=[],
-        help="change a parameter, such as switching_frequency=10kHz; may be repeated",
+        help="change a parameter, such as switching_frequency=10kHz, or light=lamp and duty=0.3; "
+        "may be repeated",
     )
 
 
 def scene_of(options: argparse.Namespace) -> Scene:
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
-    return change_scene(scene, options.settings)
+    changed = change_scene(scene, options.settings)
+    light = changed.transmitter.light
+    for setting in options.settings:
+        declared = parameter_named(setting.partition("=")[0].strip())
+        if not declared.is_of(light):
+            lights = " or ".join(f"light={each}" for each in declared.lights)
+            raise ParameterError(
+                f"{declared.name} changes nothing in the light {light}; set {lights} as well.",
+                parameters=(declared.name, "light"),
+            )
+    return changed
 
 
 def add_plan_options(parser: argparse.ArgumentParser) -> None:

@@ -16,6 +16,9 @@ WITHOUT_FILES = {
     "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
     "render --set code=1024": "code is 1024; allowed with 10 bits: 0 to 1023.",
     "render --set iso": "'iso' is not a setting; write NAME=VALUE.",
+    "render --set duty=30%": "duty changes nothing in the light code; set light=lamp as well.",
+    "plan --set light=lamp --set switching_frequency=2kHz": "switching_frequency changes nothing "
+    "in the light lamp; set light=code or light=waveform as well.",
     "render --set yaw=80° --set distance=0.2m": "With these angles at a distance of 0.2 m, ",
     "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
     "presets phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",

@@ -31,7 +31,8 @@ def add_to(commands: Commands) -> None:
         parser, "--limit", 100.0 * NO_BARS_DEPTH, "depth below which there are no bars",
         metavar="PERCENT",
     )  # fmt: skip
-    parser.add_argument("--lamp", metavar="TEXT", help=f"a lamp in place of a scene: {_LAMPS}")
+    lamps = _LAMPS.replace("%", "%%")  # as argparse wants it
+    parser.add_argument("--lamp", metavar="TEXT", help=f"a lamp in place of a scene: {lamps}")
     parser.add_argument("--shutter", metavar="TIME", help="the shutter time of a camera: 1/100")
     parser.add_argument("--readout", metavar="TIME", help="the time from line to line: 12us")
     parser.set_defaults(command=_run)

@@ -105,7 +105,7 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=VALUE",
         action="append",
         default=[],
-        help="change a parameter, such as switching_frequency=10kHz, or light=lamp and duty=0.3; "
+        help="change a parameter, such as switching_frequency=10kHz, or light=lamp and duty=30%%; "
         "may be repeated",
     )
 

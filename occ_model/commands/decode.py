@@ -24,6 +24,7 @@ from occ_model.receiver.signal import white_fraction
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, overexposed_text
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
+from occ_model.scene.light_words import describe_light
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.study.cause.cause import cause_of
@@ -162,6 +163,11 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             print(sentence, file=sys.stderr)
     if reading.failure is not None:
         print(reading.failure, file=sys.stderr)
+        if video.scene is not None and video.scene.transmitter.light != "code":
+            light = describe_light(video.scene.transmitter)
+            print(
+                f"The film was simulated of this light: {light}; it sends no code.", file=sys.stderr
+            )
         return EXIT_FAILURE
     return 0
 

@@ -35,7 +35,7 @@ class VideoFrame:
         For a simulated frame, the exact scene that it shows: ``occ.render(frame.scene, ...)`` gives
         this picture. Its times are real ones: if a clock drifts, its switching frequency, exposure
         time and readout time differ from those of the film's scene. Its start time is reduced by
-        whole packets. None for a frame from a file.
+        whole periods of its light. None for a frame from a file.
     start
         For a simulated frame, the exact real time at which its first column's exposure started, in
         seconds, counted as the scene's start time. None for a frame from a file.

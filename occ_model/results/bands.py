@@ -268,8 +268,8 @@ class ShutterSpeed:
 class Cure:
     """Settings that remove the bars from a picture."""
 
-    # Repetition frequency of the lamp's light in Hz: bars vanish at integer multiples of its
-    # inverse
+    # Repetition frequency of the lamp's light in Hz, 0 if it is steady: bars vanish at integer
+    # multiples of its inverse
     repeats: float
     duty: float  # Fraction of the time in which the lamp is lit
     # Smallest and largest present depth of the bars of the lamp's own light, within two standard

@@ -185,16 +185,16 @@ _SAMPLES = 65  # exposures within the error at which the depth is sampled
 
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     """Return speeds without bars, and the scene at the shortest; ``exposure_error`` in s."""
-    over, repeats = DepthOver.of(scene), float(1 / repeat_time(scene.transmitter))
+    over, period = DepthOver.of(scene), repeat_time(scene.transmitter)
     speeds = shutter_speeds()[::-1]
     depths = over.depths(np.array([(each.nominal, each.real) for each in speeds]))
     are_free = list(zip(speeds, (depths < NO_BARS_DEPTH).tolist(), strict=True))
     as_written = [speed for speed, is_free in are_free if is_free[0]]
     kept = [speed for speed, is_free in are_free if all(is_free)]
-    exposure = as_written[0].nominal if as_written else 1.0 / repeats
+    exposure = as_written[0].nominal if as_written else float(period)
     cured = as_bright(scene, exposure)
     return Cure(
-        repeats, mean_light(scene.transmitter), _present_depth(scene, over, exposure_error),
+        float(1 / period) if period else 0.0, mean_light(scene.transmitter), _present_depth(scene, over, exposure_error),
         tuple(as_written[:_MAX_SPEEDS]), tuple(kept[:_MAX_SPEEDS]), cured,
     )  # fmt: skip
 
@@ -202,12 +202,15 @@ def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
 def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, float]:
     """Return the range of the present depth of the bars in the lamp's own light."""
     exposure, frequency = scene.camera.exposure_time, over.axis.frequency
+    mean = mean_light(scene.transmitter)
+    if not mean:
+        return 0.0, 0.0
     ends = frequency * np.clip(exposure + np.array([-2.0, 2.0]) * error, 0.01 * exposure, None)
     low, high = ends.tolist()
     # The swing is linear in the exposure between nodes.
     nodes = over.nodes_to(min(high, low + over.nodes[-1]), low)
     cycles = np.concatenate([np.linspace(low, high, _SAMPLES), nodes])
-    depths = over.swing_in(cycles) / cycles / mean_light(scene.transmitter)
+    depths = over.swing_in(cycles) / cycles / mean
     return float(depths.min()), float(depths.max())
 
 

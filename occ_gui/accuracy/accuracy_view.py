@@ -3,6 +3,7 @@
 import math
 
 from PySide6.QtCore import Signal
+from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
@@ -168,6 +169,12 @@ class AccuracyView(QWidget):
         self.observable.show_key(settings.observable)
         self.noise.show_key(settings.noise)
         self.table.show_force(settings.force)
+
+    def offer_decision(self, has_code: bool) -> None:
+        """Offer the decision as what the tolerance limits only while a code is sent."""
+        entries = self.observable.model()
+        if isinstance(entries, QStandardItemModel):
+            entries.item(self.observable.findData("decision")).setEnabled(has_code)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         self._snapshot = snapshot

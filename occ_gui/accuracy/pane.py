@@ -139,7 +139,9 @@ class AccuracyController(QObject):
 class AccuracyPane(PiecesPane):
     def __init__(self, scenes: SceneStore, simulation: SimulationController) -> None:
         self.view = view = AccuracyView()
-        super().__init__(view, view.show_settings, view.show_switched, self._show_snapshot)
+        super().__init__(
+            view, view.show_settings, view.offer_decision, view.show_switched, self._show_snapshot
+        )
         settings = scenes.settings
         self.made_of = dict.fromkeys(view.scene_parts, of_snapshot)
         self.study = AccuracyController(scenes, simulation, view)

@@ -167,7 +167,12 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
         places={"effects": PanePlace("right", is_main=True)},
         help="model.md#accuracy-against-time",
         make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
-        part=lambda workspace, results: (workspace.settings, results.switched, results.snapshot),
+        part=lambda workspace, results: (
+            workspace.settings,
+            workspace.has_code,
+            results.switched,
+            results.snapshot,
+        ),
         updates_hidden=True,
         figures=(accuracy_figure(),),
     )

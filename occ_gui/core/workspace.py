@@ -56,6 +56,11 @@ class Workspace:
     preset: str = ""  # the preset that the scene is or was changed from; empty for none
     scene_file: Path | None = None
 
+    def __post_init__(self) -> None:
+        # Of a light that is no code nothing is decided: what comes before the decision is limited.
+        if not self.has_code and self.settings.observable == "decision":
+            object.__setattr__(self, "settings", replace(self.settings, observable="signal"))
+
     @property
     def undo_state(self) -> UndoState:
         return UndoState(self.scene, dict(self.settings.force), self.room, self.preset)

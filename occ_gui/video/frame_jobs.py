@@ -13,6 +13,7 @@ from occ_model.light.sent import period_columns
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
+from occ_model.scene.light_words import describe_light
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.video.read_frame import read_by_itself
@@ -146,6 +147,8 @@ def _make_story(
     how = "enhanced" if is_enhanced else "not enhanced"
     place = f"{source_name}, frame {frame.index + 1}"
     title = f"{place}, read by itself, {how}: {_describe_result(decoded)}"
+    if transmitter.light != "code":
+        title = f"{place}: {describe_light(transmitter)}"
     return FrameStory(picture, reading, request is not None, title)
 
 

@@ -210,7 +210,7 @@ class LiveController(QObject):
             self.start(self.video.source, axis)
 
     def read(self) -> None:
-        if self.video is not None:
+        if self.video is not None and self._scene().transmitter.light == "code":
             self._readings.start(self.video, self._scene(), is_live=True)
 
     def lock_exposure(self, on: bool) -> None:

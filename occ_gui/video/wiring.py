@@ -167,7 +167,8 @@ class VideoWiring(Pane[FilmChoice]):
         self._show_bar()
         self.view.pictures.show_film(None, self._placeholder())
         self._show_reading()
-        if film is not None and not self.films.is_live:
+        has_code = self._scenes.store.workspace.has_code  # else there is nothing to read
+        if film is not None and not self.films.is_live and has_code:
             self.readings.start(film, self._scenes.scene)
 
     def _take_rate(self, film: Video | None) -> None:

@@ -8,7 +8,7 @@ from occ_model.errors import ParameterError
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of
 from occ_model.results.spectrum import LEVELS, LevelHistogram, Spectrum
-from occ_model.scene.light_words import blinking_lamp
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import Scene, Transmitter
 
 _MIN_COLUMNS = 8
@@ -44,7 +44,7 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
 
 
 def _harmonics(transmitter: Transmitter, last: float) -> tuple[float, ...]:
-    if transmitter.light == "code" and blinking_lamp(transmitter) is None:
+    if has_chips(transmitter):
         return ()
     light = light_of(transmitter)
     if isinstance(light, Cosine):

@@ -116,3 +116,36 @@ def test_the_light_is_chosen_at_the_top_and_undone(
     assert field.currentText() == "code"
     assert controls.code.isVisible()
     assert entries["slider_strips"].isEnabled()
+
+
+def test_what_the_tolerance_limits_is_no_decision_of_a_lamp(
+    application: Application, user: User
+) -> None:
+    store = application.store
+    store.settings.set_observable("decision")
+    store.change(light="lamp")
+    user.wait_until_idle()
+    assert store.settings.settings.observable == "signal"
+    application.window.modes.switch("effects")
+    user.wait_until_idle()
+    choice = application.shell.pane("accuracy").view.observable
+    entry = choice.model().item(choice.findData("decision"))
+    assert not entry.isEnabled()
+    store.change(light="code")
+    user.wait_until_idle()
+    assert entry.isEnabled()
+    assert application.results_store.results.failure is None
+
+
+def test_figures_of_codes_are_away_while_a_lamp_is_sent(
+    application: Application, user: User
+) -> None:
+    entries = application.window.actions_by_name
+    of_codes = ["export_map", "export_bench", "export_decoding-matched"]
+    for light in ("lamp", "code"):
+        application.store.change(light=light)
+        user.wait_until_idle()
+        assert {entries[name].isEnabled() for name in of_codes} == {light == "code"}
+        names = {figure.name for figure in application.shell.different_figures}
+        assert ("map" in names) == (light == "code")
+        assert "profile" in names

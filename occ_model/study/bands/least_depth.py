@@ -59,10 +59,10 @@ class DepthOver:
         light, axis = light_of(sent), frequency_axis(sent)
         if isinstance(light, Cosine):
             # The surroundings follow the lamp: both are one cosine, and no flicker is left.
-            of_both = 2.0 / np.pi * light.depth * (of_lamp + around)
+            of_both, most = of_lamp + around, 2.0 / np.pi * light.depth
             return cls(
-                axis, float(of_both > 0.0), np.array([0.0, 0.5, 1.0]),
-                lambda cycles: np.asarray(np.abs(np.sin(np.pi * cycles))), of_both, 0.0, 1.0,
+                axis, float(of_both * most > 0.0), np.array([0.0, 0.5, 1.0]),
+                lambda cycles: np.asarray(most * np.abs(np.sin(np.pi * cycles))), of_both, 0.0, 1.0,
             )  # fmt: skip
         units = float(light.rate / Fraction(axis.frequency))  # a cycle
         period = repeat_units(light.waveform)

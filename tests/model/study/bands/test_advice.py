@@ -6,12 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 from amount import amount
+from exact_light import OTHER_LIGHTS
 from hypothesis import given, settings, strategies as st
 
 import occ_model as occ
 from occ_model.results.bands import NO_BARS_DEPTH
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.advice import shutter_speeds
+from occ_model.study.bands.advice import cure_of, shutter_speeds
 from occ_model.study.bands.depth import light_depth
 from occ_model.study.bands.least_depth import DepthOver, depth_map
 
@@ -252,3 +253,25 @@ def test_a_long_exposure_s_bars_are_not_above_their_bounds() -> None:
     ):
         assert (found <= bound * (1.0 + 1e-9)).all()
         np.testing.assert_array_equal(found[exposures < 10.0], bound[exposures < 10.0])
+
+
+@pytest.mark.parametrize("light", OTHER_LIGHTS)
+def test_the_present_depth_of_any_light_is_that_of_its_bars(light: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        **OTHER_LIGHTS[light], illuminance=0.0, exposure_time=1.3e-3
+    )
+    depth = occ.band_depth(scene).peak_to_peak
+    assert cure_of(scene).depth == pytest.approx((depth, depth), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "steady",
+    [
+        {"light": "lamp", "duty": 0.0}, {"light": "lamp", "duty": 1.0},
+        {"light": "lamp", "depth": 0.0}, {"light": "mains", "mains_depth": 0.0},
+        {"light": "waveform", "levels": "0"}, {"light": "pulses", "pulse_length": 1.0},
+    ],
+)  # fmt: skip
+def test_steady_light_needs_no_other_exposure(steady: dict[str, Any]) -> None:
+    found = cure_of(occ.load_preset("phone-136us").replace(**steady))
+    assert (found.repeats, found.depth) == (0.0, (0.0, 0.0))

@@ -194,7 +194,8 @@ def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     exposure = as_written[0].nominal if as_written else float(period)
     cured = as_bright(scene, exposure)
     return Cure(
-        float(1 / period) if period else 0.0, mean_light(scene.transmitter), _present_depth(scene, over, exposure_error),
+        float(1 / period) if period else 0.0, mean_light(scene.transmitter),
+        _present_depth(scene, over, exposure_error),
         tuple(as_written[:_MAX_SPEEDS]), tuple(kept[:_MAX_SPEEDS]), cured,
     )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Plots of the bars: the map of their least depth, and the chart of what the eye sees."""
+"""Plots of the bars: the map of their least depth, and the chart of the flicker for the eye."""
 
 import numpy as np
 import pyqtgraph as pg

@@ -16,7 +16,7 @@ from occ_model.study.bands.least_depth import depth_map
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SceneBars:
-    """The bars of a scene, what shows none, the map of the least depth, and what the eye sees."""
+    """The bars of a scene, what shows none, the map of the least depth, and the flicker."""
 
     scene: Scene
     depth: BandDepth

@@ -103,8 +103,8 @@ def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges
 def _split(ranges: list[tuple[float, float]], highest: float) -> tuple[Ranges, float | None]:
     """Separate the last range, which extends to infinity, from those before."""
     *others, last = ranges
-    kept = tuple((low, min(high, highest)) for low, high in others if low < highest)
-    return kept, last[0] if last[0] < highest else None
+    ranges = tuple((low, min(high, highest)) for low, high in others if low < highest)
+    return ranges, last[0] if last[0] < highest else None
 
 
 def _below(
@@ -120,18 +120,18 @@ def _below(
     peak = _peaks(depths, first, last)
     rising = _crossings(depths, first, peak, limit)
     falling = _crossings(depths, last, peak, limit)
-    found: list[tuple[float, float]] = []
+    ranges: list[tuple[float, float]] = []
     for pieces in zip(first, rising, falling, last, strict=True):
         for start, stop in (pieces[:2], pieces[2:]):
             if stop <= start:
                 continue
-            if found and start <= found[-1][1]:
-                found[-1] = (found[-1][0], float(stop))
+            if ranges and start <= ranges[-1][1]:
+                ranges[-1] = (ranges[-1][0], float(stop))
             else:
-                found.append((float(start), float(stop)))
-    if found and found[-1][1] >= end:
-        return [*found[:-1], (found[-1][0], np.inf)]
-    return [*found, (end, np.inf)]
+                ranges.append((float(start), float(stop)))
+    if ranges and ranges[-1][1] >= end:
+        return [*ranges[:-1], (ranges[-1][0], np.inf)]
+    return [*ranges, (end, np.inf)]
 
 
 def _peaks(depths: Depths, first: FloatArray, last: FloatArray) -> FloatArray:

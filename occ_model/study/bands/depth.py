@@ -1,4 +1,4 @@
-"""Depth of the bars in a scene's picture, in its light and its pixels, and what of it is seen."""
+"""Depth of the bars in a scene's light, in its picture and its pixels, and whether they show."""
 
 import cmath
 import math

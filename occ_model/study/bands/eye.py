@@ -105,8 +105,8 @@ def _visibility(
     modulations: FloatArray,
     threshold_of: Callable[[FloatArray], FloatArray],
 ) -> float:
-    seen = (frequencies >= _SVM_BAND[0]) & (frequencies <= _SVM_BAND[1])
-    ratios = modulations[seen] / threshold_of(frequencies[seen])
+    in_band = (frequencies >= _SVM_BAND[0]) & (frequencies <= _SVM_BAND[1])
+    ratios = modulations[in_band] / threshold_of(frequencies[in_band])
     return float((ratios**_SVM_EXPONENT).sum() ** (1.0 / _SVM_EXPONENT))
 
 

@@ -50,7 +50,7 @@ def all_at_work() -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8)
-def _found(group: str) -> "dict[str, EntryPoint]":
+def _find_entries(group: str) -> "dict[str, EntryPoint]":
     """Find the entry points of a group by names that cannot leave a folder, the first of each."""
     from importlib.metadata import entry_points
 
@@ -68,17 +68,17 @@ def _found(group: str) -> "dict[str, EntryPoint]":
 
 def plugin_names(group: str) -> tuple[str, ...]:
     """Return the names of plug-ins in a group, without importing any of them."""
-    return tuple(_found(group))
+    return tuple(_find_entries(group))
 
 
 def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
     """Import a plug-in's object of this name, and check its kind and its own name."""
-    entry = _found(group).get(name)
+    entry = _find_entries(group).get(name)
     if entry is None:
         raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")
-    who = described(group, name)
+    who = describe(group, name)
 
-    def checked(offered: object) -> _Kind:
+    def check(offered: object) -> _Kind:
         if not isinstance(offered, kind):
             raise PluginError(f"{who} is a {type(offered).__name__}, not a {kind.__name__}.")
         own = getattr(offered, "name", None)
@@ -86,27 +86,27 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
             raise PluginError(f"{who} calls itself {shown(own)}.")
         return offered
 
-    return called(who, "be imported", checked, entry.load)
+    return call(who, "be imported", check, entry.load)
 
 
-def described(group: str, name: str) -> str:
+def describe(group: str, name: str) -> str:
     """Name a plug-in and the package that it comes from, as the start of a sentence."""
-    entry = _found(group).get(name)
+    entry = _find_entries(group).get(name)
     package = entry.dist.name if entry is not None and entry.dist is not None else "?"
     return f"The plug-in {one_line(name)!r} of the package {one_line(str(package))!r}"
 
 
-def called(
-    who: str, verb: str, checked: Callable[[Any], _Kind], function: Callable[..., Any], *given: Any
+def call(
+    who: str, verb: str, check: Callable[[Any], _Kind], function: Callable[..., Any], *given: Any
 ) -> _Kind:
     """Call a plug-in's function, and return what a check makes of its result.
 
-    Whatever either raises, as a result may when it is looked at, becomes a sentence. Only what a
-    signal's handler raises meanwhile passes: Ctrl+C, or that the program is to end.
+    An exception of either becomes a sentence; even reading a result's attributes may raise one.
+    Only the exceptions of signal handlers pass: Ctrl+C, or an order to end the program.
     """
     try:
         with at_work(who):
-            return checked(function(*given))
+            return check(function(*given))
     except BaseException as error:
         if _is_of_signal(error):
             raise
@@ -120,12 +120,12 @@ def called(
 def of_kind(who: str, kind: type[_Kind]) -> Callable[[object], _Kind]:
     """Return a check that a plug-in's result is of a kind."""
 
-    def checked(result: object) -> _Kind:
+    def check(result: object) -> _Kind:
         if not isinstance(result, kind):
             raise PluginError(f"{who} gives a {type(result).__name__}, not a {kind.__name__}.")
         return result
 
-    return checked
+    return check
 
 
 def _is_of_signal(error: BaseException) -> bool:

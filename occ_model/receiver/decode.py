@@ -202,20 +202,20 @@ def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
 def _plugin(name: str) -> Decoder:
     """Import a plug-in's decoder, whose faults become sentences."""
     offered = plugins.load_plugin(plugins.DECODERS, name, Decoder)
-    who = plugins.described(plugins.DECODERS, name)
+    who = plugins.describe(plugins.DECODERS, name)
 
     def read(signal: FloatArray, scene: Scene) -> DecodeResult:
-        def checked(result: object) -> DecodeResult:
+        def check(result: object) -> DecodeResult:
             found = plugins.of_kind(who, DecodeResult)(result)
             return replace(checked_result(who, found, len(signal), scene), decoder=name)
 
         try:
             # A copy, because other decoders read the signal afterwards.
-            return plugins.called(who, "read", checked, offered.read, np.array(signal), scene)
+            return plugins.call(who, "read", check, offered.read, np.array(signal), scene)
         except ParameterError as error:
             raise PluginError(str(error), parameters=error.parameters) from None
 
-    title = plugins.called(
+    title = plugins.call(
         who, "be used", lambda title: checked_text(who, "title", title), lambda: offered.title
     )
     return Decoder(name, title, read)

@@ -59,7 +59,7 @@ MOST_CHIPS = 65_536  # in a plug-in's period or result; the longest built-in pac
 
 def _guard_line_code(offered: LineCode) -> LineCode:
     """Wrap a plug-in's line code so that its faults become sentences."""
-    who = plugins.described(plugins.LINE_CODES, offered.name)
+    who = plugins.describe(plugins.LINE_CODES, offered.name)
 
     def declared(code: LineCode) -> LineCode:
         preamble = checked_text(who, "preamble", code.preamble)
@@ -81,24 +81,24 @@ def _guard_line_code(offered: LineCode) -> LineCode:
             preamble,
         )
 
-    own = plugins.called(who, "be used", declared, lambda: offered)
+    own = plugins.call(who, "be used", declared, lambda: offered)
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
         count = own.chips_for(len(bits))
 
-        def checked(chips: object) -> ByteArray:
+        def check(chips: object) -> ByteArray:
             found = checked_bits(who, "chips", chips, MOST_CHIPS)
             if len(found) != count:
                 raise PluginError(f"{who} gives {len(found)} chips in place of {count}.")
             return found
 
-        return plugins.called(who, "encode", checked, own.encode, bits.copy(), level)
+        return plugins.call(who, "encode", check, own.encode, bits.copy(), level)
 
     def decode(chips: ByteArray, level: int) -> Decoded:
         blocks, rest = divmod(len(chips), own.block_chips)
         most = (blocks + 1) * own.block_bits
 
-        def checked(read: object) -> Decoded:
+        def check(read: object) -> Decoded:
             read = plugins.of_kind(who, Decoded)(read)
             failure = checked_failure(who, read.failure)
             bits = checked_bits(who, "bits", read.bits, most)
@@ -109,7 +109,7 @@ def _guard_line_code(offered: LineCode) -> LineCode:
             places = checked_places(who, "violations", read.violations, len(bits))
             return Decoded(bits, places, failure)
 
-        return plugins.called(who, "decode", checked, own.decode, chips.copy(), level)
+        return plugins.call(who, "decode", check, own.decode, chips.copy(), level)
 
     return replace(own, encode=encode, decode=decode)
 
@@ -131,17 +131,17 @@ def line_codes() -> tuple[str, ...]:
 
 def _guard_framing(offered: Framing) -> Framing:
     """Wrap a plug-in's framing so that its faults become sentences."""
-    who = plugins.described(plugins.FRAMINGS, offered.name)
+    who = plugins.describe(plugins.FRAMINGS, offered.name)
 
     def declared(framing: Framing) -> Framing:
         title = checked_text(who, "title", framing.title)
         return Framing(framing.name, title, bool(framing.checks), framing.encode, framing.decode)
 
-    own = plugins.called(who, "be used", declared, lambda: offered)
+    own = plugins.call(who, "be used", declared, lambda: offered)
     lengths: dict[tuple[str, str, int], int] = {}
 
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
-        def checked(chips: object) -> ByteArray:
+        def check(chips: object) -> ByteArray:
             found = checked_bits(who, "chips", chips, MOST_CHIPS)
             # As many for every payload, on which all that reads it relies.
             key = form.line_code.name, form.preamble, form.bits
@@ -154,10 +154,10 @@ def _guard_framing(offered: Framing) -> Framing:
                 )
             return found
 
-        return plugins.called(who, "encode", checked, own.encode, bits.copy(), form)
+        return plugins.call(who, "encode", check, own.encode, bits.copy(), form)
 
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
-        def checked(read: object) -> Framed:
+        def check(read: object) -> Framed:
             read = plugins.of_kind(who, Framed)(read)
             failure = checked_failure(who, read.failure)
             bits = checked_bits(who, "bits", read.bits, form.bits)
@@ -167,7 +167,7 @@ def _guard_framing(offered: Framing) -> Framing:
                 )
             return Framed(checked_places(who, "headers", read.headers, len(chips)), bits, failure)
 
-        return plugins.called(who, "decode", checked, own.decode, chips.copy(), form)
+        return plugins.call(who, "decode", check, own.decode, chips.copy(), form)
 
     return replace(own, encode=encode, decode=decode)
 

@@ -1,4 +1,4 @@
-"""A program's streams and its answer to Ctrl-C, within the process of the tests."""
+"""A program's streams and its handling of Ctrl-C, within the process of the tests."""
 
 import os
 import signal
@@ -16,12 +16,12 @@ from occ_model.program import Interrupts, open_streams, run_program
 
 
 class ProcessEnded(BaseException):
-    """In place of the end of this process."""
+    """Raised in place of ending this process."""
 
 
 @pytest.fixture
-def written(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, bytes]]:
-    """Note what is written to descriptors, and let the end of the process be an exception."""
+def writes(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, bytes]]:
+    """Record what is written to descriptors; raise an exception in place of ending the process."""
     notes: list[tuple[int, bytes]] = []
 
     def end(code: int) -> NoReturn:
@@ -33,8 +33,8 @@ def written(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, bytes]]:
 
 
 @pytest.fixture
-def usual() -> Iterator[None]:
-    """Let Ctrl-C be answered as in a new process, and put back what was before."""
+def default_handler() -> Iterator[None]:
+    """Handle Ctrl-C as in a new process, and restore the handlers afterwards."""
     before, hook = signal.signal(signal.SIGINT, signal.default_int_handler), sys.unraisablehook
     yield
     signal.signal(signal.SIGINT, before)
@@ -42,22 +42,22 @@ def usual() -> Iterator[None]:
 
 
 def ctrl_c(frame: Any = None) -> None:
-    """Call the answer to Ctrl-C, as Python does between two steps."""
-    answer = signal.getsignal(signal.SIGINT)
-    assert callable(answer)
-    answer(signal.SIGINT, frame)
+    """Call the handler of Ctrl-C, as Python does between two instructions."""
+    handler = signal.getsignal(signal.SIGINT)
+    assert callable(handler)
+    handler(signal.SIGINT, frame)
 
 
-LEFT = [(2, b"own: interrupted.\n")]
+INTERRUPTED = [(2, b"own: interrupted.\n")]
 
 
 def test_a_window_ends_at_once_during_its_work_too(
-    usual: None, written: list[tuple[int, bytes]]
+    default_handler: None, writes: list[tuple[int, bytes]]
 ) -> None:
     Interrupts("own", always_at_once=True).end_preparation()
     with pytest.raises(ProcessEnded, match="130"):
         ctrl_c()
-    assert written == LEFT
+    assert writes == INTERRUPTED
 
 
 def frame_of(file: str, before: object = None) -> Any:
@@ -65,31 +65,31 @@ def frame_of(file: str, before: object = None) -> Any:
 
 
 def test_an_import_that_is_interrupted_ends_the_process(
-    usual: None, written: list[tuple[int, bytes]]
+    default_handler: None, writes: list[tuple[int, bytes]]
 ) -> None:
     Interrupts("own", always_at_once=False).end_preparation()
     with pytest.raises(KeyboardInterrupt):
         ctrl_c(frame_of("work.py", frame_of("main.py")))
     with pytest.raises(ProcessEnded):
         ctrl_c(frame_of("slow.py", frame_of("<frozen importlib._bootstrap>", frame_of("main.py"))))
-    assert written == LEFT
+    assert writes == INTERRUPTED
 
 
 def test_an_interruption_that_a_deletion_swallows_ends_the_process(
-    usual: None, written: list[tuple[int, bytes]]
+    default_handler: None, writes: list[tuple[int, bytes]]
 ) -> None:
-    heard: list[object] = []
-    sys.unraisablehook = heard.append
+    reports: list[object] = []
+    sys.unraisablehook = reports.append
     Interrupts("own", always_at_once=False)
     other = SimpleNamespace(exc_type=ValueError)
     sys.unraisablehook(other)
-    assert heard == [other]
+    assert reports == [other]
     with pytest.raises(ProcessEnded):
         sys.unraisablehook(SimpleNamespace(exc_type=KeyboardInterrupt))
-    assert written == LEFT
+    assert writes == INTERRUPTED
 
 
-def test_a_process_that_ignores_ctrl_c_goes_on_to_do_so(usual: None) -> None:
+def test_a_process_that_ignores_ctrl_c_goes_on_to_do_so(default_handler: None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Interrupts("own", always_at_once=False)
     assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
@@ -97,7 +97,7 @@ def test_a_process_that_ignores_ctrl_c_goes_on_to_do_so(usual: None) -> None:
 
 @pytest.mark.parametrize("error", [None, OccError("It cannot be."), KeyboardInterrupt()])
 def test_within_another_program_ctrl_c_stays_as_it_was(
-    usual: None, error: BaseException | None, capsys: pytest.CaptureFixture[str]
+    default_handler: None, error: BaseException | None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def work() -> int:
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -112,17 +112,17 @@ def test_within_another_program_ctrl_c_stays_as_it_was(
 
 
 def test_a_process_of_its_own_ignores_ctrl_c_at_its_end(
-    usual: None, monkeypatch: pytest.MonkeyPatch
+    default_handler: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "3")
-    answers: list[object] = []
+    handlers: list[object] = []
 
     def work() -> int:
-        answers.append(signal.getsignal(signal.SIGINT))
+        handlers.append(signal.getsignal(signal.SIGINT))
         return 5
 
     assert run_program("own", lambda: work, is_process=True) == 5
-    assert answers != [signal.default_int_handler]
+    assert handlers != [signal.default_int_handler]
     assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 
 
@@ -134,7 +134,7 @@ def test_a_window_needs_no_output(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_plug_in_of_no_package_has_a_name_all_the_same(offered: Callable[..., None]) -> None:
     offered(own=len)
-    said = [plugins.described(plugins.DECODERS, name) for name in ("own", "missing")]
+    said = [plugins.describe(plugins.DECODERS, name) for name in ("own", "missing")]
     assert [one.partition(" of the package ")[2] for one in said] == ["'?'", "'?'"]
 
 
@@ -173,7 +173,7 @@ def nested() -> int:
         ),
     ],
 )
-def test_what_nobody_has_foreseen_is_a_line_that_says_what_and_where(
+def test_an_unforeseen_error_becomes_one_line_that_says_what_failed_and_where(
     error: Exception | None, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def work() -> int:

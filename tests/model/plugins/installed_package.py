@@ -18,7 +18,7 @@ from occ_model.transmitter import scheme
 from occ_model.transmitter.registry import Registry
 
 _CACHES = (
-    plugins._found,
+    plugins._find_entries,
     decode._plugin,
     Registry.get,
     scheme.scheme_named,

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 import numpy as np
 import pytest
-from hard_cases.attack.doors.plugins import installed
+from hard_cases.attack.doors.plugins import install_plugin
 from model.plugins.installed_package import importable
 
 import occ_model as occ
@@ -385,7 +385,7 @@ def test_chips_that_lie_on_each_other_are_no_chips_of_a_film(gap: float) -> None
         found = occ.decode(signal, scene, "threshold")
         return replace(found, chip_starts=gap * np.arange(float(len(found.chips))))
 
-    with installed(plugins.DECODERS, occ.Decoder("own", "Own", read)):
+    with install_plugin(plugins.DECODERS, occ.Decoder("own", "Own", read)):
         reading = occ.decode_video(occ.render_video(scene, 2), scene, "own")
     assert "The stripes show no regular chips." in str(reading.failure)
 
@@ -404,7 +404,7 @@ def test_what_a_signal_raises_within_a_plug_in_is_for_the_program() -> None:
     for error in (SystemExit(143), Late(), KeyboardInterrupt()):
         signal.signal(signal.SIGTERM, end(error))
         with pytest.raises(type(error)):
-            plugins.called("It", "wait", str, lambda: signal.raise_signal(signal.SIGTERM))
+            plugins.call("It", "wait", str, lambda: signal.raise_signal(signal.SIGTERM))
     signal.signal(signal.SIGTERM, before)
     with pytest.raises(occ.PluginError, match=r"^It cannot leave: SystemExit: 143\.$"):
-        plugins.called("It", "leave", str, end(SystemExit(143)))
+        plugins.call("It", "leave", str, end(SystemExit(143)))

@@ -1,4 +1,4 @@
-"""What plug-ins give: a decoder's results, and those of a line code and of a framing."""
+"""Return values of plug-ins: those of decoders, line codes and framings."""
 
 import io
 import math
@@ -54,7 +54,7 @@ RUBBISH: tuple[Any, ...] = (
 
 
 class Own(BaseException):
-    """What no ``except Exception`` takes."""
+    """An exception that ``except Exception`` does not catch."""
 
 
 class WordlessError(Exception):
@@ -71,7 +71,7 @@ FAULTS: tuple[BaseException, ...] = (
 
 
 def check_read(result: occ.DecodeResult, columns: int, scene: occ.Scene) -> None:
-    """See that a result is whole and possible, whatever has made it."""
+    """Check that a result is complete and possible, whichever decoder made it."""
     assert type(result) is occ.DecodeResult
     for name in ("bits", "chips"):
         values = getattr(result, name)
@@ -117,52 +117,52 @@ def _raise(error: BaseException) -> NoReturn:
     raise error
 
 
-def _unset(kind: type) -> object:
+def _make_without_fields(kind: type) -> object:
     """Make an object of a subclass whose fields have no values."""
     return object.__new__(type("Mine", (kind,), {}))
 
 
-def _instead(chance: Random, given: Any) -> Any:
-    """Spoil what a plug-in gives: some of its parts, all of it, or not at all."""
+def _spoil(chance: Random, given: Any) -> Any:
+    """Spoil a plug-in's return value: some of its fields, all of it, or nothing."""
     kind = chance.random()
     if kind < 0.15:
         return _raise(chance.choice(FAULTS))
     if kind < 0.2:
-        return _unset(type(given))
+        return _make_without_fields(type(given))
     if kind < 0.25:
         return chance.choice(RUBBISH)
     if kind < 0.35 or isinstance(given, np.ndarray):
         return given if chance.random() < 0.6 else chance.choice(RUBBISH)
     names = [field.name for field in fields(given)]
     if isinstance(given, occ.DecodeResult) and chance.random() < 0.3:
-        return replace(given, chip_starts=_rising(chance, len(given.chips)))
+        return replace(given, chip_starts=_make_rising_starts(chance, len(given.chips)))
     spoiled = chance.sample(names, chance.choice((1, 1, 2)))
     return replace(given, **{name: chance.choice(RUBBISH) for name in spoiled})
 
 
-def _rising(chance: Random, count: int) -> FloatArray:
-    """Places of chips that rise, and are as near to each other or as far apart as may be."""
+def _make_rising_starts(chance: Random, count: int) -> FloatArray:
+    """Return rising starts of chips, some of them extremely close together or far apart."""
     far = chance.choice((0.0, 5e-324, 1e-300, 1e-9, 1e-3, 1.0, 300.0, 2e4))
     first = chance.choice((-2e4, -1.0, 0.0, 0.0, 1e3))
     return np.sort([first + chance.uniform(0.0, far) for _ in range(count)]).astype(np.float64)
 
 
-def _spoiled(chance: Random, function: Callable[..., Any]) -> Callable[..., Any]:
+def _spoil_function(chance: Random, function: Callable[..., Any]) -> Callable[..., Any]:
     if chance.random() < 0.05:
         return chance.choice(RUBBISH)
-    return lambda *given: _instead(chance, function(*given))
+    return lambda *given: _spoil(chance, function(*given))
 
 
-def offered(chance: Random, group: str) -> object:
-    """A plug-in's object, which fails in any way."""
+def make_plugin(chance: Random, group: str) -> object:
+    """Return a plug-in's object that may fail in any way."""
     if group == plugins.DECODERS:
         read = decoder_named(chance.choice(("threshold", "matched"))).read
         title = "Own" if chance.random() < 0.97 else chance.choice(RUBBISH)
-        return occ.Decoder(NAME, title, _spoiled(chance, read))
+        return occ.Decoder(NAME, title, _spoil_function(chance, read))
     base: Any = LINE_CODE if group == plugins.LINE_CODES else FRAMING
-    changes: dict[str, Any] = {"name": NAME, "decode": _spoiled(chance, base.decode)}
+    changes: dict[str, Any] = {"name": NAME, "decode": _spoil_function(chance, base.decode)}
     if chance.random() < 0.3:
-        changes["encode"] = _spoiled(chance, base.encode)
+        changes["encode"] = _spoil_function(chance, base.encode)
     if chance.random() < 0.2:
         names = [field.name for field in fields(base) if field.name != "name"]
         changes[chance.choice(names)] = chance.choice(RUBBISH)
@@ -170,20 +170,20 @@ def offered(chance: Random, group: str) -> object:
 
 
 @contextmanager
-def installed(group: str, offer: object) -> Iterator[None]:
+def install_plugin(group: str, offer: object) -> Iterator[None]:
     """Install a plug-in of one object within the context."""
     entry = SimpleNamespace(name=NAME, dist=None, load=lambda: offer)
 
-    def found(asked: str) -> dict[str, Any]:
-        return {NAME: entry} if asked == group else {}
+    def find(wanted: str) -> dict[str, Any]:
+        return {NAME: entry} if wanted == group else {}
 
     forget_plugins()
-    with patch.object(plugins, "_found", found):
+    with patch.object(plugins, "_find_entries", find):
         yield
     forget_plugins()
 
 
-def _decoded(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+def _decode(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
     profile = occ.column_profile(scene)
     result = occ.decode(profile, scene, decoder)
     check_read(result, len(profile), scene)
@@ -193,26 +193,26 @@ def _decoded(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
     return [failure] if failure.startswith("The plug-in") else []
 
 
-def _by_shell(scene: occ.Scene, decoder: str, folder: Path) -> list[str]:
+def _run_command(scene: occ.Scene, decoder: str, folder: Path) -> list[str]:
     scene_file, picture = folder / "scene.toml", folder / "picture.png"
     plain = scene.replace(line_code="manchester", framing="paper")
     scene_file.write_text(scene.to_toml(), "utf-8")
     write_image(picture, occ.render(plain).image)
-    said, complaints = io.StringIO(), io.StringIO()
-    with redirect_stdout(said), redirect_stderr(complaints):
+    output, complaints = io.StringIO(), io.StringIO()
+    with redirect_stdout(output), redirect_stderr(complaints):
         code = main(["decode", str(picture), "--scene", str(scene_file), "--decoder", decoder])
     assert code in (0, EXIT_FAILURE, EXIT_MISUSE), complaints.getvalue()
     assert "mistake" not in complaints.getvalue(), complaints.getvalue()
     return []
 
 
-def _studied(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+def _measure_rate(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
     point = measure_point(scene, RateSettings(2, (decoder,)), 0, {})
     assert 0 <= point.right[0] <= point.sent
     return [point.note] if point.note else []
 
 
-def _benched(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+def _measure_bench(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
     sent = scene.transmitter
     request = BenchRequest(
         (f"{sent.line_code}/{sent.framing}",), (decoder,), payload_bits=8, bits=16, rows=400
@@ -227,7 +227,7 @@ def _film(scene: occ.Scene) -> tuple[occ.VideoFrame, ...]:
     return tuple(occ.render_video(scene, 3))
 
 
-def _filmed(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+def _read_film(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
     plain = scene.replace(line_code="manchester", framing="paper")
     reader = VideoReader(scene, decoder)
     for frame in _film(plain):
@@ -241,18 +241,20 @@ _CHANGES = {
     plugins.LINE_CODES: {"line_code": NAME, "framing": "preamble"},
     plugins.FRAMINGS: {"framing": NAME, "line_code": "manchester"},
 }
-"""What a scene chooses of each group of plug-ins."""
+"""The parameters with which a scene uses the plug-in of each group."""
 
 
 def _plugin(chance: Random, folder: Path) -> list[str]:
     group = chance.choice(
         (plugins.DECODERS, plugins.DECODERS, plugins.LINE_CODES, plugins.FRAMINGS)
     )
-    with installed(group, offered(chance, group)):
+    with install_plugin(group, make_plugin(chance, group)):
         scene = chance.choice(SCENES).replace(**_CHANGES[group])
         decoder = NAME if group == plugins.DECODERS else chance.choice(("threshold", "matched"))
-        come = chance.choice((_decoded, _decoded, _by_shell, _studied, _benched, _filmed))
-        return come(scene, decoder, folder)
+        use = chance.choice(
+            (_decode, _decode, _run_command, _measure_rate, _measure_bench, _read_film)
+        )
+        return use(scene, decoder, folder)
 
 
 PLUGINS = Door(

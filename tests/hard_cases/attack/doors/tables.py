@@ -40,7 +40,7 @@ def _with_counts(chance: Random, request: SweepRequest, whole: bytes) -> bytes:
     """Put other counts into a point's rows, with the rates and intervals that follow from them."""
     lines = whole.decode().splitlines(keepends=True)
     first = next(place for place, line in enumerate(lines) if line[0] != "#") + 1
-    first += len(request.settings.decoders) * chance.randrange(request.points)
+    first += len(request.settings.decoders) * chance.randrange(request.point_count)
     for place in range(first, first + len(request.settings.decoders)):
         row = next(csv.reader([lines[place]]))
         for cell in chance.sample((5, 6, 10), chance.choice((1, 1, 2))):

@@ -9,7 +9,7 @@ from occ_gui.values.choices import FilmChoice, PhotoChoice, RoomChoice
 from occ_gui.values.simulated import Pins
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.frame import PICTURES
-from occ_model.results.sweep_request import Shown
+from occ_model.results.sweep_request import ShownQuantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene, SimulationSettings
 
@@ -43,7 +43,7 @@ class Workspace:
     scene: Scene
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
-    shown: Shown = "rate"
+    shown: ShownQuantity = "rate"
     decoder: str = PAPER_DECODER  # the decoder that has its result and steps shown
     picture_kind: str = PICTURES[0]  # the camera's or the receiver's picture, one of PICTURES
     overlay: str = "beside"

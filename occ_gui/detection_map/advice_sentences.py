@@ -11,7 +11,7 @@ from occ_model.results.limits import (
     end_text,
     format_value,
     gaps_text,
-    own_text,
+    present_rate_text,
     search_end_text,
     search_sentences,
     sent_text,
@@ -54,7 +54,7 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
         if theory.two_packets is not None:
             lines.append(AdviceLine(two_packets_text(theory.two_packets)))
         lines.append(AdviceLine(theory_text(parameter, theory), is_common=True))
-    lines.append(AdviceLine(own_text(advice.limits, frames_a_second)))
+    lines.append(AdviceLine(present_rate_text(advice.limits, frames_a_second)))
     lines += [AdviceLine(text, is_common=True) for text in search_sentences(advice.limits)]
     return lines
 

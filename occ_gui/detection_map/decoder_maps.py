@@ -20,7 +20,7 @@ from occ_gui.detection_map.map_plot import STYLES, MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
 from occ_gui.widgets.building import fill, name_widget
 from occ_model.arrays import FloatArray
-from occ_model.results.sweep_request import Shown
+from occ_model.results.sweep_request import ShownQuantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 
@@ -38,8 +38,8 @@ class MapPlots(QWidget):
     def __init__(self, decoders: Sequence[str]) -> None:
         super().__init__()
         self._decoders = tuple(decoders)
-        self._what = "both"
-        self._shown: Shown = "rate"
+        self._choice = "both"
+        self._shown_quantity: ShownQuantity = "rate"
         self._frames_a_second = FRAME_RATE.default
         self._rates: RateMap | None = None
         self._theory: TheoryFields | None = None
@@ -83,7 +83,7 @@ class MapPlots(QWidget):
         return plot
 
     def _list_names(self) -> tuple[str, ...]:
-        return self._decoders if self._what == "both" else (self._what,)
+        return self._decoders if self._choice == "both" else (self._choice,)
 
     def _name_plots(self) -> None:
         names = self._list_names()
@@ -102,12 +102,12 @@ class MapPlots(QWidget):
 
     def show_what(self, what: str) -> None:
         """Show all decoders (``"both"``), one, or the ``"difference"`` of two."""
-        self._what = what
+        self._choice = what
         self._name_plots()
         self._redraw()
 
-    def show_bits(self, shown: Shown, frames_a_second: float) -> None:
-        self._shown, self._frames_a_second = shown, frames_a_second
+    def show_bits(self, shown: ShownQuantity, frames_a_second: float) -> None:
+        self._shown_quantity, self._frames_a_second = shown, frames_a_second
         self._bar_key = ""
         self._redraw()
 
@@ -140,7 +140,7 @@ class MapPlots(QWidget):
         self._redraw()
 
     def _redraw(self) -> None:
-        scheme = DIFFERENCES if self._what == "difference" else RATES
+        scheme = DIFFERENCES if self._choice == "difference" else RATES
         low, high = self._scale(scheme)
         if self._bar_key != f"{scheme} {high}":
             self._draw_bar(scheme)
@@ -158,7 +158,7 @@ class MapPlots(QWidget):
 
     def _scale(self, scheme: str) -> tuple[float, float]:
         low, high = _SCALES[scheme]
-        if self._shown == "rate":
+        if self._shown_quantity == "rate":
             return low, high
         rates = self._rates
         known = 0.0 if rates is None else float(rates.most_bits(self._frames_a_second).max())
@@ -170,7 +170,7 @@ class MapPlots(QWidget):
         return self._select(rates, name)
 
     def _select(self, rates: RateMap, decoder: str) -> FloatArray:
-        if self._shown == "rate":
+        if self._shown_quantity == "rate":
             return rates.rates(decoder)
         return rates.bits_a_second(decoder, self._frames_a_second)
 
@@ -192,13 +192,13 @@ class MapPlots(QWidget):
         name = "Fraction of the bits that are read correctly, in percent"
         if scheme == DIFFERENCES:
             name = "Difference of the fractions of bits that are read correctly, in percent"
-        if self._shown == "bits":
+        if self._shown_quantity == "bits":
             name = "Net bits a second, counting only pictures with every bit read correctly"
         self.bar.show_colours(image, numbers, name)
         self._bar_key = f"{scheme} {high}"
 
     def _format(self, value: float, signed: bool) -> str:
-        if self._shown == "bits":
+        if self._shown_quantity == "bits":
             return f"{value:+,.0f}" if signed and value else f"{value:,.0f}"
         return f"{value:+.0f} %" if signed and value else f"{value:.0f} %"
 

@@ -23,7 +23,7 @@ from occ_model.results.limits import (
     WorkingRange,
     format_value,
     gaps_text,
-    own_text,
+    present_rate_text,
     search_end_text,
 )
 from occ_model.scene.units import HERTZ
@@ -86,7 +86,7 @@ class LimitCards(QWidget):
         if card is not None:
             line = make_frequency_line(advice)
             frequencies = advice.limits.frequency
-            bits = own_text(advice.limits, self.frames_a_second)
+            bits = present_rate_text(advice.limits, self.frames_a_second)
             end = "" if frequencies.most_chips is None else search_end_text(frequencies)
             texts = (advice.cause, line.text, frequencies.faults, gaps_text(frequencies), end, bits)
             tip = "\n".join(text for text in texts if text)

@@ -13,7 +13,7 @@ from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
 from occ_gui.widgets.outdated_mark import OutdatedMark
-from occ_model.results.sweep_request import Shown
+from occ_model.results.sweep_request import ShownQuantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
@@ -162,7 +162,7 @@ class MapView(QWidget):
         self.left_out.setVisible(bool(effects))
         self.left_out.set_full_text(f"The map leaves out: {', '.join(effects)}.")
 
-    def show_bits(self, shown: Shown, frames_a_second: float) -> None:
+    def show_bits(self, shown: ShownQuantity, frames_a_second: float) -> None:
         self.shown.show_key(shown)
         self.frame_rate.setVisible(shown == "bits")
         self.frame_rate.set_value(frames_a_second)

@@ -60,7 +60,7 @@ class DetectionMapController(QObject):
         return self.map is not None and self._map_request == self._request()
 
     @property
-    def full(self) -> tuple[RateMap, MapRequest] | None:
+    def complete(self) -> tuple[RateMap, MapRequest] | None:
         """The map and its request; None while points are missing."""
         if self.map is None or self._map_request is None or not self.is_current:
             return None

@@ -205,7 +205,7 @@ class MostBitsController(SearchController):
 
     def _request(self) -> MostBitsRequest:
         workspace = self._scenes.store.workspace
-        return MostBitsRequest(most_bits.reset_searched(workspace.scene), workspace.frame_rate)
+        return MostBitsRequest(most_bits.reset_varied(workspace.scene), workspace.frame_rate)
 
     def start(self) -> None:
         """Search at the exposure and the distance of the present scene."""
@@ -215,7 +215,7 @@ class MostBitsController(SearchController):
         self._check_progress()
 
     def go(self, result: MostBits) -> None:
-        scene = most_bits.example_of(result)
+        scene = most_bits.make_example(result)
         if scene is not None:
             changes = {name: scene.value(name) for name in most_bits.VARIED}
             self._go_to(result.decoder, changes)

@@ -32,7 +32,7 @@ from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import Region
 from occ_model.results.frame import PICTURES
 from occ_model.results.match import ESTIMATES
-from occ_model.results.sweep_request import SHOWN
+from occ_model.results.sweep_request import SHOWN_QUANTITIES
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import DECLARED, FRAME_RATE
@@ -53,7 +53,7 @@ _VIEW: Mapping[str, tuple[object, ...]] = {
     "picture_kind": PICTURES,
     "overlay": MODES,
     "is_enhanced": (False, True),
-    "shown": SHOWN,
+    "shown": SHOWN_QUANTITIES,
 }
 """Settings of how results are shown, with their possible values."""
 

@@ -66,7 +66,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
     paper.write_profile_figure(options.out, 3, "phone-68us", photos[0])
     paper.write_profile_figure(options.out, 4, "phone-136us", photos[1])
     requests = _requests(options)
-    points = sum(request.points for request in requests.values())
+    points = sum(request.point_count for request in requests.values())
     with progress_bar(total=points, unit="point") as bar:
         for number, (device, presets) in enumerate(DEVICES.items(), start=5):
             bar.set_description(device)

@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace) -> int:
         make_folder(options.out)  # refuse a folder before minutes of work
     points = []
     print("   frequency    gap   bits  packets  received  by counting  with repeats")
-    with progress_bar(total=request.points * request.frames, unit="frame") as bar:
+    with progress_bar(total=request.point_count * request.frames, unit="frame") as bar:
         for point in film_study(request, bar.update):
             points.append(point)
             bar.write(_format_point(point), file=sys.stdout)

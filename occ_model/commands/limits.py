@@ -23,7 +23,7 @@ from occ_model.results.limits import (
     end_text,
     format_gaps,
     format_value,
-    own_text,
+    present_rate_text,
     search_end_text,
     search_sentences,
     sent_text,
@@ -151,7 +151,7 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
         two_packets = advice.frequency.two_packets
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
-        lines.append(f"  {own_text(found, frames_a_second)}")
+        lines.append(f"  {present_rate_text(found, frames_a_second)}")
     lines += dict.fromkeys(line for found in answers for line in search_sentences(found))
     lines.append(theory_text("switching_frequency", advices[0].frequency))
     lines.append(theory_text("exposure_time", advices[0].exposure))

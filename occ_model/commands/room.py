@@ -171,7 +171,7 @@ def _run_map(options: argparse.Namespace) -> int:
         text = RoomMapText(request)
         sys.stdout.writelines([text.header, *map(text.text, points)])
         return 0
-    pictures = request.points * request.images
+    pictures = request.point_count * request.images
     sure, named, wrong, shown = (
         sum(getattr(point, count) for point in points)
         for count in ("sure_places", "named", "wrong", "shown")
@@ -179,7 +179,7 @@ def _run_map(options: argparse.Namespace) -> int:
     errors = [point.error for point in points if point.sure_places]
     median = f", median error {1e3 * float(np.median(errors)):.3g} mm" if errors else ""
     print(
-        f"{one_line(str(options.out))}: {counted(request.points, 'place')}, "
+        f"{one_line(str(options.out))}: {counted(request.point_count, 'place')}, "
         f"{counted(pictures, 'picture')}: {named} of {shown} whole lamps named, "
         f"{counted(wrong, 'lamp')} named wrongly; {counted(sure, 'place')} sure{median}"
     )

@@ -33,7 +33,7 @@ from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import (
     MOST_JOBS,
-    SHOWN,
+    SHOWN_QUANTITIES,
     SIGNAL_PATHS,
     RateSettings,
 )
@@ -88,7 +88,11 @@ def add_to(commands: Commands) -> None:
         help="draw one axis as curves, two as maps; PNG, PDF or SVG by its ending",
     )  # fmt: skip
     add_option(
-        parser, "--show", "rate", "success rates in the plot, or bits a second", choices=SHOWN
+        parser,
+        "--show",
+        "rate",
+        "success rates in the plot, or bits a second",
+        choices=SHOWN_QUANTITIES,
     )
     parser.set_defaults(command=_run, writes={"out": TABLE})
 
@@ -138,7 +142,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.out:
         name = one_line(str(options.out))
         print(
-            f"{name}: {counted(request.points, 'point')}, "
+            f"{name}: {counted(request.point_count, 'point')}, "
             f"{counted(len(settings.decoders), 'rate')} each"
         )
     elif not options.plot:

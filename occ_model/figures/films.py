@@ -55,7 +55,7 @@ def films_drawing(points: Sequence[FilmPoint]) -> Drawing:
 
 def _draw(points: Sequence[FilmPoint]) -> Figure:
     figure = Figure(figsize=(7.6, 3.6))
-    received, carried = figure.subplots(1, 2)
+    reception_axes, rate_axes = figure.subplots(1, 2)
     for number, ((frequency, bits), line) in enumerate(group_points(points).items()):
         style: dict[str, Any] = {
             "color": _COLOURS[number % len(_COLOURS)],
@@ -63,17 +63,17 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
         }
         gaps = [100.0 * point.gap for point in line]
         label = f"{HERTZ.format(frequency)}, {counted(bits, 'bit')}"
-        read = [100.0 * point.reception for point in line]
-        received.plot(gaps, read, linestyle="", markersize=4, label=label, **style)
-        exact = [100.0 * point.counted_reception for point in line]
-        received.plot(gaps, exact, linewidth=0.8, color=style["color"])
+        receptions = [100.0 * point.reception for point in line]
+        reception_axes.plot(gaps, receptions, linestyle="", markersize=4, label=label, **style)
+        exact = [100.0 * point.counted_reception for point in line]  # without a receiver's errors
+        reception_axes.plot(gaps, exact, linewidth=0.8, color=style["color"])
         rates = [point.bits_per_second for point in line]
-        carried.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
-    received.plot([], [], color="black", linewidth=0.8, label="by exact counting")
-    _label_axes(received, "packets received (%)")
-    _label_axes(carried, "bits a second, repeats included")
-    received.set_ylim(-4.0, 104.0)
-    carried.set_ylim(bottom=0.0)
+        rate_axes.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
+    reception_axes.plot([], [], color="black", linewidth=0.8, label="by exact counting")
+    _label_axes(reception_axes, "packets received (%)")
+    _label_axes(rate_axes, "bits a second, repeats included")
+    reception_axes.set_ylim(-4.0, 104.0)
+    rate_axes.set_ylim(bottom=0.0)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=7)
     return figure
 

@@ -18,7 +18,7 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError, counted
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
 from occ_model.results.sweep import SweepTable, column_title, format_value
-from occ_model.results.sweep_request import Shown, SweepPoint
+from occ_model.results.sweep_request import ShownQuantity, SweepPoint
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.provenance import Provenance
@@ -42,7 +42,7 @@ _FAILED = "a plug-in failed: see the notes in the table"
 _CELLS_WITH_NUMBERS = 14  # most cells on a side for which each cell shows its number
 
 
-def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> None:
+def write_sweep_figure(path: Path, table: SweepTable, shown: ShownQuantity = "rate") -> None:
     """Draw a table's success rates, or bits a second, in the format of the file's ending.
 
     With one axis there is a curve for each decoder, with 95 % intervals. With two axes there is a
@@ -59,7 +59,7 @@ def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> 
         write_figure(path, sweep_drawing(table, shown).draw(), _provenance(table, shown))
 
 
-def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
+def sweep_drawing(table: SweepTable, shown: ShownQuantity = "rate") -> Drawing:
     """Draw a table's success rates, or bits a second, against one axis or two."""
     names = list(table.axes)
 
@@ -83,7 +83,7 @@ def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
     return Drawing("map", title, lambda: draw(table, shown), header, rows)
 
 
-def _provenance(table: SweepTable, shown: Shown) -> Provenance:
+def _provenance(table: SweepTable, shown: ShownQuantity) -> Provenance:
     settings = table.request.settings
     title = f"{_TITLES[shown]} over {' and '.join(table.axes)}"
     notes = (
@@ -94,11 +94,13 @@ def _provenance(table: SweepTable, shown: Shown) -> Provenance:
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
 
 
-def _values(table: SweepTable, decoder: str, shown: Shown) -> FloatArray:
+def _values(table: SweepTable, decoder: str, shown: ShownQuantity) -> FloatArray:
     return table.rates(decoder) if shown == "rate" else table.bits_a_second(decoder)
 
 
-def _intervals(table: SweepTable, decoder: str, shown: Shown) -> tuple[FloatArray, FloatArray]:
+def _intervals(
+    table: SweepTable, decoder: str, shown: ShownQuantity
+) -> tuple[FloatArray, FloatArray]:
     if shown == "rate":
         return table.intervals(decoder)
     bits, images = table.bits_a_second(decoder), table.request.settings.images
@@ -117,7 +119,7 @@ def _most_bits(table: SweepTable, point: SweepPoint) -> float:
     return np.nan if found is None else found
 
 
-def _highest_value(table: SweepTable, shown: Shown) -> float:
+def _highest_value(table: SweepTable, shown: ShownQuantity) -> float:
     """Return the upper end of the axis or of the colour scale."""
     if shown == "rate":
         return 100.0
@@ -125,7 +127,7 @@ def _highest_value(table: SweepTable, shown: Shown) -> float:
     return float(np.nanmax(bits)) if np.isfinite(bits).any() else 1.0
 
 
-def _draw_curves(table: SweepTable, shown: Shown) -> Figure:
+def _draw_curves(table: SweepTable, shown: ShownQuantity) -> Figure:
     ((name, values),) = table.axes.items()
     figure = Figure(figsize=(6.4, 3.6))
     ax = figure.subplots()
@@ -158,7 +160,7 @@ def _draw_curves(table: SweepTable, shown: Shown) -> Figure:
     return figure
 
 
-def _draw_maps(table: SweepTable, shown: Shown) -> Figure:
+def _draw_maps(table: SweepTable, shown: ShownQuantity) -> Figure:
     (across, columns), (upwards, rows) = table.axes.items()
     width = min(3.2 * len(table.decoders) + 1.6, 12.0)
     figure = Figure(figsize=(width, 3.6))

@@ -182,7 +182,7 @@ def sent_text(scene: Scene) -> str:
     return f"code {sent.code}"
 
 
-def own_text(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
+def present_rate_text(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
     """State what was read at the scene's own values, and the bits a second."""
     own, bits = found.frequency.own, found.bits_a_second(frames_a_second)
     return (

@@ -14,12 +14,12 @@ SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
 """How a decoder's signal is simulated: "profile" as column means, "rows" from a sample of the
 image's rows, "image" from the whole image, "auto" by the first of these that the plan allows."""
 
-Shown: TypeAlias = Literal["rate", "bits"]  # success rates in percent, or net bits a second
-SHOWN: tuple[Shown, ...] = ("rate", "bits")
+ShownQuantity: TypeAlias = Literal["rate", "bits"]  # success rates in percent, or net bits a second
+SHOWN_QUANTITIES: tuple[ShownQuantity, ...] = ("rate", "bits")
 
 SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "rows", "image")
 
-MOST_POINTS = 1_000_000  # of a sweep, as counts are kept in memory and the table is written at once
+MOST_POINTS = 1_000_000  # of a sweep, whose counts all stay in memory
 MOST_AXES = 31  # parameters of a sweep: NumPy's arrays have 32 axes, one is the decoders'
 MOST_IMAGES = 1_000_000  # images at a point
 MOST_JOBS = 1024  # processes of a sweep
@@ -56,29 +56,29 @@ class SweepRequest:
         return tuple(len(values) for values in self.axes.values())
 
     @property
-    def points(self) -> int:
+    def point_count(self) -> int:
         """The number of combinations of the axes' values."""
         return math.prod(self.shape)
 
     def values(self, index: int) -> dict[str, ParameterValue]:
         """Return the parameters of a point by its index; the last axis runs fastest."""
-        found: list[ParameterValue] = []
+        reversed_values: list[ParameterValue] = []
         for values in reversed(list(self.axes.values())):
             index, place = divmod(index, len(values))
-            found.append(values[place])
-        return dict(zip(self.axes, reversed(found), strict=True))
+            reversed_values.append(values[place])
+        return dict(zip(self.axes, reversed(reversed_values), strict=True))
 
     def bits_sent(self, index: int) -> int:
         """Return the number of bits in an image of a point."""
         names = ("payload", "bits")
-        sent = {name: value for name, value in self.values(index).items() if name in names}
-        scene = self.scene.replace(**sent) if sent else self.scene
+        changes = {name: value for name, value in self.values(index).items() if name in names}
+        scene = self.scene.replace(**changes) if changes else self.scene
         return scene.transmitter.payload_length
 
     def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
         """Return the net bits a second of a point; None if the model refuses the scene.
 
-        It counts as if each image had another payload that is read as often as the scene's own.
+        Each image is taken to carry a new payload that is read as often as the scene's own.
         """
         if not point.sent or not point.whole:
             return None

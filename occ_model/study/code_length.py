@@ -141,7 +141,7 @@ def _median_columns(request: RoomMapRequest) -> float:
     """Return the median number of columns of a whole lamp over all places; 0 without any."""
     camera = request.room.scene.camera
     columns = []
-    for index in range(request.points):
+    for index in range(request.point_count):
         x, y = request.place(index)
         try:
             in_view = lamps_in_view(request.room.replace(x=x, y=y))

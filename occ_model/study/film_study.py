@@ -110,13 +110,13 @@ class FilmRequest:
                 raise ParameterError.of(
                     "gap", f"{100.0 * gap:g} % of a frame", f"0 to {100 * _LARGEST_GAP:g} %"
                 )
-        check_count("points", self.points, 1, MOST_POINTS)
+        check_count("points", self.point_count, 1, MOST_POINTS)
         for number in self.bits:
             check_count("bits", number, 1, 4096)
         Recording(frame_rate=self.frame_rate)
 
     @property
-    def points(self) -> int:
+    def point_count(self) -> int:
         return len(self.frequencies) * len(self.gaps) * len(self.bits)
 
     def scene_at(self, frequency: float, gap: float, bits: int, seed: int) -> Scene:

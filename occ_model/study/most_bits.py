@@ -27,7 +27,7 @@ from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import check_code, scheme_of
 
-_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # only the better known of equally short codes
+_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # of codes of one rate only the best known
 DECODERS = ("threshold", "equalizer", "sequence")  # for payloads of any length, fastest first
 
 VARIED = (  # the parameters that the search chooses; its result depends on all the others
@@ -42,7 +42,7 @@ _FILLED_FRACTIONS = (0.95, 0.5, 0.25)  # of a picture's chips, taken by one payl
 
 
 @dataclass(frozen=True, slots=True)
-class _Candidate:
+class Candidate:
     line_code: str
     frequency: float
     bits: int
@@ -93,41 +93,41 @@ def most_bits(
     check_frame_rate(scene, frames_a_second)
     for name in decoders:
         decoder_named(name)
-    candidates = candidate_codes(scene)
-    found = []
+    candidates = list_candidates(scene)
+    results = []
     for name in decoders:
         settings = RateSettings(1, (name,), seed)
         with Faults().counting() as faults:
-            place, sent = _find_first_read(
+            place, readable = _find_first_readable(
                 scene, candidates, settings, pictures, (heartbeat, progress)
             )
-        bits = 0 if sent is None else candidates[place].bits
-        failure = None if sent is not None else _explain_failure(scene, candidates, settings)
-        found.append(
+        bits = 0 if readable is None else candidates[place].bits
+        failure = None if readable is not None else _explain_failure(scene, candidates, settings)
+        results.append(
             MostBits(
-                name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure,
+                name, readable, pictures, bits * frames_a_second, frames_a_second, place, failure,
                 str(faults),
             )
         )  # fmt: skip
-    return tuple(found)
+    return tuple(results)
 
 
-def reset_searched(scene: Scene) -> Scene:
-    """Return a scene with the searched parameters reset: equal scenes have the same result."""
+def reset_varied(scene: Scene) -> Scene:
+    """Return a scene with the varied parameters reset, on which the search's result depends."""
     frequency = quantity("switching_frequency").default
     return _send_zeros(scene, _TRIED_LINE_CODES[0], 1, frequency).replace(code=0, start_time=0.0)
 
 
-def example_of(found: MostBits, seed: int = 1) -> Scene | None:
+def make_example(result: MostBits, seed: int = 1) -> Scene | None:
     """Return the scene that carries most bits, with a random payload of the length tried."""
-    if found.scene is None:
+    if result.scene is None:
         return None
-    length = found.scene.transmitter.payload_length
+    length = result.scene.transmitter.payload_length
     bits = np.random.default_rng(seed).integers(0, 2, length)
-    return with_payload(found.scene, bits.tolist())
+    return with_payload(result.scene, bits.tolist())
 
 
-def _explain_failure(scene: Scene, candidates: Sequence[_Candidate], settings: RateSettings) -> str:
+def _explain_failure(scene: Scene, candidates: Sequence[Candidate], settings: RateSettings) -> str:
     if not panel_readout_time(scene) and not is_panel_in_picture(scene):
         return "No column of the picture shows the panel."
     if not candidates:
@@ -143,17 +143,17 @@ def _explain_failure(scene: Scene, candidates: Sequence[_Candidate], settings: R
     return f"{cause} {failure}" if cause is not None and cause.is_overexposed else failure
 
 
-def candidate_codes(scene: Scene) -> list[_Candidate]:
+def list_candidates(scene: Scene) -> list[Candidate]:
     """Return the combinations to try, most bits first, and among equals the lowest frequency."""
-    seen = panel_readout_time(scene)
-    found = {
-        _Candidate(line_code, frequency, bits)
+    readout = panel_readout_time(scene)  # seconds
+    candidates = {
+        Candidate(line_code, frequency, bits)
         for line_code in _TRIED_LINE_CODES
         for frequency in _frequencies(scene)
         for filled in _FILLED_FRACTIONS
-        if (bits := _count_bits(line_code, filled * seen * frequency)) > 0
+        if (bits := _count_bits(line_code, filled * readout * frequency)) > 0
     }
-    return sorted(found, key=lambda one: (-one.bits, one.frequency, one.line_code))
+    return sorted(candidates, key=lambda one: (-one.bits, one.frequency, one.line_code))
 
 
 def _frequencies(scene: Scene) -> list[float]:
@@ -179,31 +179,32 @@ def _send_zeros(scene: Scene, line_code: str, bits: int, frequency: float) -> Sc
     )  # fmt: skip
 
 
-def _find_first_read(
+def _find_first_readable(
     scene: Scene,
-    candidates: Sequence[_Candidate],
+    candidates: Sequence[Candidate],
     settings: RateSettings,
     pictures: int,
     calls: tuple[Heartbeat, Callable[[str, int, int], object]],
 ) -> tuple[int, Scene | None]:
+    """Return the index of the first candidate whose pictures are all read, and its scene."""
     heartbeat, progress = calls
     (decoder,) = settings.decoders
     for place, one in enumerate(candidates):
         progress(decoder, place, len(candidates))
-        sent = _send_zeros(scene, one.line_code, one.bits, one.frequency)
-        if all(_read_pictures(sent, settings, pictures, heartbeat)):
-            return place, sent
+        candidate = _send_zeros(scene, one.line_code, one.bits, one.frequency)
+        if all(_read_pictures(candidate, settings, pictures, heartbeat)):
+            return place, candidate
     return len(candidates), None
 
 
 def _read_pictures(
-    sent: Scene, settings: RateSettings, pictures: int, heartbeat: Heartbeat
+    candidate: Scene, settings: RateSettings, pictures: int, heartbeat: Heartbeat
 ) -> Iterator[bool]:
     """Yield for each picture whether all bits are correct and accepted."""
-    length = sent.transmitter.payload_length
+    length = candidate.transmitter.payload_length
     random = np.random.default_rng(settings.seed)
     for _ in range(pictures):
-        scene = with_payload(sent, random.integers(0, 2, length).tolist())
+        scene = with_payload(candidate, random.integers(0, 2, length).tolist())
         own = RateSettings(1, settings.decoders, int(random.integers(2**32)))
         ((right,),) = right_bits_of_images(scene, own, heartbeat)
         yield right == length

@@ -48,11 +48,11 @@ class RoomMapRequest:
     def __post_init__(self) -> None:
         check_seed(self.seed)
         check_count("images", self.images, 1, 10_000)
-        check_count("places", self.points, 1, MOST_PLACES)
+        check_count("places", self.point_count, 1, MOST_PLACES)
         TOLERANCE.check(self.tolerance)
 
     @property
-    def points(self) -> int:
+    def point_count(self) -> int:
         return len(self.across) * len(self.along)
 
     def place(self, index: int) -> tuple[float, float]:
@@ -162,7 +162,7 @@ class RoomMapText:
 
     def __init__(self, request: RoomMapRequest) -> None:
         self._request = request
-        self.points = request.points
+        self.point_count = request.point_count
         lines = [
             _TITLE,
             f"# occ_model {__version__}",
@@ -249,7 +249,7 @@ def room_map(
 
     measure_study(
         StudyWork("map", measure_places, lambda indices: (request, tuple(indices))), text,
-        range(request.points), found.append,
+        range(request.point_count), found.append,
         lambda: [text.header, *map(text.text, in_order())],
         executor=executor, jobs=jobs, progress=progress, results=results,
     )  # fmt: skip

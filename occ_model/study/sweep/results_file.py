@@ -38,7 +38,7 @@ class TableText(Protocol[Point]):
 
     header: str  # all that determines the numbers, and the column names
 
-    points: int  # number of points of the whole study
+    point_count: int  # of the whole study
 
     lines_a_point: int
 
@@ -134,7 +134,7 @@ class ResultsFile(Generic[Point]):
     def read_points(self) -> Iterator[Point]:
         """Read the points in the file before any is appended; cut off an incomplete last one."""
         height = self._table.lines_a_point
-        seen = bytearray(self._table.points)
+        seen = bytearray(self._table.point_count)
         whole, line_number = len(self._header), self._header.count(b"\n")
         with open(self._file.fileno(), "rb", closefd=False) as buffered:
             buffered.seek(whole)

@@ -91,10 +91,10 @@ class SweepCounts:
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
         decoders = len(request.settings.decoders)
-        self._sent = np.zeros(request.points, dtype=np.int64)
-        self._right = np.zeros((request.points, decoders), dtype=np.int64)
-        self._whole = np.zeros((request.points, decoders), dtype=np.int64)
-        self._ends = np.zeros((request.points, decoders, 2))
+        self._sent = np.zeros(request.point_count, dtype=np.int64)
+        self._right = np.zeros((request.point_count, decoders), dtype=np.int64)
+        self._whole = np.zeros((request.point_count, decoders), dtype=np.int64)
+        self._ends = np.zeros((request.point_count, decoders, 2))
         self._notes: dict[int, str] = {}
 
     def enter(self, point: SweepPoint) -> None:
@@ -119,7 +119,7 @@ class SweepCounts:
 
 
 Progress: TypeAlias = Callable[[int, int, float], object]  # points done, all points, seconds left
-BEAT = 0.2  # seconds between calls of the progress during a long point
+REPORT_PERIOD = 0.2  # seconds between reports of the progress during a long point
 
 
 def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -185,13 +185,13 @@ def run_sweep(
     progress: Progress | None = None,
     results: str | Path | None = None,
 ) -> SweepTable:
-    """Measure a sweep that has been requested.
+    """Measure the points of a sweep's request.
 
     ``executor``: any executor of ``concurrent.futures`` whose workers can import this package, such
     as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. If it breaks, this
     process finishes the sweep and issues a ``RuntimeWarning``. Without an executor, ``jobs``
     processes are started, at most one per point and a few per core, and replaced if they die. With
-    one job, the sweep runs in this process, and also, with a ``RuntimeWarning``, if the system
+    one job, the sweep runs in this process; so it does, with a ``RuntimeWarning``, if the system
     cannot start processes. The calling module must not call this when it is imported (``if __name__
     == "__main__":``). ``progress``: called after each point, and several times a second during a
     long point, with the points done, all points, and the seconds left (NaN at first). An exception
@@ -234,18 +234,18 @@ def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
     all points in the order of the study. For the other arguments see :func:`run_sweep`.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
-    reporter, there = SweepProgress(table.points, progress), bytearray(table.points)
+    reporter, is_measured = SweepProgress(table.point_count, progress), bytearray(table.point_count)
     with ExitStack() as stack:
         file = (
             stack.enter_context(ResultsFile(Path(results), table)) if results is not None else None
         )
         if file is not None:
             for point in file.read_points():
-                there[point.index] = True
+                is_measured[point.index] = True
                 enter(point)
-            reporter.start(sum(there))
-        todo = (index for index in order if not there[index])
-        jobs = processes_for(jobs, table.points - sum(there))
+            reporter.start(sum(is_measured))
+        todo = (index for index in order if not is_measured[index])
+        jobs = processes_for(jobs, table.point_count - sum(is_measured))
         points = measure_anywhere(work, todo, executor, jobs, reporter.report_if_due)
         # Closed here in every case, because workers that are not closed would go on.
         stack.enter_context(closing(points))
@@ -263,7 +263,7 @@ class _SweepText:
 
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
-        self.header, self.points = header_text(request), request.points
+        self.header, self.point_count = header_text(request), request.point_count
         self.lines_a_point = len(request.settings.decoders)
         self.read = PointReader(request).read
 
@@ -278,13 +278,13 @@ class SweepProgress:
     def __init__(self, total: int, progress: Progress | None) -> None:
         self._progress = progress
         self._total = total
-        self._done = self._found = 0
-        self._started = self._told = perf_counter()
+        self._done = self._from_file = 0
+        self._started = self._reported = perf_counter()
 
-    def start(self, found: int) -> None:
-        self._done = self._found = found
-        self._started = self._told = perf_counter()
-        if found:
+    def start(self, from_file: int) -> None:
+        self._done = self._from_file = from_file
+        self._started = self._reported = perf_counter()
+        if from_file:
             self._report()
 
     def count_point(self) -> None:
@@ -293,13 +293,13 @@ class SweepProgress:
 
     def report_if_due(self) -> None:
         """Report the progress again if the last report was long ago."""
-        if perf_counter() - self._told >= BEAT:
+        if perf_counter() - self._reported >= REPORT_PERIOD:
             self._report()
 
     def _report(self) -> None:
-        self._told = perf_counter()
+        self._reported = perf_counter()
         if self._progress is None:
             return
-        measured = self._done - self._found
-        each = (self._told - self._started) / measured if measured else math.nan
+        measured = self._done - self._from_file
+        each = (self._reported - self._started) / measured if measured else math.nan
         self._progress(self._done, self._total, each * (self._total - self._done))

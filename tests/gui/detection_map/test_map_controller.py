@@ -135,7 +135,7 @@ def test_a_change_that_does_not_affect_the_map_measures_nothing(
     bench.scenes.change(switching_frequency=7e3, distance=2.0, start_time=1e-3)
     bench.wait_until_idle()
     assert len(bench.workers.jobs) == before
-    assert bench.controller.full is not None
+    assert bench.controller.complete is not None
 
 
 def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
@@ -264,13 +264,13 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
     bench.wait_until_idle()
     assert waits_at_maps
     assert not any(waits_at_maps)
-    assert controller.full is not None
-    assert controller.full[0] is controller.map
+    assert controller.complete is not None
+    assert controller.complete[0] is controller.map
     bench.scenes.change(iso=200.0)
     assert waits()
     controller.set_seen(False)
     assert not waits()
-    assert controller.full is None, "the map is of another scene"
+    assert controller.complete is None, "the map is of another scene"
 
 
 @pytest.mark.parametrize("with_image_effects", [False, True])

@@ -16,14 +16,14 @@ from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.search_controller import MostBitsController
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.scene import Scene
-from occ_model.study.most_bits import DECODERS, VARIED, reset_searched
+from occ_model.study.most_bits import DECODERS, VARIED, reset_varied
 
 LENGTHS = dict(zip(DECODERS, (112, 185, 40), strict=True))
 """Bits per picture that the fake decoders read."""
 
 
 def result_of(decoder: str, scene: Scene, frames: float = 30.0) -> MostBits:
-    sent = reset_searched(scene).replace(
+    sent = reset_varied(scene).replace(
         payload="bits:" + "0" * LENGTHS[decoder], switching_frequency=28.8e3
     )
     return MostBits(decoder, sent, 10, frames * LENGTHS[decoder], frames, 66)

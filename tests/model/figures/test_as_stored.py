@@ -34,7 +34,7 @@ from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.results.bit_errors import BenchPoint, BenchRequest, BitErrors
 from occ_model.results.frame import Frame
 from occ_model.results.sweep import SweepTable
-from occ_model.results.sweep_request import RateSettings, Shown, SweepRequest
+from occ_model.results.sweep_request import RateSettings, ShownQuantity, SweepRequest
 from occ_model.results.teaching import AnsweredStep, CheckedAnswer
 from occ_model.study.confidence import wilson_interval
 from occ_model.study.film_study import FilmPoint
@@ -153,7 +153,7 @@ DISTANCES = (0.5, 1.0, 1.5, 2.0)
 
 @pytest.mark.parametrize("shown", ["rate", "bits"])
 @pytest.mark.parametrize("count", [1, 2])
-def test_the_rates_of_a_sweep(count: int, shown: Shown, is_as_stored: Compare) -> None:
+def test_the_rates_of_a_sweep(count: int, shown: ShownQuantity, is_as_stored: Compare) -> None:
     axes = {"switching_frequency": FREQUENCIES, "distance": DISTANCES}
     drawing = sweep_drawing(table_of(dict(list(axes.items())[:count])), shown)
     is_as_stored(f"sweep-{count}-{shown}", draw_in_style(drawing), *drawing.header, *drawing.rows())

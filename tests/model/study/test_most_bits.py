@@ -10,13 +10,13 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.study.most_bits import VARIED, candidate_codes, example_of, reset_searched
+from occ_model.study.most_bits import VARIED, list_candidates, make_example, reset_varied
 
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
 
 
 def test_the_combination_that_carries_most_is_tried_first() -> None:
-    bits = [one.bits for one in candidate_codes(FAR)]
+    bits = [one.bits for one in list_candidates(FAR)]
     assert bits == sorted(bits, reverse=True)
     assert len(bits) > 50
 
@@ -29,8 +29,8 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     assert occ.bit_error_rate(found.scene, "threshold", 2 * length).rate < 0.5
     chosen = {name: found.scene.value(name) for name in VARIED}
     assert FAR.replace(**chosen) == found.scene
-    assert reset_searched(found.scene) == reset_searched(FAR)
-    example = example_of(found)
+    assert reset_varied(found.scene) == reset_varied(FAR)
+    example = make_example(found)
     assert example.transmitter.payload_length == length
     read = occ.decode(occ.render(example).image, example, decoder="threshold")
     assert read.failure is None

@@ -193,7 +193,7 @@ def test_a_slow_point_reports_progress_from_image_to_image(
 ) -> None:
     from occ_model.study.sweep import sweep as module
 
-    monkeypatch.setattr(module, "BEAT", 0.0)
+    monkeypatch.setattr(module, "REPORT_PERIOD", 0.0)
     told: list[int] = []
     occ.sweep(scene, {"distance": [1.0, 2.0]}, 4, progress=lambda done, *_: told.append(done))
     assert told == [0] * 4 + [1] * 5 + [2]

@@ -166,14 +166,15 @@ def deviation(
     """Return the standard deviation of pixels in grey levels from the variance of electrons.
 
     The deviation sigma of n electrons is multiplied by the slope of the gamma encoding, PV / (gamma
-    n), taken at sqrt(n^2 + sigma^2) electrons, which is nearly n in light and stays finite without.
+    n), taken at sqrt(n^2 + sigma^2) electrons: nearly n in bright pixels, and never zero in dark
+    ones, so that the slope stays finite.
     The result is limited to the distance from saturation: a full pixel has no noise, and one that
     is nearly full has little.
     """
     electrons = electrons_of(values, scene)
     square = variance(electrons)
-    there = np.sqrt(electrons * electrons + square)
-    slope = values_of(there, scene) / np.maximum(scene.camera.gamma * there, _SMALLEST_FLOAT)
+    raised = np.sqrt(electrons * electrons + square)
+    slope = values_of(raised, scene) / np.maximum(scene.camera.gamma * raised, _SMALLEST_FLOAT)
     headroom = np.maximum(saturation_value(scene) - values, 0.0)
     return np.minimum(slope * np.sqrt(square), headroom)
 

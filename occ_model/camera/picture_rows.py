@@ -53,7 +53,7 @@ class Rim:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rows:
-    place: range
+    rows: range
     # Shape (nodes, columns): mean pixel values before saturation at the nodes; one row if all rows
     # are equal
     nodes: Pixels
@@ -66,7 +66,7 @@ class Rows:
     @property
     def values(self) -> Pixels:
         """Mean pixel values before saturation, shape (rows, columns)."""
-        shape = (len(self.place), self.nodes.shape[1])
+        shape = (len(self.rows), self.nodes.shape[1])
         values = np.broadcast_to(self._expand(self.nodes), shape).copy()
         for rim in self.rims:
             values[:, rim.columns] = rim.values
@@ -112,13 +112,13 @@ class _Panel:
         self._emission = optics.emission
 
     def emitted_light(
-        self, line: FloatArray, columns: slice, stage_ended: Callable[[str], object]
+        self, line: FloatArray, columns: slice, end_stage: Callable[[str], object]
     ) -> Pixels:
         """Return the light that the panel itself emits, shape (rows, columns) or (columns,)."""
         own = self._light[columns]
         for gain in self._emission:
             own = own * gain.at(line, columns)
-            stage_ended(gain.stage)
+            end_stage(gain.stage)
         return own
 
 
@@ -162,35 +162,35 @@ class PictureRows:
         self._transmission: tuple[Gain, ...] = optics[0].transmission
         self._is_plain = all(own.is_plain for own in optics)
         self._is_even = not (self._transmission or any(own.emission for own in optics))
-        self._plain: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
+        self._last_common_row: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
 
-    def of(self, place: range, stage_ended: Callable[[str], object] = lambda _stage: None) -> Rows:
+    def of(self, rows: range, end_stage: Callable[[str], object] = lambda _stage: None) -> Rows:
         """Compute some rows; ``end_stage`` is called with the name of each stage at its end."""
         lit = [
             _LitColumns(
                 panel, part.columns, None if isinstance(part.fraction, float) else part.fraction
             )
             for panel in self._panels
-            if panel.coverage.reaches(place)
-            for part in panel.coverage.parts(place)
+            if panel.coverage.reaches(rows)
+            for part in panel.coverage.parts(rows)
             if isinstance(part.fraction, np.ndarray) or part.fraction
         ]
-        stage_ended(self._cover_stage)
+        end_stage(self._cover_stage)
         shared = self._find_shared_columns(lit)
         alone = [piece for one in lit for piece in _cut_shared(one, shared)] if shared else lit
         inside = [(one.panel, one.columns) for one in alone if one.fraction is None]
         rims = [
-            self._compute_rim(place, one.columns, [one], stage_ended)
+            self._compute_rim(rows, one.columns, [one], end_stage)
             for one in alone
             if one.fraction is not None
         ]
         rims += [
-            self._compute_rim(place, columns, [one.crop(columns) for one in lit], stage_ended)
+            self._compute_rim(rows, columns, [one.crop(columns) for one in lit], end_stage)
             for columns in shared
         ]
-        nodes, weights = self._compute_nodes(place, inside, stage_ended)
-        stage_ended(STAGE)
-        return Rows(place, nodes, weights, tuple(rims), tuple(columns for _, columns in inside))
+        nodes, weights = self._compute_nodes(rows, inside, end_stage)
+        end_stage(STAGE)
+        return Rows(rows, nodes, weights, tuple(rims), tuple(columns for _, columns in inside))
 
     def _find_shared_columns(self, lit: Sequence[_LitColumns]) -> list[slice]:
         if len(self._panels) == 1:
@@ -205,79 +205,79 @@ class PictureRows:
 
     def _compute_rim(
         self,
-        place: range,
+        rows: range,
         columns: slice,
         lit: Sequence[_LitColumns],
-        stage_ended: Callable[[str], object],
+        end_stage: Callable[[str], object],
     ) -> Rim:
         if self._is_plain and len(lit) == 1 and lit[0].fraction is not None:
             shown = lit[0].fraction >= np.float32(0.5)
             panel, around = lit[0].panel.values[:, columns], self._surroundings[:, columns]
             return Rim(columns, np.where(shown, panel, around), shown)
-        line = np.asarray(place, dtype=np.float64)
-        shape = len(place), columns.stop - columns.start
+        line = np.asarray(rows, dtype=np.float64)
+        shape = len(rows), columns.stop - columns.start
         light, shown = np.zeros(shape, dtype=np.float32), np.zeros(shape, dtype=np.bool_)
         for one in lit:
             if one.columns.stop <= one.columns.start:
                 continue
             fraction = np.ones(1, dtype=np.float32) if one.fraction is None else one.fraction
             own = np.s_[:, one.columns.start - columns.start : one.columns.stop - columns.start]
-            light[own] += fraction * one.panel.emitted_light(line, one.columns, stage_ended)
+            light[own] += fraction * one.panel.emitted_light(line, one.columns, end_stage)
             shown[own] |= fraction >= np.float32(0.5)
         light += self._around[columns]
-        return Rim(columns, self._encode(light, line, columns, stage_ended), shown)
+        return Rim(columns, self._encode(light, line, columns, end_stage), shown)
 
     def _compute_nodes(
         self,
-        place: range,
+        rows: range,
         inside: list[tuple[_Panel, slice]],
-        stage_ended: Callable[[str], object],
+        end_stage: Callable[[str], object],
     ) -> tuple[Pixels, Pixels | None]:
         """Compute the nodes and weights of the rows, as if there were no rims."""
         if self._is_even:
             return self._common_row(inside), None
-        line = node_rows(place)
-        nodes = self._expose_rows(line, inside, stage_ended)
-        if len(place) > len(line) and find_smooth_columns(nodes).all():
-            return nodes, row_weights(len(place))
-        return self._expose_rows(np.asarray(place, np.float64), inside, stage_ended), None
+        line = node_rows(rows)
+        nodes = self._expose_rows(line, inside, end_stage)
+        if len(rows) > len(line) and find_smooth_columns(nodes).all():
+            return nodes, row_weights(len(rows))
+        return self._expose_rows(np.asarray(rows, np.float64), inside, end_stage), None
 
     def _common_row(self, inside: list[tuple[_Panel, slice]]) -> Pixels:
         """Return the row to which all rows are equal between the rims."""
-        shown, row = self._plain
-        if inside != shown:  # returning the same array lets noise be reused
+        last_inside, row = self._last_common_row
+        if inside != last_inside:  # returning the same array lets noise be reused
             row = self._surroundings.copy()
             for panel, columns in inside:
                 row[:, columns] = panel.values[:, columns]
-            self._plain = (inside, row)
+            self._last_common_row = (inside, row)
         return row
 
     def _expose_rows(
         self,
         line: FloatArray,
         inside: list[tuple[_Panel, slice]],
-        stage_ended: Callable[[str], object],
+        end_stage: Callable[[str], object],
     ) -> Pixels:
         """Return the pixel values of some rows, as if there were no rims."""
         light = np.repeat(self._around[None, :], len(line), axis=0)
         for panel, columns in inside:
-            light[:, columns] += panel.emitted_light(line, columns, stage_ended)
-        return self._encode(light, line, slice(None), stage_ended)
+            light[:, columns] += panel.emitted_light(line, columns, end_stage)
+        return self._encode(light, line, slice(None), end_stage)
 
     def _encode(
         self,
         light: Pixels,
         line: FloatArray,
         columns: slice,
-        stage_ended: Callable[[str], object],
+        end_stage: Callable[[str], object],
     ) -> Pixels:
-        """Turn light into pixel values, through the lens; ``light`` is overwritten."""
+        """Dim light by the lens and encode it as pixel values; ``light`` is overwritten."""
         for gain in self._transmission:
             light *= gain.at(line, columns)
-            stage_ended(gain.stage)
+            end_stage(gain.stage)
         values = np.asarray(cv2.pow(light, self._power), dtype=np.float32)
         values *= np.float32(self._unit)
-        stage_ended(STAGE)
+        end_stage(STAGE)
         return values
 
 

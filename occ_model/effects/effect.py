@@ -55,7 +55,7 @@ class PaperView:
 
 
 def paper_view_of(
-    scene: Scene, stage_ended: Callable[[str], object] = lambda _stage: None
+    scene: Scene, end_stage: Callable[[str], object] = lambda _stage: None
 ) -> PaperView:
     """Compute the paper's view of a scene: one projection and one exposure.
 
@@ -64,10 +64,10 @@ def paper_view_of(
     corners = panel_corners(scene)
     corner_bytes = corners.tobytes()
     outline = _outline_of(corner_bytes, scene.camera.rows, scene.camera.columns)
-    stage_ended("projection")
+    end_stage("projection")
     light = ColumnLight.of(scene)
     values = panel_values(scene, light)
-    stage_ended("exposure")
+    end_stage("exposure")
     lowest, highest = (min(max(float(end), 0.0), WHITE) for end in (values.min(), values.max()))
     region = outline.region
     return PaperView(

@@ -28,7 +28,7 @@ _REPLACEMENT_LETTER = "?"  # stands for bytes that are not text
 
 
 def canonical_payload(value: object) -> str:
-    """Return a payload in its canonical form; a ValueError has part of a sentence."""
+    """Return a payload in its canonical form; a ValueError ends a sentence, as by "has 0 bits"."""
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - one kind for all wrong values
     if len(value) > 4 * MAX_PAYLOAD_BITS:
@@ -135,10 +135,10 @@ def compare_payload(payload: str, received: Sequence[int]) -> tuple[PayloadPiece
     bits, pieces, start = bits_of_payload(payload), [], 0
     for letter in _letters(payload):
         end = start + 8 * (len(letter.encode()) if form_of(payload) == "text" else 1)
-        seen = tuple(received[start:end])
-        written = payload_of_bits(seen, form_of(payload)) if len(seen) == end - start else ""
-        shown_letter = payload_of_bits(bits[start:end], form_of(payload))
-        pieces.append(PayloadPiece(shown_letter, written, seen == bits[start:end], start, end))
+        own = tuple(received[start:end])
+        text = payload_of_bits(own, form_of(payload)) if len(own) == end - start else ""
+        sent = payload_of_bits(bits[start:end], form_of(payload))
+        pieces.append(PayloadPiece(sent, text, own == bits[start:end], start, end))
         start = end
     return tuple(pieces)
 

@@ -33,30 +33,32 @@ class CountedPart:
 def count_packets(
     parts: Sequence[CountedPart], period: SentPeriod, bits: ByteArray, frequency: float
 ) -> SentPackets:
-    """Count the packets sent during a film, and read those in view.
+    """Count the packets sent during a film, and read those that frames show.
 
     Only packets that lie completely within a part count. ``bits``: the payload joined from all
     frames; empty if it was not read.
     """
-    found: list[FilmPart] = []
+    film_parts: list[FilmPart] = []
     packets: list[PacketReading] = []
-    length, sent, before = period.part_length, _framed_bits(period, bits), 0
+    length, sent, earlier = period.part_length, _framed_bits(period, bits), 0
     step = length / frequency
     for part in parts:
         first, end = math.ceil(part.span[0] / length), math.floor(part.span[1] / length)
         count = max(end - first, 0)
         begin = (first * length - part.span[0]) / frequency
-        found.append(FilmPart(part.start, part.duration, count, begin, step, first % period.parts))
+        film_parts.append(
+            FilmPart(part.start, part.duration, count, begin, step, first % period.parts)
+        )
         frame_of, bits_of = _read_packets(part.frames, period)
-        for number, chips in sorted(_count_seen_chips(part.frames, length).items()):
+        for number, chips in sorted(_count_visible_chips(part.frames, length).items()):
             if not first <= number < end:
                 continue
-            read, later = bits_of.get(number), number - first
+            read, place = bits_of.get(number), number - first
             packets.append(
                 PacketReading(
-                    number=before + later,
+                    number=earlier + place,
                     part=number % period.parts,
-                    time=part.start + begin + later * step,
+                    time=part.start + begin + place * step,
                     frame=frame_of.get(number),
                     seen=chips / length,
                     bits=read,
@@ -65,33 +67,34 @@ def count_packets(
                     ),
                 )
             )
-        before += count
-    return SentPackets(tuple(found), tuple(packets), period.parts)
+        earlier += count
+    return SentPackets(tuple(film_parts), tuple(packets), period.parts)
 
 
 def _count_wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) -> int | None:
     """Count the bits of a packet that differ from those sent."""
     if read is None or sent is None:
         return None
-    expected = sent[part]
-    return int((read != expected).sum()) if len(read) == len(expected) else len(expected)
+    own = sent[part]
+    return int((read != own).sum()) if len(read) == len(own) else len(own)
 
 
-def _count_seen_chips(frames: list[PlacedFrame], length: int) -> dict[int, int]:
+def _count_visible_chips(frames: list[PlacedFrame], length: int) -> dict[int, int]:
+    """Count the chips of each packet that frames show whole, by the packet's number."""
     whole = sorted(
         (frame.first + frame.reading.whole[0], frame.first + frame.reading.whole[1])
         for frame in frames
     )
-    seen: dict[int, int] = {}
+    counts: dict[int, int] = {}
     reached: int | None = None
     for start, end in whole:
         begin = start if reached is None else max(start, reached)
         for number in range(begin // length, -(-end // length)):
             chips = min(end, (number + 1) * length) - max(begin, number * length)
             if chips > 0:
-                seen[number] = seen.get(number, 0) + chips
+                counts[number] = counts.get(number, 0) + chips
         reached = end if reached is None else max(reached, end)
-    return seen
+    return counts
 
 
 def _read_packets(
@@ -110,9 +113,9 @@ def _read_packets(
             content = chips.tobytes()
             if content not in cache:
                 cache[content] = period.read_part(chips)
-            found = cache[content]
-            if found is not None and found[0] == number % period.parts:
-                bits_of[number] = found[1]
+            part = cache[content]  # its number and bits
+            if part is not None and part[0] == number % period.parts:
+                bits_of[number] = part[1]
     return frame_of, bits_of
 
 

@@ -1,4 +1,4 @@
-"""How well simulated films are read: the clock's errors, and payloads beside exact counting.
+"""How well simulated films are read: errors of the clock and payloads, with all packets counted.
 
 python tests/benchmarks/film_reading.py            # all 40 films: about ten minutes
 python tests/benchmarks/film_reading.py 8          # the first 8

@@ -70,7 +70,7 @@ class _PaintedMaps:
         for plot in self._pane.plots:
             plot.repaint()
         coarse = self._controller.is_current and rates.known_count >= _COARSE_POINTS
-        self.times.append((perf_counter(), coarse, self._controller.full is not None))
+        self.times.append((perf_counter(), coarse, self._controller.complete is not None))
 
     def end(self) -> None:
         """Let the maps be painted as they are otherwise."""
@@ -122,7 +122,7 @@ def _round(application: "Application", number: int) -> tuple[float, ...]:
         done = len(changes)
         if done == _CHANGES:
             patience = _PATIENCE_S if controller.map else 1.0
-            if controller.full is not None or perf_counter() > changes[-1] + patience:
+            if controller.complete is not None or perf_counter() > changes[-1] + patience:
                 loop.quit()
             return
         slider.setValue(200 + 10 * (done if number % 2 == 0 else _CHANGES - done))

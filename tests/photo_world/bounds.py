@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.photo.fit.joint_model import PRIORS
 from occ_model.photo.stripes.envelope import smooth_shapes
 from photo_world.photograph import World, blurred, falloff, lit_fraction, scale
-from photo_world.pixel_noise import jpeg_noise, whitened
+from photo_world.pixel_noise import jpeg_covariance, whiten
 
 _ROWS = 8
 """Rows that count as equally bright: those of a block of JPEG."""
@@ -167,8 +167,8 @@ def _of_row(
     slopes = np.stack([*timing[:-1], *(255.0 * bend for bend in bends), of_blur, timing[-1]])
     bands = _of_light(noise * before**2, kernel, after)
     bands[0] += 2.0 / 12.0
-    bands[:8] += jpeg_noise(world)
-    white = whitened(bands, slopes)
+    bands[:8] += jpeg_covariance(world)
+    white = whiten(bands, slopes)
     return np.asarray(white @ white.T)
 
 

@@ -10,12 +10,14 @@ from hypothesis import given, settings, strategies as st
 import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Observable, Scene
+from occ_model.study.effect_differences import CompleteSimulation
 
 SMALL = occ.load_preset("phone-136us").replace(
     rows=30, columns=240, panel_width=9.0, panel_height=9.0, start_time=0.3
 )
 SAMPLES = 20_000  # of an exposure
+OBSERVED: tuple[Observable, ...] = ("image", "profile", "signal")
 
 
 def starts_of(scene: Scene) -> FloatArray:
@@ -180,3 +182,23 @@ def test_light_without_a_swing_is_steady_in_every_exposure(
         scene = SMALL.replace(**sent, exposure_time=exposure)
         np.testing.assert_allclose(lit_fraction(scene), mean, rtol=1e-15)
         assert np.ptp(occ.column_profile(scene)) <= 1e-12
+
+
+@pytest.mark.parametrize("name", OTHER_LIGHTS)
+def test_plans_of_any_light_keep_their_promise(name: str) -> None:
+    random = np.random.default_rng(sorted(OTHER_LIGHTS).index(name))
+    real = occ.load_preset("phone-136us-real").replace(
+        rows=100, columns=240, readout_time=60e-6, **OTHER_LIGHTS[name]
+    )
+    for number in range(6):
+        scene = real.replace(
+            distance=float(random.uniform(0.3, 1.2)), iso=float(10 ** random.uniform(0.5, 2.0)),
+            exposure_time=float(10 ** random.uniform(-4.5, -2.5)),
+            edge_time=float(10 ** random.uniform(-7.0, -4.0)), jpeg_quality=(0, 95)[number % 2],
+            enhancement=("none", "stretch", "equalization")[number % 3],
+        )  # fmt: skip
+        for observable in OBSERVED:
+            complete = CompleteSimulation(scene, observable, 1)
+            for tolerance in (0.5, 5.0):
+                chosen = occ.plan(scene, tolerance, observable)
+                assert complete.error_of(chosen.included) <= tolerance * (1.0 + 1e-9)

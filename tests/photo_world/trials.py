@@ -138,7 +138,7 @@ def _matched(
         match.uncertainties["exposure_time"] / exposure,
         doubts=match.reasons,
         exposure_doubts=match.exposure_reasons,
-        duty=match.duty - duty,
+        duty=np.nan if match.duty is None else match.duty - duty,
         duty_deviation=match.uncertainties.get("duty", np.nan),
     )
 

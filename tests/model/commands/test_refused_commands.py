@@ -70,7 +70,7 @@ READING = {
     "match 0.png p.png --known 0.png": "--known (nothing) is not exactly one of the photos; ",
     "match 0.png p.png --known 2.png=1kHz": "--known 2.png is not exactly one of the photos",
     "match 0.png p.png --known 0.png=loud": "--known 0.png is 'loud'",
-    "match 0.png p.png --led-frequency 1kHz --known 0.png=-1kHz": "is -1 kHz; allowed: 0.5 Hz to",
+    "match 0.png p.png --led-frequency 1kHz --known 0.png=-1kHz": "is -1 kHz; allowed: 0.01 Hz to",
     "match 0.png p.png --known 0.png=2s": "--known 0.png is '2s'",
     "match 0.png p.png --known 0.png=2kHz --known 0.png=3kHz": "0.png is given again, as 3kHz; ",
 }

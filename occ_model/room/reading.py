@@ -18,8 +18,6 @@ from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import code_of, packet
 
-_ROWS = 4  # rows that are averaged to search for lamps
-
 _MIN_LIT_FRACTION = 0.5
 """Fraction of a lamp's own brightest light from which one of its columns counts as lit."""
 
@@ -80,14 +78,13 @@ def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
 
 def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     """Find the lamps in the camera's picture and name them, the largest first."""
-    scale = min(_ROWS, len(image))
     # Fast light that sends no code may be lit in single columns.
     width = 2 if all(sends_code(lamp) for lamp in room.lamps) else 1
-    spots, lamps = find_spots(image, scale, width), list[ReadLamp]()
+    (spots, scale), lamps = find_spots(image, width), list[ReadLamp]()
     gaps = longest_gaps(room)
     for gap in sorted({*gaps.values()}):
         for region, hull, own in join_spots(spots, gap, scale, len(image)):
-            lamp, known = _read_lamp(image, region, hull, room)
+            lamp, known = _read_lamp(image, region, hull, room, scale)
             is_whole = max((gaps[name] for name in known), default=0) == gap
             if is_whole or gap == max(gaps.values()):
                 spots[own] = 0
@@ -156,12 +153,13 @@ class _Light:
 
 
 def _read_lamp(
-    image: ByteArray, region: Region, hull: FloatArray, room: Room
+    image: ByteArray, region: Region, hull: FloatArray, room: Room, edge: int
 ) -> tuple[ReadLamp, list[str]]:
+    """Read a lamp that is cut if it comes within ``edge`` rows of the picture's; and its names."""
     rows, columns = image.shape
     is_cut = (
-        region.first_row <= _ROWS or region.first_column <= 1
-        or region.last_row >= rows - _ROWS or region.last_column >= columns - 1
+        region.first_row <= edge or region.first_column <= 1
+        or region.last_row >= rows - edge or region.last_column >= columns - 1
     )  # fmt: skip
     signal = _signal(image, region, hull)
     own_rows = image[region.first_row : region.last_row]

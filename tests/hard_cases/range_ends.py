@@ -133,12 +133,13 @@ def _command(name: str, scene: Scene) -> None:
 
 
 def _theory(scene: Scene) -> None:
+    theory.gaussian_rate_bound(scene, 100.0, 30.0)
     for of_scene in (
-        theory.band_model_frequency, theory.null_frequency, theory.panel_readout_time,
-        theory.two_packets_frequency, theory.row_rate_frequency, theory.saturation_exposure,
+        theory.panel_readout_time, theory.row_rate_frequency, theory.saturation_exposure,
+        # Those of chips are last, as another light has none.
+        theory.two_packets_frequency, theory.band_model_frequency, theory.null_frequency,
     ):  # fmt: skip
         of_scene(scene)
-    theory.gaussian_rate_bound(scene, 100.0, 30.0)
 
 
 def _teaching(scene: Scene) -> None:

@@ -5,9 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from exact_light import OTHER_LIGHTS, ExactLight
 from PIL import Image
 
 import occ_model as occ
+from occ_model.camera.exposure import lit_fraction
 from occ_model.cli import main
 from occ_model.effects.effect import paper_view_of
 from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
@@ -15,6 +17,7 @@ from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.accuracy import (
     SAMPLES,
     accuracy,
+    exact_lit_fraction,
     point_count,
     sampled_lit_fraction,
 )
@@ -97,6 +100,22 @@ def test_samples_count_chips_that_are_lit() -> None:
     assert (sampled_lit_fraction(scene, 7) == 1.0).all()
     halves = scene.replace(pattern="10", exposure_time=1e-3, switching_frequency=1e3)
     assert sampled_lit_fraction(halves.replace(start_time=0.5e-3), 4)[0] == 0.5
+
+
+@pytest.mark.parametrize("light", OTHER_LIGHTS)
+def test_samples_of_any_light_come_near_its_exact_mean(light: str) -> None:
+    scene = small("phone-136us").replace(
+        **OTHER_LIGHTS[light], exposure_time=1.9e-3, start_time=0.7, columns=60, readout_time=4e-4
+    )
+    columns = np.arange(60)
+    exact = exact_lit_fraction(scene, columns)
+    np.testing.assert_allclose(exact, ExactLight(scene).of_columns(), atol=1e-15)
+    np.testing.assert_allclose(lit_fraction(scene), exact, atol=1e-12)
+    edges = 16  # most in an exposure, of which each is missed by up to a sample
+    for samples in (64, 4096):
+        sampled = sampled_lit_fraction(scene, samples)
+        np.testing.assert_allclose(sampled, exact, atol=edges / samples)
+        assert np.abs(sampled - exact).max() > 1e-9
 
 
 @pytest.mark.whole

@@ -180,11 +180,11 @@ class AccuracyView(QWidget):
         self._snapshot = snapshot
         self._redraw()
 
-    def show_switched(self, switched: tuple[Decision, ...]) -> None:
-        """Mark the effects that the plan has just switched; none removes the marks."""
-        if switched != self._new_decisions:
-            self._new_decisions = switched
-            if not switched:  # else the marks are drawn with the picture, which follows
+    def mark_switched(self, decisions: tuple[Decision, ...]) -> None:
+        """Mark the effects that the plan has just switched; an empty tuple removes the marks."""
+        if decisions != self._new_decisions:
+            self._new_decisions = decisions
+            if not decisions:  # new marks are drawn with the picture, which follows
                 self._draw()
 
     def show_costs(self, costs: SceneCosts) -> None:

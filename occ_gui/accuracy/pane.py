@@ -140,7 +140,7 @@ class AccuracyPane(PiecesPane):
     def __init__(self, scenes: SceneStore, simulation: SimulationController) -> None:
         self.view = view = AccuracyView()
         super().__init__(
-            view, view.show_settings, view.offer_decision, view.show_switched, self._show_snapshot
+            view, view.show_settings, view.offer_decision, view.mark_switched, self._show_snapshot
         )
         settings = scenes.settings
         self.made_of = dict.fromkeys(view.scene_parts, of_snapshot)

@@ -55,7 +55,7 @@ def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figur
     title = "Overlay of photo and picture"
     return (
         Figure(name="picture", title="Picture", draw=picture),
-        Figure(name="overlay", title=title, draw=overlay, is_different=is_beside),
+        Figure(name="overlay", title=title, draw=overlay, differs_from_others=is_beside),
     )
 
 
@@ -65,10 +65,10 @@ def _photo(pane: "PicturesPane | None") -> "Photo | None":
 
 def _lay_over(view: "ImageView", photo: "Photo", snapshot: Snapshot, mode: str, about: str) -> Draw:
     frame, region = snapshot.frame, snapshot.region
-    pixels, picture_kind, over = photo.image, view.picture_kind, view.overlay
-    place = over.placement
-    opacities = {_BLENDED: (over.opacity, None), _SPLIT: (1.0, over.split_row)}
-    opacity, gain = opacities.get(mode), over.difference.gain
+    pixels, picture_kind, overlay = photo.image, view.picture_kind, view.overlay
+    place = overlay.placement
+    opacities = {_BLENDED: (overlay.opacity, None), _SPLIT: (1.0, overlay.split_row)}
+    opacity, gain = opacities.get(mode), overlay.difference.gain
 
     def draw() -> "Drawing":
         from occ_gui.picture.photo_overlay import difference_cells, rect_of
@@ -147,7 +147,7 @@ def accuracy_figure() -> Figure:
 
 def map_figure(store: Store) -> Figure:
     def draw(pane: "MapPane | None", _snapshot: Snapshot) -> Draw:
-        complete = None if pane is None else pane.map.full
+        complete = None if pane is None else pane.map.complete
         if complete is None:
             raise NothingToDraw(
                 "The detection map is not complete yet: open its pane and wait a moment."
@@ -162,7 +162,7 @@ def map_figure(store: Store) -> Figure:
 
 def bench_figure(store: Store) -> Figure:
     def draw(pane: "BenchPane | None", _snapshot: Snapshot) -> Draw:
-        complete = None if pane is None else pane.controller.full
+        complete = None if pane is None else pane.controller.complete
         if complete is None:
             raise NothingToDraw(
                 "The bench is not complete: open its pane, measure and wait a moment."

@@ -238,7 +238,9 @@ class Parts(QObject):
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
         self.document = Document(self.window, self.store, self.files)
-        self.background_rates = BackgroundRates(self.store, self.slider_strips, self._has_picture)
+        self.background_rates = BackgroundRates(
+            self.store, self.slider_strips, self._may_measure_rates
+        )
         self.pins = PinController(self.store, self.present.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(self.window, self.shell, store, self.files)
@@ -261,12 +263,14 @@ class Parts(QObject):
         pane = self.shell.find_pane("photo")
         return "" if pane is None else str(pane.verdict.about())
 
-    def _has_picture(self) -> bool:
+    def _may_measure_rates(self) -> bool:
+        """Whether the first picture is shown, or none is under way."""
         return self.present.latest is not None or self.simulation.runner.is_idle
 
 
 def _make_controls() -> ControlPanel:
     """Make the controls, those of the effects in the order of the light's path."""
     effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
+    # Reversed: a parameter of several effects belongs to the first of them.
     stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
     return ControlPanel([*effects], {name: stages[name] for name in effects})

@@ -36,12 +36,12 @@ _FARTHEST_POWER, _LEAST_POWERS = 12.0, 0.01
 class _Curve:
     line: pg.PlotCurveItem
     intervals: pg.PlotCurveItem
-    seen: pg.ScatterPlotItem
-    unseen: pg.ScatterPlotItem
+    with_errors: pg.ScatterPlotItem  # points at which errors occurred
+    without_errors: pg.ScatterPlotItem  # points at which none did: only their upper bound
 
     @property
     def items(self) -> tuple[pg.GraphicsObject, ...]:
-        return self.intervals, self.line, self.seen, self.unseen
+        return self.intervals, self.line, self.with_errors, self.without_errors
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,9 +105,9 @@ class BenchPlots(QWidget):
         for curves in self.curves.values():
             for number, curve in enumerate(curves):
                 colour = lighten_for(palette, COLOURS[number % len(COLOURS)])
-                for item in (curve.line, curve.intervals, curve.unseen):
+                for item in (curve.line, curve.intervals, curve.without_errors):
                     item.setPen(thin(colour))
-                curve.seen.setBrush(colour)
+                curve.with_errors.setBrush(colour)
 
     def show_begun(self, decoders: Sequence[str]) -> None:
         for axis, plot in self.plots.items():
@@ -187,11 +187,13 @@ def _draw(curve: _Curve, points: Sequence[CurvePoint]) -> None:
     # The line is interrupted at points without an error, because their rate is not known.
     joined = [int(after == place + 1) for place, after in pairwise((*places, -1))]
     curve.line.setData(x, y, connect=np.array(joined, dtype=np.int32))
-    curve.seen.setData(x, y)
+    curve.with_errors.setData(x, y)
     at = [place for point in points for place in (point.at, point.at)]
     curve.intervals.setData(at, [end for point in points for end in (point.low, point.high)])
-    unseen = [point for point in points if math.isnan(point.value)]
-    curve.unseen.setData([point.at for point in unseen], [point.high for point in unseen])
+    without_errors = [point for point in points if math.isnan(point.value)]
+    curve.without_errors.setData(
+        [point.at for point in without_errors], [point.high for point in without_errors]
+    )
 
 
 class BenchTable(QTableWidget):

@@ -69,7 +69,7 @@ class BenchController(QObject):
         pane.show_frame_rate(self._frame_rate.value, "")
 
     @property
-    def full(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
+    def complete(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
         """The request and all its points; None while points are missing."""
         request = self._request
         wanted = 0 if request is None else len(request.points) * len(request.decoders)

@@ -55,7 +55,7 @@ class History:
 
 T = TypeVar("T")
 
-NO_GESTURE = -1  # the gesture of a change that is a step of its own
+NO_GESTURE = -1  # of a change that is a step of its own
 MOST_STEPS = 500  # steps that can be undone; each of them keeps two scenes in memory
 
 
@@ -80,24 +80,24 @@ class Store(QObject):
         super().__init__()
         self.workspace = workspace
         self._announced = workspace
-        self._left: Workspace | None = None
+        self._before_undo: Workspace | None = None
         self._is_announcing = self._is_resuming = False
         self._selections: list[Selection[object]] = []
         self.undo_stack = QUndoStack(self, undoLimit=MOST_STEPS)
-        # Announced when the stack has finished: a listener that edits in turn puts its step on top.
+        # Announced when the stack has finished, so that a listener's own edit is pushed after it.
         self.undo_stack.indexChanged.connect(self._on_index_changed)
 
     def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
         selection = Selection(of, self.workspace)
-        self._selections.append(selection)  # type: ignore[arg-type]  # it returns what it was given
+        self._selections.append(selection)  # type: ignore[arg-type]  # Selection is invariant
         return selection
 
     def put(self, workspace: Workspace, title: str = "", gesture: int = NO_GESTURE) -> None:
         """Replace the workspace, as a step to undo; changes of one gesture are one step."""
-        left, self.workspace = self.workspace, workspace
-        if workspace.undo_state != left.undo_state:
-            self._keep_step(left, title, gesture)
-        if self._is_announcing:  # the loop below announces it after the change before it
+        previous, self.workspace = self.workspace, workspace
+        if workspace.undo_state != previous.undo_state:
+            self._keep_step(previous, title, gesture)
+        if self._is_announcing:  # the loop that is running announces it next
             return
         self._is_announcing = True
         try:
@@ -111,12 +111,12 @@ class Store(QObject):
         finally:
             self._is_announcing = False
 
-    def _keep_step(self, left: Workspace, title: str, gesture: int) -> None:
-        before, after = left.undo_state, self.workspace.undo_state
+    def _keep_step(self, previous: Workspace, title: str, gesture: int) -> None:
+        before, after = previous.undo_state, self.workspace.undo_state
         last = self._last_step()
         if last is None or gesture == NO_GESTURE or gesture != last.gesture:
             self.undo_stack.push(_Command(self, before, after, title, gesture))
-            self.step_begun.emit(left)
+            self.step_begun.emit(previous)
             return
         # Not by QUndoCommand.mergeWith: PySide never frees a command that was merged.
         last.after = after
@@ -133,9 +133,9 @@ class Store(QObject):
         return step if isinstance(step, _Command) else None
 
     def _on_index_changed(self) -> None:
-        left, self._left = self._left, None
-        if left is not None:  # the stack has finished an undo or a redo
-            self.step_begun.emit(left)
+        previous, self._before_undo = self._before_undo, None
+        if previous is not None:  # the stack has finished an undo or a redo
+            self.step_begun.emit(previous)
             self.put(self.workspace)
 
     def history(self, state: UndoState) -> History:
@@ -170,7 +170,7 @@ class Store(QObject):
         if self._is_resuming:
             return
         if state != self.workspace.undo_state:  # QUndoStack calls redo on a step that is just made
-            self._left, self.workspace = self.workspace, state.put_into(self.workspace)
+            self._before_undo, self.workspace = self.workspace, state.put_into(self.workspace)
 
 
 class _Command(QUndoCommand):
@@ -181,14 +181,17 @@ class _Command(QUndoCommand):
         self._store, self._title = store, title
         self.before, self.after = before, after
         self.gesture = gesture
-        self._noted: tuple[UndoState, StepChange] | None = None
+        self._cached_change: tuple[UndoState, StepChange] | None = None
 
     @property
     def change(self) -> StepChange:
         """What the step changes; cached, because a drag saves the session every second."""
-        if self._noted is None or self._noted[0] is not self.after:
-            self._noted = self.after, StepChange.between(self._title, self.before, self.after)
-        return self._noted[1]
+        if self._cached_change is None or self._cached_change[0] is not self.after:
+            self._cached_change = (
+                self.after,
+                StepChange.between(self._title, self.before, self.after),
+            )
+        return self._cached_change[1]
 
     def redo(self) -> None:
         self._store._put_into_workspace(self.after)

@@ -219,8 +219,8 @@ class FileController(QObject):
     def _write_picture(self, path: Path, picture_kind: str, shown: Snapshot) -> None:
         frame = shown.frame
         image, title = frame.picture(picture_kind), frame.picture_title(picture_kind)
-        said = f"{title[:1].lower()}{title[1:]}"
-        self._save(path, lambda: write_image(path, image, title), said)
+        title_in_sentence = f"{title[:1].lower()}{title[1:]}"
+        self._save(path, lambda: write_image(path, image, title), title_in_sentence)
 
     def _save(self, path: Path, write: Callable[[], None], what: str = "") -> bool:
         try:

@@ -43,8 +43,8 @@ class Figure:
     draw: Callable[[Any, Snapshot], Draw]
     """Takes the pane, None if it was never shown, and the results that are shown; returns a
     function that draws the figure. Raises NothingToDraw."""
-    is_different: Callable[[Any], bool] = lambda _pane: True
-    """Whether the figure differs at present from all other figures."""
+    differs_from_others: Callable[[Any], bool] = lambda _pane: True
+    """Takes the pane; returns whether the figure now differs from all others."""
 
 
 Part = TypeVar("Part")

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.shell.feature import CodeVerdictView, Pane
 from occ_gui.shell.results import MadeOf, ResultsStore, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.scene.parameters import quantity
@@ -18,6 +17,8 @@ VERDICT_DELAY = 0.06
 
 
 _DIGITS = 4  # significant digits of a slider's value
+
+_NOT_REFUSED = object()
 
 
 class OutdatedMarks(QObject):
@@ -36,26 +37,23 @@ class OutdatedMarks(QObject):
         self, results_store: ResultsStore, simulation: SimulationController, parent: QObject
     ) -> None:
         super().__init__(parent)
-        self._results_store, self._simulation, self._ages = (
-            results_store,
-            simulation,
-            simulation.ages,
-        )
+        self._results_store, self._simulation = results_store, simulation
+        self._ages = simulation.ages
         self._verdicts: list[CodeVerdictView] = []
         self._marks: list[tuple[OutdatedMark, MadeOf]] = []
-        self._refused_after: tuple[Picture | None] | None = None
-        """The picture that stays because the scene was refused; None if it was not refused."""
+        self._picture_when_refused: object = _NOT_REFUSED
+        """The picture that stays in place of that of a refused scene; it may be None."""
         self._is_verdict_marked = False
-        self._run = ""
-        self._settling = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
-        self._settling.timeout.connect(self._update)
+        self._running_parameter = ""
+        self._timer = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._update)
         results_store.changed.connect(self._update)
         simulation.submitted.connect(self._update)
         simulation.failed.connect(self._on_failure)
 
     @property
     def is_idle(self) -> bool:
-        return not self._settling.isActive()
+        return not self._timer.isActive()
 
     def marks(self, *made_of: MadeOf) -> list[OutdatedMark]:
         return [mark for mark, of in self._marks if of in made_of or not made_of]
@@ -71,20 +69,20 @@ class OutdatedMarks(QObject):
         self._update()
 
     def follow_run(self, parameter: str) -> None:
-        self._run = parameter
+        self._running_parameter = parameter
         self._update()
 
     def _on_failure(self, _sentence: str) -> None:
         # The failure of an earlier request says nothing about the present one.
         if self._simulation.runner.is_idle:
-            self._refused_after = (self._results_store.results.picture,)
+            self._picture_when_refused = self._results_store.results.picture
         self._update()
 
     def _update(self) -> None:
-        results, refused = self._results_store.results, self._refused_after
-        is_refused = refused is not None and refused[0] is results.picture
+        results = self._results_store.results
+        is_refused = self._picture_when_refused is results.picture
         text = "of an earlier scene: this one has no picture" if is_refused else "computing…"
-        runs = bool(self._run) and not is_refused
+        runs = bool(self._running_parameter) and not is_refused
         for mark, made_of in self._marks:
             age = self._ages.age(made_of(results))
             mark.show_age(self._age_in_run(mark, made_of, age) if runs else age, text)
@@ -110,11 +108,11 @@ class OutdatedMarks(QObject):
     def _run_values(
         self, read: SimulationRequest, pictured: SimulationRequest | None
     ) -> tuple[str, str]:
-        declared = quantity(self._run)
+        declared = quantity(self._running_parameter)
         texts = [
             ""
             if request is None
-            else declared.format(float(request.scene.value(self._run)), _DIGITS)
+            else declared.format(float(request.scene.value(self._running_parameter)), _DIGITS)
             for request in (read, pictured)
         ]
         return f"{declared.label} {texts[0]}", texts[1] if texts[1] != texts[0] else ""
@@ -126,6 +124,6 @@ class OutdatedMarks(QObject):
         for verdict in self._verdicts:
             verdict.show_outdated(self._is_verdict_marked)
         if wait > 0.0 and (age > 0.0) != self._is_verdict_marked:
-            self._settling.start(int(1e3 * wait) + 1)
+            self._timer.start(int(1e3 * wait) + 1)
         else:
-            self._settling.stop()
+            self._timer.stop()

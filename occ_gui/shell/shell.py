@@ -121,7 +121,7 @@ class Shell(QObject):
         return [
             figure
             for figure, place in self._figures.values()
-            if not place.is_away and figure.is_different(place.pane)
+            if not place.is_away and figure.differs_from_others(place.pane)
         ]
 
     def draw(self, name: str, shown: Snapshot) -> Draw:

@@ -40,7 +40,7 @@ class VideoWiring(Pane[FilmChoice]):
     status_message = Signal(str)
     open_asked = Signal()
 
-    save_asked = Signal()  # the user writes the simulated film to a file
+    save_asked = Signal()  # the user asked to save the simulated film
 
     def __init__(self, scenes: SceneStore, results_store: ResultsStore) -> None:
         view = VideoView()
@@ -88,8 +88,8 @@ class VideoWiring(Pane[FilmChoice]):
         player.playing_changed.connect(view.transport.show_playing)
         view.timeline.sought.connect(player.seek)
         view.transport.step_asked.connect(player.step)
-        for asker in (view.timeline, view.transport):
-            asker.play_asked.connect(player.toggle)
+        for control in (view.timeline, view.transport):
+            control.play_asked.connect(player.toggle)
 
     def _connect_reading(self) -> None:
         self.view.bar.read_asked.connect(self.read_or_stop)
@@ -163,7 +163,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.readings.forget()
         self.view.show_message("")
         self.view.timeline.show_index(0)
-        self._take_rate(film)
+        self._adopt_frame_rate(film)
         self._show_bar()
         self.view.pictures.show_film(None, self._placeholder())
         self._show_reading()
@@ -171,7 +171,7 @@ class VideoWiring(Pane[FilmChoice]):
         if film is not None and not self.films.is_live and has_code:
             self.readings.start(film, self._scenes.scene)
 
-    def _take_rate(self, film: Video | None) -> None:
+    def _adopt_frame_rate(self, film: Video | None) -> None:
         if film is None or self.films.is_live:
             return
         form = self.view.form
@@ -271,7 +271,7 @@ class VideoWiring(Pane[FilmChoice]):
     def _show_reading(self) -> None:
         readings = self.readings
         reading = readings.reading
-        self.view.show_reading(reading, self._frames())
+        self.view.show_reading(reading, self._make_marks())
         self.view.bar.show_reading(readings.is_running, readings.is_done)
         if self.films.is_live:
             self.view.timeline.show_index(len(reading.times) - 1)
@@ -283,7 +283,7 @@ class VideoWiring(Pane[FilmChoice]):
         scene = self.readings.scene
         self.view.show_outdated(scene is not None and scene != self._scenes.scene)
 
-    def _frames(self) -> Marks:
+    def _make_marks(self) -> Marks:
         """Return marks for the frames that were read and for the frames to come."""
         reading = self.readings.reading
         read = len(reading.times)

@@ -244,8 +244,8 @@ def photo(photo_file: Path) -> Photo:
 
 
 @pytest.fixture
-def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
-    """Let no picture be simulated before this event is set."""
+def release(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
+    """Simulate no picture before the test sets this event."""
     may_end = Event()
 
     def wait_and_render(*arguments: Any, **named: Any) -> Any:

@@ -41,7 +41,7 @@ from occ_model.scene.scene import Scene
 
 @dataclass
 class Stage:
-    """A window, whoever sits at it, and what is prepared for the cases."""
+    """A window, its user, and the files and dialogs that the cases need."""
 
     application: Application
     user: User
@@ -76,10 +76,10 @@ class Stage:
 
 
 CASES: dict[ErrorClass, Callable[[Stage], str]] = {}
-"""For each class what a user does to meet it; gives the sentence that the window then shows."""
+"""For each class, what a user does to cause it; returns the sentence that the window then shows."""
 
 
-def meets(error: ErrorClass) -> Callable[[Callable[[Stage], str]], Callable[[Stage], str]]:
+def causes(error: ErrorClass) -> Callable[[Callable[[Stage], str]], Callable[[Stage], str]]:
     def note(case: Callable[[Stage], str]) -> Callable[[Stage], str]:
         CASES[error] = case
         return case
@@ -87,20 +87,20 @@ def meets(error: ErrorClass) -> Callable[[Callable[[Stage], str]], Callable[[Sta
     return note
 
 
-@meets(occ.ParameterError)
+@causes(occ.ParameterError)
 def _a_value_out_of_range(stage: Stage) -> str:
     stage.user.enter("distance", "-3 m")
     assert stage.row("distance").notice.text() == stage.user.message
     return stage.user.message
 
 
-@meets(occ.SceneFileError)
+@causes(occ.SceneFileError)
 def _a_scene_that_is_no_toml(stage: Stage) -> str:
     stage.drop("scene.toml", "format = ")
     return stage.user.message
 
 
-@meets(occ.PresetError)
+@causes(occ.PresetError)
 def _a_preset_whose_file_is_gone(stage: Stage) -> str:
     (stage.folder / "presets" / "mine.toml").unlink()
     box = stage.application.controls.preset
@@ -108,7 +108,7 @@ def _a_preset_whose_file_is_gone(stage: Stage) -> str:
     return stage.user.message
 
 
-@meets(occ.ProjectionError)
+@causes(occ.ProjectionError)
 def _a_panel_behind_the_camera(stage: Stage) -> str:
     stage.user.enter("distance", "0.1 m")
     stage.user.enter("yaw", "70")
@@ -116,26 +116,26 @@ def _a_panel_behind_the_camera(stage: Stage) -> str:
     return stage.user.message
 
 
-@meets(occ.BandModelUndefined)
+@causes(occ.BandModelUndefined)
 def _an_exposure_longer_than_the_period(stage: Stage) -> str:
     stage.user.enter("exposure_time", "1 ms")
     return stage.application.view("profile").reason.text()
 
 
-@meets(occ.PhotoError)
+@causes(occ.PhotoError)
 def _a_photo_that_is_a_text(stage: Stage) -> str:
     stage.drop("photo.png", "no photo")
     return stage.user.message
 
 
-@meets(occ.VideoError)
+@causes(occ.VideoError)
 def _a_film_that_is_a_text(stage: Stage) -> str:
     (stage.folder / "film.mp4").write_text("no film", encoding="utf-8")
     stage.choose_file("open_film", stage.folder / "film.mp4")
     return stage.user.message
 
 
-@meets(occ.MatchError)
+@causes(occ.MatchError)
 def _a_photo_without_stripes(stage: Stage) -> str:
     stage.drop("grey.png", np.full((60, 90), 128, np.uint8))
     stage.application.window.actions_by_name["match"].trigger()
@@ -143,7 +143,7 @@ def _a_photo_without_stripes(stage: Stage) -> str:
     return stage.user.message
 
 
-@meets(PluginError)
+@causes(PluginError)
 def _a_line_code_that_cannot_be_imported(stage: Stage) -> str:
     row = stage.row("line_code")
     assert isinstance(row, ChoiceRow)
@@ -153,14 +153,14 @@ def _a_line_code_that_cannot_be_imported(stage: Stage) -> str:
     return stage.user.message
 
 
-@meets(occ.OutputError)
+@causes(occ.OutputError)
 def _a_folder_to_write_to(stage: Stage) -> str:
     (stage.folder / "folder.toml").mkdir()
     stage.choose_file("save_scene", stage.folder / "folder.toml")
     return stage.user.message
 
 
-@meets(WorkersLostError)
+@causes(WorkersLostError)
 def _processes_that_end_each_time(stage: Stage) -> str:
     DyingWorkers.is_well = False
     stage.application.window.bring_to_front("map")
@@ -185,7 +185,7 @@ class DyingWorkers(LazyWorkers):
 
 @pytest.fixture(autouse=True)
 def lazy_workers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the processes beside the window end when a case wants it."""
+    """Let the worker processes end when a case wants it."""
     monkeypatch.setattr(wiring, "new_workers", DyingWorkers)
 
 
@@ -204,8 +204,8 @@ def broken_plugin(tmp_path: Path) -> Iterator[None]:
 
 
 @pytest.fixture
-def made(monkeypatch: pytest.MonkeyPatch) -> list[OccError]:
-    """Return the errors of the model that are made from now on, on any thread."""
+def raised(monkeypatch: pytest.MonkeyPatch) -> list[OccError]:
+    """Record the errors of the model that are created from now on, on any thread."""
     noted: list[OccError] = []
     make = OccError.__init__
 
@@ -246,18 +246,18 @@ def picture_stays(application: Application, last: Snapshot) -> bool:
 
 @pytest.mark.own_window  # whose list of presets has the one that is made for it
 def test_every_class_becomes_a_sentence_and_the_picture_stays(
-    stage: Stage, made: list[OccError], small_scene: Scene, caplog: pytest.LogCaptureFixture
+    stage: Stage, raised: list[OccError], small_scene: Scene, caplog: pytest.LogCaptureFixture
 ) -> None:
     application, pictures = stage.application, list[Snapshot]()
     application.simulation.snapshot_shown.connect(pictures.append)
     for number, (error, case) in enumerate(CASES.items()):
         application.store.put(small_scene.replace(code=number), "another code")
         stage.user.wait_until_idle()
-        made.clear()
+        raised.clear()
         shown = case(stage)
-        met = [each for each in made if type(each) is error]
-        assert met, f"no {error.__name__}, but {made}, and the window says: {shown!r}"
-        words = {say(each) for each in met for say in (str, sentence_with_label, refusal_of)}
+        errors = [each for each in raised if type(each) is error]
+        assert errors, f"no {error.__name__}, but {raised}, and the window says: {shown!r}"
+        words = {say(each) for each in errors for say in (str, sentence_with_label, refusal_of)}
         assert shown in words, error
         assert shown.isprintable()
         assert shown.endswith("."), error
@@ -295,7 +295,7 @@ def test_every_wrong_value_is_refused_at_its_field_with_unit_and_range(
         if name in not_typed:
             continue
         declared, (line, notice) = PARAMETERS[name], fields[name]
-        if name == "code":  # no more than its bits can say
+        if name == "code":  # at most what the scene's bits can express
             assert isinstance(declared, Count)
             declared = replace(declared, high=2**small_scene.transmitter.bits - 1)
         last = line.text()
@@ -305,6 +305,6 @@ def test_every_wrong_value_is_refused_at_its_field_with_unit_and_range(
         label = f"{declared.label[:1].upper()}{declared.label[1:]}"
         check_sentence(notice.text(), declared, text, f"{label} cannot be ")
         assert stage.user.message == notice.text()
-        # What was long to type stays until it is typed anew.
+        # Text that takes long to type stays until it is corrected.
         assert line.text() == (text if isinstance(declared, ChipPattern | Payload) else last)
     assert stage.application.store.scene == small_scene

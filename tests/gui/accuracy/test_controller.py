@@ -163,14 +163,14 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
 
 
 def test_the_study_waits_while_a_picture_is_simulated(
-    bench: Bench, qtbot: QtBot, held: Event
+    bench: Bench, qtbot: QtBot, release: Event
 ) -> None:
     bench.scenes.change(iso=123.0)
     assert not bench.simulation.runner.is_idle
     bench.controller.set_seen(True)
     qtbot.waitUntil(lambda: bench.controller.is_idle)
     assert bench.requests == []
-    held.set()
+    release.set()
     bench.allow(TOTAL)
     bench.wait_for("finished")
 

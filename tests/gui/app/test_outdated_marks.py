@@ -36,7 +36,7 @@ def tabs(application: Application) -> list[str]:
 
 
 def test_a_verdict_does_not_wait_for_the_picture(
-    application: Application, user: User, held: Event, qtbot: QtBot
+    application: Application, user: User, release: Event, qtbot: QtBot
 ) -> None:
     decode = application.view("decode")
     assert (decode.verdict.text(), tabs(application)) == (RIGHT, ["✓", "✓"])
@@ -46,7 +46,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
     assert decode.origin.text() == "Read from the column profile; the picture follows."
     reading = not_none(application.view("profile").reading)
     assert reading.scene == application.store.scene
-    held.set()
+    release.set()
     user.wait_until_idle()
     assert decode.verdict.text() == "✗ No code read"
     assert decode.origin.text() == "Read from the picture."
@@ -55,7 +55,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
 @pytest.mark.own_window  # only panes that have been made are marked
 @pytest.mark.parametrize("jpeg", [pytest.param(0, marks=pytest.mark.whole), 60])
 def test_each_pane_is_marked_while_its_result_is_outdated(
-    application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int
+    application: Application, user: User, release: Event, qtbot: QtBot, jpeg: int
 ) -> None:
     for name in ("picture", "profile", "decode", "accuracy"):
         application.view(name)
@@ -77,7 +77,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     # On a busy machine the reading may be late, too, and is marked until then.
     qtbot.waitUntil(lambda: all(mark.isHidden() != (mark in late) for mark in marks(application)))
     assert {mark.accessibleName() for mark in late} == {"computing…"}
-    held.set()
+    release.set()
     user.wait_until_idle()
     assert all(mark.isHidden() for mark in marks(application))
 

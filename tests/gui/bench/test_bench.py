@@ -85,7 +85,7 @@ def test_the_scenes_code_and_timing_are_measured(small_scene: Scene) -> None:
 
 def test_what_the_pane_shows_is_what_the_model_measures(measuring: Measuring) -> None:
     measuring.measure()
-    full = not_none(measuring.controller.full)
+    full = not_none(measuring.controller.complete)
     request, points = full
     expected = [one for place in request.points for one in measure_bench_point(request, place)]
     assert list(points) == expected
@@ -118,7 +118,7 @@ def test_what_cannot_be_measured_says_why(measuring: Measuring) -> None:
     measuring.controller.choose(BenchChoice(PUBLISHED, ()))
     measuring.pane.measure.click()
     assert "No decoder" in measuring.said()
-    assert measuring.controller.full is None
+    assert measuring.controller.complete is None
 
 
 class BusyWorkers(InlineWorkers):
@@ -146,7 +146,7 @@ def test_a_cancelled_bench_keeps_its_points_and_is_not_whole(
     measuring.pane.work.cancel.click()
     assert measuring.said().startswith("Cancelled")
     assert measuring.controller.channel.is_idle
-    assert measuring.controller.full is None
+    assert measuring.controller.complete is None
     assert measuring.cell(0).startswith("0 (")
     assert measuring.pane.measure.isEnabled()
     measuring.queue.stop()
@@ -188,8 +188,8 @@ def test_the_bench_is_exported_with_its_own_setting(
     panes.see("bench")
     request = BenchRequest(decoders=("threshold",), exposures=(1.0,), decibels=(), bits=64)
     found = request, tuple(measure_bench_point(request, request.points[0]))
-    full: Callable[[], object] = lambda: found  # noqa: E731
-    monkeypatch.setattr(BenchController, "full", property(lambda _self: full()))
+    complete: Callable[[], object] = lambda: found  # noqa: E731
+    monkeypatch.setattr(BenchController, "complete", property(lambda _self: complete()))
     assert panes.export("bench", path).startswith("Exported")
     queue.stop()
     panes.shell.stop()
@@ -201,8 +201,8 @@ def test_the_bench_is_exported_with_its_own_setting(
 
 def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) -> None:
     measuring.measure()
-    assert measuring.controller.full is not None
-    _, (first, *_) = measuring.controller.full
+    assert measuring.controller.complete is not None
+    _, (first, *_) = measuring.controller.complete
     measuring.pane.table.show_points([replace(first, note="Why.")], RATES, 30.0)
     item = not_none(measuring.pane.table.item(0, 2))
     assert item.toolTip() == "Why."
@@ -211,7 +211,7 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
         value
         for curves in plots.curves.values()
         for curve in curves
-        for value in (curve.seen.getData()[1], curve.intervals.getData()[1])
+        for value in (curve.with_errors.getData()[1], curve.intervals.getData()[1])
     ]
     shown = np.concatenate(values)
     above = shown[shown > bench_results.FLOOR[RATES]]

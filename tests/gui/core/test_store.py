@@ -75,40 +75,40 @@ def test_an_edit_in_response_to_an_undo_is_a_new_step(store: Store) -> None:
 
 
 @pytest.mark.parametrize("is_undo", [False, True])
-def test_listeners_hear_of_changes_in_order_the_present_one_last(
+def test_listeners_receive_the_changes_in_order_and_the_present_state_last(
     store: Store, is_undo: bool
 ) -> None:
     if is_undo:
         put_iso(store, 200.0)
         put_iso(store, 900.0)
     scene, other = (store.select(lambda workspace: workspace.scene) for _ in range(2))
-    heard: list[float] = []
-    late: list[float] = []
+    received: list[float] = []
+    received_last: list[float] = []
     scene.changed.connect(lambda _: put_iso(store, 300.0) if iso(store) == 200.0 else None)
-    scene.changed.connect(lambda scene: heard.append(scene.camera.iso))
-    other.changed.connect(lambda scene: late.append(scene.camera.iso))
+    scene.changed.connect(lambda scene: received.append(scene.camera.iso))
+    other.changed.connect(lambda scene: received_last.append(scene.camera.iso))
     if is_undo:
         store.undo_stack.undo()
     else:
         put_iso(store, 200.0)
-    assert heard == [200.0, 300.0]
-    assert late == [300.0]  # it hears of the present state, and of nothing twice
+    assert received == [200.0, 300.0]
+    assert received_last == [300.0]  # only of the present state, and once
 
 
 def test_a_step_announces_the_state_before_it_first(store: Store) -> None:
-    first, told = iso(store), []
-    store.step_begun.connect(lambda left: told.append(("left", left.scene.camera.iso)))
+    first, announced = iso(store), []
+    store.step_begun.connect(lambda before: announced.append(("before", before.scene.camera.iso)))
     store.select(lambda workspace: workspace.scene).changed.connect(
-        lambda scene: told.append(("now", scene.camera.iso))
+        lambda scene: announced.append(("now", scene.camera.iso))
     )
     for value in (200.0, 300.0):  # one gesture, one step
         put_iso(store, value, gesture=1)
     store.undo_stack.undo()
     store.put(replace(store.workspace, frame_rate=24.0))
     store.undo_stack.redo()
-    assert told == [
-        ("left", first), ("now", 200.0), ("now", 300.0),
-        ("left", 300.0), ("now", first), ("left", first), ("now", 300.0),
+    assert announced == [
+        ("before", first), ("now", 200.0), ("now", 300.0),
+        ("before", 300.0), ("now", first), ("before", first), ("now", 300.0),
     ]  # fmt: skip
 
 
@@ -126,10 +126,10 @@ def test_later_changes_are_announced_although_a_listener_failed(
     store: Store, capfd: pytest.CaptureFixture[str]
 ) -> None:
     rate = store.select(lambda workspace: workspace.frame_rate)
-    heard = collect(rate.changed)
+    received = collect(rate.changed)
     failing = store.select(lambda workspace: 1 / (workspace.frame_rate - 24.0))
     with pytest.raises(ZeroDivisionError):
         store.put(replace(store.workspace, frame_rate=24.0))
     store.put(replace(store.workspace, frame_rate=25.0))
-    assert heard == [24.0, 25.0]
+    assert received == [24.0, 25.0]
     assert failing.value == 1.0

@@ -121,7 +121,7 @@ def test_the_map_is_exported_once_it_is_complete(
     rates.enter([SweepPoint(index, 10, (4,), "", (0,)) for index in range(rates.images.size)], 2)
     asked = MapRequest(scene, x, y, settings, with_image_effects=False)
     map_pane = type(bench.shell.pane("map").map)
-    monkeypatch.setattr(map_pane, "full", property(lambda _: (rates, asked)))
+    monkeypatch.setattr(map_pane, "complete", property(lambda _: (rates, asked)))
     assert bench.export("map", path) == f"Exported map.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
     assert len(lines) == 1 + rates.images.size

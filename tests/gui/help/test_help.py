@@ -115,7 +115,7 @@ def test_a_picture_is_as_wide_as_the_page_and_no_wider(qtbot: QtBot, manual: Hel
         qtbot.waitUntil(lambda: manual.browser.horizontalScrollBar().maximum() == 0)
 
 
-def test_a_search_finds_the_next_place_and_begins_again_and_one_for_nothing_stays(
+def test_a_search_goes_round_the_page_and_stays_where_nothing_is_found(
     qtbot: QtBot, manual: HelpWindow
 ) -> None:
     qtbot.keyClicks(manual.search, "slider")
@@ -156,7 +156,7 @@ def test_code_has_a_background_of_the_theme(manual: HelpWindow) -> None:
         assert cursor.blockFormat().background().color() == QColor(colour)
 
 
-def test_its_entries_open_the_guide_and_the_page_of_the_pane(
+def test_the_menu_entries_open_the_guide_and_the_page_of_the_pane(
     qtbot: QtBot, small_scene: Scene
 ) -> None:
     bench, current = PaneBench(qtbot, small_scene), ["spectrum"]
@@ -168,12 +168,12 @@ def test_its_entries_open_the_guide_and_the_page_of_the_pane(
     (browser,) = bench.window.findChildren(HelpBrowser)
     assert browser.window().isVisible()
     assert browser.source().fileName() == GUIDE
-    explained = {
+    page_of_pane = {
         "spectrum": "guide.md#measure",
         "bands": "limits.md#no-bars-no-flicker",
         "?": GUIDE,
     }
-    for pane, page in explained.items():
+    for pane, page in page_of_pane.items():
         current[0] = pane
         entries["about_pane"].trigger()
         assert browser.source().toString().endswith(f"/{page}")
@@ -227,7 +227,7 @@ def titles(found: list[Section]) -> list[str]:
     return [section.title for section in found]
 
 
-def test_a_page_is_divided_at_its_headings_and_all_words_are_there_a_heading_counting_more(
+def test_a_page_is_divided_at_its_headings_and_a_search_ranks_headings_first(
     folder: Path,
 ) -> None:
     found = sections(folder)

@@ -35,7 +35,7 @@ def view(qtbot: QtBot, snapshot: Snapshot) -> ProfileView:
     return view
 
 
-def drawn(curve: pg.PlotDataItem) -> tuple[list[float], list[float]]:
+def curve_data(curve: pg.PlotDataItem) -> tuple[list[float], list[float]]:
     """Return the values of a curve; nothing for an empty curve."""
     x, y = curve.getOriginalDataset()
     return ([], []) if x is None else (x.tolist(), y.tolist())
@@ -64,11 +64,13 @@ def test_an_early_reading_is_drawn_when_the_pane_is_visible(
     view.hide()
     view.show_reading(first)
     view.show_reading(early)
-    assert drawn(view.simulation)[1] == first.profile.tolist()  # the picture follows in a moment
+    assert (
+        curve_data(view.simulation)[1] == first.profile.tolist()
+    )  # the picture follows in a moment
     view.show()
-    assert drawn(view.simulation)[1] == early.profile.tolist()
+    assert curve_data(view.simulation)[1] == early.profile.tolist()
     view.show_reading(replace(first, source=source))
-    assert drawn(view.simulation)[1] == first.profile.tolist()
+    assert curve_data(view.simulation)[1] == first.profile.tolist()
 
 
 def test_the_band_model_is_drawn_where_it_is_defined_and_else_a_sentence_says_why_not(
@@ -76,20 +78,20 @@ def test_the_band_model_is_drawn_where_it_is_defined_and_else_a_sentence_says_wh
 ) -> None:
     snapshot = snapshot_of(exposure_time=68e-6, switching_frequency=10e3, band_reading="literal")
     view.show_reading(snapshot)
-    assert drawn(view.band)[1] == not_none(snapshot.band).tolist()
+    assert curve_data(view.band)[1] == not_none(snapshot.band).tolist()
     assert "band model" in legend_texts(view)
     assert view.reason.text().startswith("The band model drifts 76 columns a packet: it rounds")
     view.show_reading(snapshot_of(exposure_time=68e-6))
     assert not view.reason.isVisible()
     view.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
-    assert drawn(view.band) == ([], [])
+    assert curve_data(view.band) == ([], [])
     assert view.reason.isVisible()
     assert "136 µs" in view.reason.text()
     assert "100 µs" in view.reason.text()
     assert "band model" not in legend_texts(view)
 
 
-def test_the_enhanced_band_model_is_so_by_its_own_histogram(
+def test_the_band_model_is_enhanced_by_its_own_histogram(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     for method in ("equalization", "stretch", "none"):
@@ -97,10 +99,10 @@ def test_the_enhanced_band_model_is_so_by_its_own_histogram(
         view.show_reading(snapshot)
         assert snapshot.band is not None
         view.enhanced.setChecked(True)
-        assert drawn(view.band)[1] == enhance(snapshot.band, method).tolist()
-        assert view.plot.viewRange()[1][1] >= max(drawn(view.band)[1])
+        assert curve_data(view.band)[1] == enhance(snapshot.band, method).tolist()
+        assert view.plot.viewRange()[1][1] >= max(curve_data(view.band)[1])
         view.enhanced.setChecked(False)
-        assert drawn(view.band)[1] == snapshot.band.tolist()
+        assert curve_data(view.band)[1] == snapshot.band.tolist()
 
 
 def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
@@ -109,24 +111,24 @@ def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
     view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0))
     assert view.residual.numbers.text() == "Searching for stripes…"
     view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0, "No stripes."))
-    x, y = drawn(view.photo)
+    x, y = curve_data(view.photo)
     assert x[:3] == [12.5, 14.5, 16.5]
     assert y == photo.profile.tolist()
     assert view.residual.numbers.text() == "No stripes."
     assert not view.residual.plot.isVisible()
     assert "photo" in legend_texts(view)
     view.show_photo_profile(None)
-    assert drawn(view.photo) == ([], [])
+    assert curve_data(view.photo) == ([], [])
     assert not view.residual.isVisible()
     assert "photo" not in legend_texts(view)
 
 
 def test_a_compared_photo_is_drawn_in_simulated_levels(view: ProfileView, photo: Photo) -> None:
-    seen, simulated = np.array([1.0, 5.0, 9.0]), np.array([2.0, 5.0, 6.0])
-    comparison = Comparison(900, seen, simulated, 0.91234)
+    measured, simulated = np.array([1.0, 5.0, 9.0]), np.array([2.0, 5.0, 6.0])
+    comparison = Comparison(900, measured, simulated, 0.91234)
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
-    assert drawn(view.photo) == ([900, 901, 902], seen.tolist())
-    assert drawn(view.residual.curve) == ([900, 901, 902], [-1.0, 0.0, 3.0])
+    assert curve_data(view.photo) == ([900, 901, 902], measured.tolist())
+    assert curve_data(view.residual.curve) == ([900, 901, 902], [-1.0, 0.0, 3.0])
     assert view.residual.plot.isVisible()
     assert "photo, fitted levels" in legend_texts(view)
     assert "photo" not in legend_texts(view)
@@ -146,15 +148,15 @@ def test_a_compared_photo_is_drawn_in_simulated_levels(view: ProfileView, photo:
 def test_neither_one_edge_nor_the_scene_before_sets_the_axis_of_the_residual(
     view: ProfileView, photo: Photo
 ) -> None:
-    seen = 100.0 + 4.0 * np.sin(np.arange(300.0))
-    edge = seen.copy()
+    smooth = 100.0 + 4.0 * np.sin(np.arange(300.0))
+    edge = smooth.copy()
     edge[:6] += 90.0
-    for profile, said in ((seen, False), (edge, True)):
+    for profile, is_outside in ((smooth, False), (edge, True)):
         comparison = Comparison(0, profile, np.full(300, 100.0), 0.9)
         view.show_photo_profile(PhotoProfile(comparison, photo.profile))
         assert view.residual.plot.getViewBox().viewRange()[1] == pytest.approx([-7.0, 7.0])
         text = view.residual.numbers.toolTip()
-        assert ("outside the axis" in text) == said
+        assert ("outside the axis" in text) == is_outside
     assert f"largest residual {comparison.largest_residual:.0f}, outside" in text
     ends = []
     for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
@@ -186,7 +188,7 @@ def test_after_enhancement_shows_picture_levels_and_threshold(
 ) -> None:
     columns = list(range(len(snapshot.frame.profile)))
     for enhanced, levels in ((False, snapshot.frame.profile), (True, snapshot.frame.signal)) * 2:
-        assert drawn(view.simulation) == (columns, levels.tolist())
+        assert curve_data(view.simulation) == (columns, levels.tolist())
         assert view.threshold.isVisible() == enhanced
         assert ("threshold" in legend_texts(view)) == enhanced
         if enhanced:
@@ -205,10 +207,10 @@ def test_the_profile_before_is_drawn_named_and_in_view(
     brighter = snapshot_of(iso=1600.0)
     view.show_before(brighter)
     assert "before" in legend_texts(view)
-    assert drawn(view.before)[1] == brighter.frame.profile.tolist()
+    assert curve_data(view.before)[1] == brighter.frame.profile.tolist()
     assert view.plot.viewRange()[1][1] >= brighter.frame.profile.max()
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
-    assert drawn(view.before)[1] == brighter.frame.signal.tolist()
+    assert curve_data(view.before)[1] == brighter.frame.signal.tolist()
 
 
 @pytest.mark.parametrize("tolerance", [0.0, math.inf])
@@ -225,7 +227,7 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
     assert read is not None
     assert float(np.ptp(read)) > 100.0
     columns = slice(region.first_column, region.last_column)
-    shown = np.array(drawn(view.simulation)[1])[columns]
+    shown = np.array(curve_data(view.simulation)[1])[columns]
     # The rectangle that is read may have some rows more or less than the panel.
     assert np.abs(shown - read)[1:-1].max() <= 1.0
 
@@ -238,7 +240,9 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view_up_to_the_next_step_ab
         view.show_reading(snapshot_of(**changes))
         low, high = view.plot.getViewBox().viewRange()[1]
         values = [
-            value for curve in (view.simulation, view.band, view.photo) for value in drawn(curve)[1]
+            value
+            for curve in (view.simulation, view.band, view.photo)
+            for value in curve_data(curve)[1]
         ]
         assert low <= min(values)
         step = 20.0 * math.ceil(max(values) / 20.0)
@@ -274,7 +278,7 @@ def test_without_a_panel_or_with_one_at_the_edge_there_is_a_range_in_view(
         view.show_reading(snapshot)
         first, last = columns_in_view(view)
         assert last - first >= 1.0
-        assert drawn(view.simulation)[0]
+        assert curve_data(view.simulation)[0]
     last_column = len(snapshot.frame.profile) - 1
     button(view, "Panel").click()
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
@@ -286,8 +290,8 @@ def test_without_a_panel_or_with_one_at_the_edge_there_is_a_range_in_view(
 def test_the_columns_in_view_are_some_of_the_picture(view: ProfileView, snapshot: Snapshot) -> None:
     columns = len(snapshot.frame.profile)
     view.plot.getViewBox().setLimits(xMin=None, xMax=None)
-    for seen in ((-40.0, 12.4), (20.5, 31.7), (590.0, 2000.0), (5000.0, 5100.0)):
-        view.plot.setXRange(*seen, padding=0.0)
+    for limits in ((-40.0, 12.4), (20.5, 31.7), (590.0, 2000.0), (5000.0, 5100.0)):
+        view.plot.setXRange(*limits, padding=0.0)
         first, end = view.columns_in_view()
         assert 0 <= first < end <= columns
         low, high = columns_in_view(view)
@@ -316,7 +320,7 @@ def reading(confidence: float = 0.99) -> ChipReading:
 
 
 @pytest.fixture
-def shown(view: ProfileView) -> ProfileView:
+def view_with_chips(view: ProfileView) -> ProfileView:
     view.chips.show_chips(reading())
     view.plot.setXRange(0.0, 100.0, padding=0.0)
     QApplication.processEvents()
@@ -334,40 +338,42 @@ def edges(view: ProfileView) -> list[float]:
 
 
 def test_each_chip_in_view_lies_under_its_columns_also_where_the_photo_is_moved(
-    shown: ProfileView,
+    view_with_chips: ProfileView,
 ) -> None:
-    cells = shown.chips.cells
+    cells = view_with_chips.chips.cells
     assert [chip for chip, _ in cells.rectangles()] == CHIPS.tolist()
-    assert edges(shown) == pytest.approx([5, 15, 25, 35, 45, 55], abs=0.5)
-    shown.plot.setXRange(26.0, 44.0, padding=0.0)
+    assert edges(view_with_chips) == pytest.approx([5, 15, 25, 35, 45, 55], abs=0.5)
+    view_with_chips.plot.setXRange(26.0, 44.0, padding=0.0)
     assert [chip for chip, _ in cells.rectangles()] == [1, 1]
-    shown.show_photo_profile(PhotoProfile(None, np.full(60, 50.0), 20.0, 0.5))
-    shown.plot.setXRange(0.0, 100.0, padding=0.0)
-    assert edges(shown) == pytest.approx([22.5, 27.5, 32.5, 37.5, 42.5, 47.5], abs=0.5)
-    axis = shown.plot.getAxis("left").width()
-    assert shown.chips.copy.width() == pytest.approx(axis, abs=1) == cells.x()
+    view_with_chips.show_photo_profile(PhotoProfile(None, np.full(60, 50.0), 20.0, 0.5))
+    view_with_chips.plot.setXRange(0.0, 100.0, padding=0.0)
+    assert edges(view_with_chips) == pytest.approx([22.5, 27.5, 32.5, 37.5, 42.5, 47.5], abs=0.5)
+    axis = view_with_chips.plot.getAxis("left").width()
+    assert view_with_chips.chips.copy.width() == pytest.approx(axis, abs=1) == cells.x()
 
 
-def test_chips_are_copied_as_text_and_told_in_words(shown: ProfileView, qtbot: QtBot) -> None:
-    said = collect(shown.chips.copied)
-    qtbot.mouseClick(shown.chips.copy, Qt.MouseButton.LeftButton)
+def test_chips_are_copied_as_text_and_described_in_words(
+    view_with_chips: ProfileView, qtbot: QtBot
+) -> None:
+    said = collect(view_with_chips.chips.copied)
+    qtbot.mouseClick(view_with_chips.chips.copy, Qt.MouseButton.LeftButton)
     assert QGuiApplication.clipboard().text() == "10110"
     assert said == ["Copied: 10110"]
-    cells = shown.chips.cells
+    cells = view_with_chips.chips.cells
     assert cells.toolTip() == (
         "5 chips read from the photo, 10.00 columns each; the probability that all of "
         "them are right is 99 %"
     )
     assert cells.accessibleDescription().endswith(": 10110")
-    assert shown.chips.isVisible()
-    shown.chips.show_chips(None)
-    assert not shown.chips.isVisible()
+    assert view_with_chips.chips.isVisible()
+    view_with_chips.chips.show_chips(None)
+    assert not view_with_chips.chips.isVisible()
 
 
-def test_uncertain_chips_are_drawn_faintly(shown: ProfileView) -> None:
-    certain = shown.chips.cells.grab().toImage()
-    shown.chips.show_chips(reading(0.6))
-    uncertain = shown.chips.cells.grab().toImage()
-    place = shown.chips.cells.rectangles()[0][1].center().toPoint()
+def test_uncertain_chips_are_drawn_faintly(view_with_chips: ProfileView) -> None:
+    certain = view_with_chips.chips.cells.grab().toImage()
+    view_with_chips.chips.show_chips(reading(0.6))
+    uncertain = view_with_chips.chips.cells.grab().toImage()
+    place = view_with_chips.chips.cells.rectangles()[0][1].center().toPoint()
     place.setY(3)
     assert certain.pixelColor(place).lightness() < uncertain.pixelColor(place).lightness()

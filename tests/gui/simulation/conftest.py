@@ -25,7 +25,7 @@ class RecordingView:
         self.readings.append(reading)
 
 
-class Bench:
+class SimulationBench:
     """A store and a controller on two mock views."""
 
     def __init__(self, scene: Scene, qtbot: QtBot) -> None:
@@ -49,8 +49,8 @@ class Bench:
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
-    bench = Bench(small_scene, qtbot)
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[SimulationBench]:
+    bench = SimulationBench(small_scene, qtbot)
     bench.wait_until_idle()
     yield bench
     bench.controller.stop()

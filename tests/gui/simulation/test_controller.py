@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, collect
-from gui.simulation.conftest import Bench
+from gui.simulation.conftest import SimulationBench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -20,7 +20,7 @@ from occ_model.scene.scene import Scene
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
 
 
-def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None:
+def test_every_changed_scene_ends_with_results_equal_to_it(bench: SimulationBench) -> None:
     for iso in (50.0, 100.0, 200.0):
         for frequency in (2e3, 5e3, 9e3):
             bench.store.change(iso=iso, switching_frequency=frequency)
@@ -29,7 +29,7 @@ def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None
     assert bench.failures == []
 
 
-def test_every_change_of_settings_ends_with_a_picture_of_them(bench: Bench) -> None:
+def test_every_change_of_settings_ends_with_a_picture_of_them(bench: SimulationBench) -> None:
     bench.settings.set_tolerance(50.0)
     bench.settings.set_observable("profile")
     bench.store.force("jpeg", True)
@@ -42,7 +42,9 @@ def test_every_change_of_settings_ends_with_a_picture_of_them(bench: Bench) -> N
     assert bench.views[0].snapshots[-1].frame.plan.included == ()
 
 
-def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: QtBot) -> None:
+def test_all_views_show_one_result_before_it_is_announced(
+    bench: SimulationBench, qtbot: QtBot
+) -> None:
     counts: list[int] = []
     bench.controller.snapshot_shown.connect(lambda _: counts.append(len(bench.views[1].snapshots)))
     with qtbot.waitSignal(bench.controller.snapshot_shown) as signal:
@@ -52,7 +54,7 @@ def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: Q
 
 
 def test_a_scene_without_a_picture_is_reported_and_the_views_keep_the_last_one(
-    bench: Bench, small_scene: Scene
+    bench: SimulationBench, small_scene: Scene
 ) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
     bench.wait_until_idle()
@@ -70,7 +72,7 @@ def test_a_scene_without_a_picture_is_reported_and_the_views_keep_the_last_one(
 
 
 def test_after_an_unexpected_failure_the_next_one_is_shown(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch
+    bench: SimulationBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_arguments: object, **_options: object) -> None:
         raise ZeroDivisionError("a mistake")
@@ -129,7 +131,7 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
         assert result.region == alone.region
 
 
-def test_a_chosen_decoder_reads_this_and_later_scenes(bench: Bench) -> None:
+def test_a_chosen_decoder_reads_this_and_later_scenes(bench: SimulationBench) -> None:
     def decoders() -> list[str]:
         return list(bench.views[0].readings[-1].results)
 
@@ -166,7 +168,7 @@ def test_the_panels_origin_and_columns_stay_in_the_picture(small_scene: Scene) -
     assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
 
 
-def test_stopping_during_a_simulation_returns_without_a_result(bench: Bench) -> None:
+def test_stopping_during_a_simulation_returns_without_a_result(bench: SimulationBench) -> None:
     pictures = collect(bench.controller.picture_ready)
     bench.store.change(iso=200.0)
     bench.controller.stop()

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.kinds import collect
-from gui.simulation.conftest import Bench
+from gui.simulation.conftest import SimulationBench
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -32,14 +32,14 @@ def is_draft(picture: Picture) -> bool:
 
 
 def test_a_scene_is_read_before_its_picture_is_there(
-    bench: Bench, held: Event, qtbot: QtBot
+    bench: SimulationBench, release: Event, qtbot: QtBot
 ) -> None:
     bench.store.change(iso=200.0)
     reader = bench.views[1]
     qtbot.waitUntil(lambda: reader.readings[-1].scene == bench.store.scene)
     early = reader.readings[-1]
     assert (early.source, len(bench.scenes)) == ("profile", 1)
-    held.set()
+    release.set()
     bench.wait_until_idle()
     assert reader.readings[-1] is bench.views[0].snapshots[-1]
     assert reader.readings[-1].source == "picture"
@@ -49,14 +49,14 @@ def test_a_scene_is_read_before_its_picture_is_there(
 
 
 def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
-    bench: Bench, held: Event, qtbot: QtBot
+    bench: SimulationBench, release: Event, qtbot: QtBot
 ) -> None:
     reader = bench.views[0]
     before = len(reader.readings)
     bench.store.change(iso=150.0)
     bench.store.change(iso=200.0)
     qtbot.waitUntil(lambda: reader.readings[-1].scene.camera.iso == 150.0)
-    held.set()
+    release.set()
     bench.wait_until_idle()
     assert [scene.camera.iso for scene in bench.scenes[1:]] == [150.0, 200.0]
     of_pictures = [reading for reading in reader.readings[before:] if reading.source == "picture"]
@@ -65,14 +65,14 @@ def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
 
 
 @pytest.fixture
-def pictures(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
+def pictures(bench: SimulationBench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
     """Draft pictures of any size, and record all that are delivered."""
     monkeypatch.setattr(jobs, "SMALL_PICTURE", 0)
     return collect(bench.controller.picture_ready)
 
 
 def test_a_draft_of_the_scene_comes_before_its_exact_picture(
-    bench: Bench, pictures: list[Picture]
+    bench: SimulationBench, pictures: list[Picture]
 ) -> None:
     bench.store.change(iso=200.0)
     bench.wait_until_idle()
@@ -85,7 +85,7 @@ def test_a_draft_of_the_scene_comes_before_its_exact_picture(
 
 @pytest.mark.parametrize("jpeg", [0, 80])
 def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
-    bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch, jpeg: int
+    bench: SimulationBench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch, jpeg: int
 ) -> None:
     bench.settings.set_tolerance(0.0)  # no effect is left out that a signal may need
     bench.wait_until_idle()
@@ -107,7 +107,7 @@ def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
 
 @pytest.mark.parametrize("jpeg", [0, 80])
 def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
-    bench: Bench, pictures: list[Picture], jpeg: int
+    bench: SimulationBench, pictures: list[Picture], jpeg: int
 ) -> None:
     """Qt paints when no other event waits, which an event of low priority imitates."""
 
@@ -135,7 +135,9 @@ def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
     assert all(of_picture == of_reading for of_picture, of_reading in recorder.scenes)
 
 
-def test_drafts_have_the_rows_that_the_screen_shows(bench: Bench, pictures: list[Picture]) -> None:
+def test_drafts_have_the_rows_that_the_screen_shows(
+    bench: SimulationBench, pictures: list[Picture]
+) -> None:
     bench.controller.draft_for(lambda: 7.9)
     bench.store.change(iso=200.0)
     bench.controller.draft_for(lambda: 0.5)  # a step of less than four rows saves no time
@@ -147,7 +149,7 @@ def test_drafts_have_the_rows_that_the_screen_shows(bench: Bench, pictures: list
 
 
 def test_a_picture_without_pixels_that_differ_needs_no_draft(
-    bench: Bench, pictures: list[Picture]
+    bench: SimulationBench, pictures: list[Picture]
 ) -> None:
     bench.settings.set_tolerance(math.inf)
     bench.wait_until_idle()
@@ -155,7 +157,7 @@ def test_a_picture_without_pixels_that_differ_needs_no_draft(
 
 
 def test_a_scene_that_is_read_from_pixels_is_read_from_its_draft_first(
-    bench: Bench, pictures: list[Picture]
+    bench: SimulationBench, pictures: list[Picture]
 ) -> None:
     bench.store.change(jpeg_quality=80)
     bench.wait_until_idle()
@@ -171,7 +173,7 @@ def test_a_scene_that_is_read_from_pixels_is_read_from_its_draft_first(
 
 
 def test_while_the_scene_changes_only_drafts_are_made(
-    bench: Bench, pictures: list[Picture]
+    bench: SimulationBench, pictures: list[Picture]
 ) -> None:
     """Each draft causes the next change; the second change is replaced by the third."""
     isos = iter([110.0, 120.0, 130.0])
@@ -192,7 +194,7 @@ def test_while_the_scene_changes_only_drafts_are_made(
 
 
 def test_a_picture_under_way_gives_way_to_a_newer_scene(
-    bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
+    bench: SimulationBench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The scene changes when its exact picture has been begun."""
     scenes: list[Scene] = []
@@ -212,7 +214,7 @@ def test_a_picture_under_way_gives_way_to_a_newer_scene(
 
 
 def test_an_exact_picture_begins_after_more_urgent_work(
-    bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
+    bench: SimulationBench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(controller, "CHECK_SECONDS", 0.001)
     counts: list[int] = []

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from gui.kinds import not_none
-from gui.simulation.conftest import Bench
+from gui.simulation.conftest import SimulationBench
 
 import occ_model as occ
 from occ_gui.files.file_controller import FileController
@@ -23,7 +23,7 @@ def messages() -> list[str]:
 
 
 @pytest.fixture
-def present(bench: Bench, messages: list[str]) -> PresentResults:
+def present(bench: SimulationBench, messages: list[str]) -> PresentResults:
     """Return present results after the first picture."""
     present = PresentResults(bench.controller)
     present.status_message.connect(messages.append)
@@ -33,7 +33,7 @@ def present(bench: Bench, messages: list[str]) -> PresentResults:
 
 
 def test_results_of_the_present_scene_are_delivered_at_once(
-    bench: Bench, present: PresentResults
+    bench: SimulationBench, present: PresentResults
 ) -> None:
     snapshots: list[Snapshot] = []
     present.ask(snapshots.append)
@@ -42,7 +42,7 @@ def test_results_of_the_present_scene_are_delivered_at_once(
 
 
 def test_results_of_an_earlier_scene_are_never_delivered(
-    bench: Bench, present: PresentResults, messages: list[str]
+    bench: SimulationBench, present: PresentResults, messages: list[str]
 ) -> None:
     snapshots: list[Snapshot] = []
     for distance in (0.9, 1.0, 1.1):
@@ -55,7 +55,7 @@ def test_results_of_an_earlier_scene_are_never_delivered(
 
 
 def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
-    bench: Bench, present: PresentResults, messages: list[str], tmp_path: Path
+    bench: SimulationBench, present: PresentResults, messages: list[str], tmp_path: Path
 ) -> None:
     path, store = tmp_path / "picture.png", bench.store
     photos = PhotoController(store.store, ResultsStore())

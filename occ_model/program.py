@@ -1,6 +1,6 @@
 """Run a program: standard streams, Ctrl-C, errors as sentences, exit codes.
 
-Nothing slow is imported here, so that Ctrl-C is answered with a sentence from the first moment.
+Nothing slow is imported here, so that Ctrl-C ends with a sentence from the first moment.
 """
 
 import os
@@ -34,9 +34,9 @@ def run_program(
 ) -> int:
     """Run a program; return its exit code, and report an error in one line on standard error.
 
-    ``prepare`` imports what is needed, reads the command line and returns the work to do. Only if
-    the process is this program's alone (``is_process``) its signals and streams are changed. A
-    window may have no standard output, and Ctrl-C ends it until it answers that itself.
+    ``prepare`` imports what is needed, reads the command line and returns the work to do. Signals
+    and streams of the process are changed only if it runs nothing else (``is_process``). A window
+    may have no standard output, and Ctrl-C ends it at once until it installs its own handler.
     """
     if is_process:
         # The matrices are small: threads of linear algebra wait for each other longer than they
@@ -97,10 +97,10 @@ def ignore_interrupts() -> None:
 
 
 class Interrupts:
-    """The answer of a process to Ctrl-C.
+    """How a process handles Ctrl-C.
 
     During preparation, and during any import, Ctrl-C ends the process at once: no work has begun
-    then, and a module that is interrupted while it is imported may print anything. Later it raises
+    then, and an interrupted import may print anything. Later it raises
     ``KeyboardInterrupt``, unless ``always_at_once``. A process that was started to ignore Ctrl-C
     goes on to do so.
     """
@@ -110,20 +110,20 @@ class Interrupts:
         self._always_at_once = always_at_once
         self._is_prepared = False
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-            signal.signal(signal.SIGINT, self._answer)
+            signal.signal(signal.SIGINT, self._handle_interrupt)
             self._report = sys.unraisablehook
-            sys.unraisablehook = self._hear_unraisable
+            sys.unraisablehook = self._handle_unraisable
 
     def end_preparation(self) -> None:
         """Raise ``KeyboardInterrupt`` from now on."""
         self._is_prepared = True
 
-    def _answer(self, _signal: int, frame: FrameType | None) -> None:
+    def _handle_interrupt(self, _signal: int, frame: FrameType | None) -> None:
         if self._always_at_once or not self._is_prepared or _is_importing(frame):
             self._leave()
         raise KeyboardInterrupt
 
-    def _hear_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
+    def _handle_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
         """End the process where Ctrl-C came in an object's deletion, which swallows exceptions."""
         if issubclass(what.exc_type, KeyboardInterrupt):
             self._leave()
@@ -145,7 +145,7 @@ def _is_importing(frame: FrameType | None) -> bool:
 
 
 def open_streams(needs_output: bool) -> None:
-    """Open the null device for closed standard streams: the next file would be taken for one."""
+    """Open the null device for closed standard streams, whose numbers the next file would get."""
     for descriptor in range(3):
         try:
             os.fstat(descriptor)

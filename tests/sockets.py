@@ -1,4 +1,4 @@
-"""At which doors processes listen, as Linux tells it."""
+"""The sockets on which processes listen, read from Linux's ``/proc``."""
 
 import os
 import stat
@@ -22,11 +22,11 @@ def processes_of(session: int) -> list[int]:
     return found
 
 
-def doors(process: int) -> list[str]:
-    """Name every socket of a process at which somebody else can reach it.
+def find_open_sockets(process: int) -> list[str]:
+    """Name the sockets of a process to which other users or computers can connect.
 
-    A socket in a folder that only its user can enter is none: the user's other programs may do
-    more to a process than speak to it.
+    A socket in a folder that only its user can enter does not count: the user's own programs can
+    do more to the process anyway.
     """
     own = set(_sockets(process))
     return [*_internet(process, own), *_local(process, own)]

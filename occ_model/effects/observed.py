@@ -24,27 +24,27 @@ class SampledObservable:
     def __init__(
         self,
         names: frozenset[str],
-        seen: Callable[[Sequence[frozenset[str]]], FloatArray],
+        observe: Callable[[Sequence[frozenset[str]]], FloatArray],
         changing: Sequence[str],
     ) -> None:
         """Observe the sample with all effects, and without each of ``changing``.
 
-        ``seen`` maps sets of effects to the observed values times the square roots of their
+        ``observe`` maps sets of effects to the observed values times the square roots of their
         weights, (sets, values).
         """
         self._names = names
-        self._seen = seen
+        self._observe = observe
         self._place = {name: at for at, name in enumerate(changing)}
         self.alone: dict[str, float] = {}
         """Mean square of the independent part of each effect's change."""
         self.doubt: dict[str, float] = {}
-        """Mean square of a change by each effect that the sample may have missed."""
+        """Mean square of the change by each effect that the sample may have missed."""
         self.known: dict[str, float] = {}
         """Factor from the root of ``alone`` to its upper bound, for changes of a known law."""
         self.unsure = 0.0  # relative amount by which any mean square may be larger
-        found = seen([names, *(names - {name} for name in changing)])
-        self.complete = found[0]
-        self._moved = moved = found[1:] - found[0]
+        values = observe([names, *(names - {name} for name in changing)])
+        self.complete = values[0]
+        self._moved = moved = values[1:] - values[0]
         self._products = moved @ moved.T
 
     def add_noise(self, squares: Mapping[str, float], values: int) -> None:
@@ -69,8 +69,8 @@ class SampledObservable:
     def sampling_error(self, name: str, values: int) -> float:
         """Return the standard error of :meth:`sampled_square` as a mean over ``values``."""
         squares = self._moved[self._place[name]] ** 2
-        left = max(1.0 - len(squares) / values, 0.0)
-        return math.sqrt(left * float((squares**2).sum()))
+        unsampled = max(1.0 - len(squares) / values, 0.0)
+        return math.sqrt(unsampled * float((squares**2).sum()))
 
     def largest_squares(self, sets: Sequence[frozenset[str]]) -> FloatArray:
         """Return upper bounds of the mean square changes without each set of effects."""
@@ -80,7 +80,7 @@ class SampledObservable:
         squares = np.array([self._products[places, places].sum() for places in moved])
         several = [at for at, places in enumerate(moved) if len(places) > 1]
         if several:
-            changes = self._seen([self._names - sets[at] for at in several]) - self.complete
+            changes = self._observe([self._names - sets[at] for at in several]) - self.complete
             squares[several] = np.einsum("sv,sv->s", changes, changes)
         names = sorted(self._names)
         members = np.array([[float(name in left_out) for name in names] for left_out in sets])

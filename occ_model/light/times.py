@@ -55,12 +55,13 @@ class ExposureWindows:
 
     first: IndexArray
     last: IndexArray
-    # Part of the first unit before the start and after it, and of the last one before the end. If
-    # a short window crosses a unit's edge, their errors shrink with the window.
+    # Fractions of a unit: from the first unit's start to the window's start, from there to the
+    # first unit's end, and from the last unit's start to the window's end. If a short window
+    # crosses a unit's edge, the errors of the last two shrink with the window.
     since: FloatArray
     before: FloatArray
     end: FloatArray
-    # Whether the fractions of the start and of the length add up to more than a unit
+    # Whether the fractions of the start and of the length add up to a unit or more
     crosses: NDArray[np.bool_]
     # Length of the window without the units between, from the start of the last unit on if it
     # crosses and from as far into it as the start is into the first unit if not

@@ -1,7 +1,7 @@
 """The light's waveform: periodic and piecewise constant, with an exact running integral.
 
-Time is counted in units, as many to a period as it has pieces. Pieces of equal length, such as
-chips, are a unit long each.
+The unit of time is the mean length of a piece, so that a period has as many units as pieces. Pieces
+of equal length, such as chips, last one unit each.
 """
 
 from collections.abc import Sequence
@@ -32,7 +32,7 @@ class Waveform:
         self.period = count = len(levels)  # units of a period, which are its pieces
         is_even = len(set(lengths)) <= 1
         given = np.asarray(levels)
-        # Exact: whole numbers where they do, which are fast, and fractions elsewhere.
+        # Exact: integers, which are fast, where possible; fractions otherwise.
         self.levels: Exact
         if given.dtype.kind in "iub":
             self.levels = given.astype(np.int64)
@@ -96,7 +96,7 @@ class _Edges:
         exact = np.concatenate([[Fraction(0)], np.cumsum(repeat(lengths))])
         self._whole: IndexArray = np.array([each.__floor__() for each in exact], dtype=np.int64)
         self._fraction: FloatArray = (exact - self._whole).astype(np.float64)
-        self._near: FloatArray = exact.astype(np.float64)
+        self._rounded: FloatArray = exact.astype(np.float64)
 
     def pieces_of(self, windows: ExposureWindows, duration: Duration) -> ExposureWindows:
         """Return windows by pieces from windows by units."""
@@ -115,13 +115,15 @@ class _Edges:
 
     def _piece_at(self, whole: IndexArray, fraction: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the piece at each time, and the time since its start."""
-        piece = np.searchsorted(self._near, whole + fraction, side="right") - 1
-        piece = np.clip(piece, 0, len(self._near) - 2)
-        # The sum above is rounded, so that a time near an edge can be in a piece beside.
+        piece = np.searchsorted(self._rounded, whole + fraction, side="right") - 1
+        piece = np.clip(piece, 0, len(self._rounded) - 2)
+        # The sum above is rounded, so that a time near an edge can be assigned to the wrong piece.
         while True:
             since = self._since(piece, whole, fraction)
             early = (since < 0.0) & (piece > 0)
-            late = (self._since(piece + 1, whole, fraction) >= 0.0) & (piece < len(self._near) - 2)
+            late = (self._since(piece + 1, whole, fraction) >= 0.0) & (
+                piece < len(self._rounded) - 2
+            )
             if not (early | late).any():
                 return piece, np.maximum(since, 0.0)
             piece = piece - early + late

@@ -19,7 +19,7 @@ LABELS = {
     "lamp_frequency": quantity("lamp_frequency").label,
     "exposure_time": quantity("exposure_time").label,
     "noted": "Noted by the camera",
-    "others": "Or as well exposed",
+    "others": "Other possible exposures",
     "start_time": quantity("start_time").label,
     "gamma": quantity("gamma").label,
     "duty": quantity("duty").label,

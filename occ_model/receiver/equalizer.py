@@ -62,7 +62,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     equalized = undone * WHITE
     read = read_by_threshold(equalized, scene)
     read = _take_majority(read, scene)
-    failure = read.failure or _explain_unexplained(read, light.values, exposure, scene)
+    failure = read.failure or _explain_mismatch(read, light.values, exposure, scene)
     read = read if failure is None else replace(read, code=None)
     if failure is not None and light.is_estimated:
         failure += " " + _CURVE_UNKNOWN.format(enhancement=scene.model.enhancement)
@@ -100,7 +100,7 @@ def _take_majority(read: DecodeResult, scene: Scene) -> DecodeResult:
     return add_bits(read, agreed, scene)
 
 
-def _explain_unexplained(
+def _explain_mismatch(
     read: DecodeResult, light: FloatArray, exposure: float, scene: Scene
 ) -> str | None:
     """Return why the light is not that of the packet; None if it is, or if a rule checks it."""
@@ -118,12 +118,10 @@ def _explain_unexplained(
     columns = np.arange(max(0.0, first), min(len(light), first + len(chips) * length))
     columns = columns.astype(np.int64)
     # Deconvolved light refers to the middle of each exposure.
-    begun = (columns - 0.5 * exposure - first) / length
-    place = np.floor(PER_CHIP * begun).astype(np.int64)
+    elapsed = (columns - 0.5 * exposure - first) / length  # chips since the packet's start
+    place = np.floor(PER_CHIP * elapsed).astype(np.int64)
     model = light_of_chips(chips, exposure / length)
-    unexplained = _unexplained_by_best(
-        light[columns], model[(place + _SHIFTS[:, None]) % len(model)]
-    )
+    unexplained = _least_unexplained(light[columns], model[(place + _SHIFTS[:, None]) % len(model)])
     if unexplained <= MAX_UNEXPLAINED:
         return None
     return (
@@ -133,18 +131,18 @@ def _explain_unexplained(
     )
 
 
-def _is_packet(seen: ByteArray, chips: ByteArray) -> bool:
-    return len(seen) >= len(chips) and bool(np.array_equal(seen[: len(chips)], chips))
+def _is_packet(read: ByteArray, chips: ByteArray) -> bool:
+    return len(read) >= len(chips) and bool(np.array_equal(read[: len(chips)], chips))
 
 
-def _unexplained_by_best(light: FloatArray, models: FloatArray) -> float:
+def _least_unexplained(light: FloatArray, models: FloatArray) -> float:
     """Return the fraction of the variance that the best model leaves unexplained."""
-    seen = light - light.mean()
+    centred = light - light.mean()
     models = models - models.mean(axis=1, keepdims=True)
     swings = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
-    fits = models @ seen
+    fits = models @ centred
     best = int(np.argmax(np.maximum(fits, 0.0) ** 2 / swings))
-    residual = seen - max(float(fits[best]), 0.0) / swings[best] * models[best]
+    residual = centred - max(float(fits[best]), 0.0) / swings[best] * models[best]
     return unexplained_fraction(light, residual)
 
 
@@ -159,7 +157,7 @@ DECODER = Decoder(
 MMSE, ZERO_FORCING = "mmse", "zero-forcing"  # methods to undo an exposure
 
 _ZERO_FORCING_NOISE = 1e-6  # noise-to-light ratio that avoids a division by zero at a null
-_NULL_FRACTION = 0.25  # part of the spectrum least passed by the exposure, which shows noise
+_NULL_FRACTION = 0.25  # of the spectrum: the frequencies nearest the nulls, where noise prevails
 _MIN_CHIP_SPECTRUM = 1e-3  # minimum of a chip's spectrum, relative to its maximum
 _TAPER_EXPOSURES = 4.0  # exposures over which each end fades out, since a spectrum is periodic
 
@@ -219,7 +217,7 @@ def _noise_to_light_ratio(
     """
     power = np.abs(np.fft.rfft(faded)) ** 2 / len(faded)
     count = max(1, int(_NULL_FRACTION * len(power)))
-    beside = np.argpartition(np.abs(passed), count - 1)[:count]
-    noise = float(power[beside].mean())
+    near_nulls = np.argpartition(np.abs(passed), count - 1)[:count]
+    noise = float(power[near_nulls].mean())
     variance = max(float(light.var()) - noise, noise * _MIN_CHIP_SPECTRUM)
     return noise / (variance / float(np.mean(spectrum * passed**2)))

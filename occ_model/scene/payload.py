@@ -28,7 +28,7 @@ _REPLACEMENT_LETTER = "?"  # stands for bytes that are not text
 
 
 def canonical_payload(value: object) -> str:
-    """Return a payload in its canonical form; a ValueError ends a sentence, as by "has 0 bits"."""
+    """Return a payload in its canonical form; a ValueError ends a sentence: "has 0 bits"."""
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - one kind for all wrong values
     if len(value) > 4 * MAX_PAYLOAD_BITS:

@@ -9,7 +9,7 @@ import occ_model as occ
 from photo_world.lamp_scenes import LampScene, Thing, lamp_scene
 
 OVERLAP = 0.4
-"""Minimum fraction of the rectangle around two places that both fill, for them to be the same."""
+"""Least intersection over union of two rectangles that count as the same lamp."""
 
 FREQUENCY = 0.01
 
@@ -18,8 +18,8 @@ FREQUENCY = 0.01
 class Score:
     """Counts of lamps: there, found, found with the right frequency, reported, invented.
 
-    What is marked as doubtful counts as found where a lamp is, of which ``found_doubtful`` says how
-    many; where none is, it counts as ``doubtful_invented`` and not as invented.
+    A lamp that is marked as doubtful counts as found (and in ``found_doubtful``) if it is real, and
+    as ``doubtful_invented``, not as invented, if it is not.
     """
 
     there: int = 0
@@ -35,16 +35,16 @@ class Score:
     wrong_scenes: list[int] = field(default_factory=list)
 
     def add(self, seed: int, scene: LampScene, lamps: Iterable[occ.Lamp]) -> None:
-        """Count the lamps of a scene; each lamp found is that of one at most."""
+        """Count the lamps of a scene; each lamp found is matched with one real lamp at most."""
         lamps = list(lamps)
         blinking = [lamp for lamp in lamps if lamp.modulated]
         before = self.found, self.right, self.invented + self.doubtful_invented
-        left = list(blinking)
+        unmatched = list(blinking)
         for thing in scene.lamps:
-            best = max(left, key=lambda lamp: overlap(thing, lamp.region), default=None)
+            best = max(unmatched, key=lambda lamp: overlap(thing, lamp.region), default=None)
             if best is None or overlap(thing, best.region) < OVERLAP:
                 continue
-            left.remove(best)
+            unmatched.remove(best)
             self.found += 1
             self.found_doubtful += best.is_doubtful
             assert best.switching_frequency_times_readout is not None
@@ -54,9 +54,9 @@ class Score:
             self.surely_wrong += not is_right and not best.is_doubtful
         self.there += len(scene.lamps)
         self.reported += len(blinking)
-        doubtful = sum(lamp.is_doubtful for lamp in left)
+        doubtful = sum(lamp.is_doubtful for lamp in unmatched)
         self.doubtful_invented += doubtful
-        self.invented += len(left) - doubtful
+        self.invented += len(unmatched) - doubtful
         for thing in scene.constant:
             self.steady += 1
             self.steady_found += any(

@@ -49,17 +49,17 @@ def message(seed: int, *, pauses: bool = False) -> Message:
     whole = np.concatenate([[0.0], np.cumsum(chips)])
     ticks = np.arange(count + 1, dtype=np.float64)
     if pauses:
-        ticks, whole, chips = _with_pauses(random, ticks, whole, chips)
+        ticks, whole, chips = _insert_pauses(random, ticks, whole, chips)
     ends = [np.interp(place + half, ticks, whole) for half in (-0.5 * exposure, 0.5 * exposure)]
     lit = (ends[1] - ends[0]) / exposure
-    image = _photographed(random, lit)
+    image = _photograph(random, lit)
     return Message(photo_of(image), "".join(map(str, chips)), first, columns_per_chip)
 
 
-def _with_pauses(
+def _insert_pauses(
     random: np.random.Generator, ticks: np.ndarray, whole: np.ndarray, chips: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Insert dark times; of the chips, as many dark ones as are nearest to each."""
+    """Insert pauses into the light, and the nearest whole number of dark chips into the chips."""
     pause_after = np.cumsum(random.integers(16, 41, len(chips)))
     for at in pause_after[pause_after < len(chips)][::-1].tolist():
         length = float(random.uniform(2.0, 6.0))
@@ -70,7 +70,7 @@ def _with_pauses(
     return ticks, whole, chips
 
 
-def _photographed(random: np.random.Generator, lit: np.ndarray) -> np.ndarray:
+def _photograph(random: np.random.Generator, lit: np.ndarray) -> np.ndarray:
     """Add surroundings, uneven light, a tone curve, blur and noise, and clip at white."""
     columns = len(lit)
     peak = float(random.uniform(0.1, 0.9) if random.integers(2) else random.uniform(1.0, 2.5))

@@ -48,11 +48,11 @@ def test_codes_of_other_lengths_are_read(covering_scene: Scene, bits: int) -> No
 
 @pytest.mark.parametrize("bits", range(2, 10))
 def test_other_code_lengths_are_read_beyond_the_period(covering_scene: Scene, bits: int) -> None:
-    # A third of these two codes' equalized pictures is white, with Otsu's threshold just below, so
-    # that their only single one vanishes, which distinguishes them.
-    vanished = {1, 2} if bits == 2 else set()
+    # These two codes differ only by the place of a single 1. A third of their equalized pictures is
+    # white, Otsu's threshold lies just below white, and the single 1 is lost.
+    unreadable = {1, 2} if bits == 2 else set()
     codes = {*range(0, 2**bits, max(1, 2**bits // amount(6, 128))), 2**bits - 1}
-    for code in sorted(codes - vanished):
+    for code in sorted(codes - unreadable):
         scene = covering_scene.replace(bits=bits, code=code, exposure_time=136e-6)
         result = occ.decode(occ.render(scene).signal, scene)
         assert (result.code, result.failure) == (code, None)
@@ -100,7 +100,7 @@ def failure_of(scene: Scene, columns: int, decoder: str = "threshold") -> str:
     return occ.decode(signal, scene, decoder).failure or ""
 
 
-def test_chips_are_called_too_few_only_if_they_are_and_only_what_helps_is_advised() -> None:
+def test_too_few_chips_are_stated_only_if_true_and_only_helpful_advice_is_given() -> None:
     scene = occ.load_preset("phone-136us")  # 12.5 columns a chip, 48 chips take 600
     assert "chips fit" not in failure_of(scene, 700)
     both = "47 of 48 chips fit the panel's image; come closer or raise the frequency."
@@ -116,7 +116,7 @@ def test_chips_are_called_too_few_only_if_they_are_and_only_what_helps_is_advise
     assert failure_of(narrow, 20, "matched").endswith("1 of 24 chips fit the panel's image.")
 
 
-def test_of_an_overexposed_picture_no_failure_names_another_cause() -> None:
+def test_the_failure_of_an_overexposed_picture_names_no_other_cause() -> None:
     """The code, its timing and the scene are right, and without clipping it is read."""
     scene = occ.load_preset("phone-136us").replace(rows=300, iso=6400.0)
     for enhancement, decoder in (

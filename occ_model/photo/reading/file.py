@@ -1,4 +1,4 @@
-"""Open an image file of a format that is read, and word in one sentence why it cannot be read."""
+"""Open an image file of a supported format, or state in one sentence why it cannot be read."""
 
 import logging
 import math
@@ -63,13 +63,13 @@ def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[Watched
             yield file
     except PhotoError:
         raise
-    except SceneFileError as error:  # worded for any file
+    except SceneFileError as error:  # its sentence suits any file
         raise PhotoError(str(error)) from None
     except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files.
         # A decoder may have replaced the exception that cancelled it by one of its own.
         if report.ended_by is not None:
             raise report.ended_by from None
-        raise _refusal(path, error, max_pixels) from None
+        raise _make_refusal(path, error, max_pixels) from None
 
 
 def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
@@ -81,7 +81,7 @@ def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
     return lambda first, last: _first_picture(path, file, max_pixels, (first, last))
 
 
-def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
+def _make_refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
     from PIL import Image
 
     shown = one_line(str(path))
@@ -91,7 +91,7 @@ def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
     if isinstance(error, MemoryError):
         return PhotoError(f"{shown} cannot be read: there is too little memory for it.")
     reason = error.strerror if isinstance(error, OSError) else None
-    return PhotoError(f"{shown} cannot be read: {reason or _damaged(error)}.")
+    return PhotoError(f"{shown} cannot be read: {reason or _describe_damage(error)}.")
 
 
 @contextmanager
@@ -108,13 +108,13 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
     with _pillow_lock, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         log.addHandler(handler)
-        pillows = Image.MAX_IMAGE_PIXELS
+        former_limit = Image.MAX_IMAGE_PIXELS
         # Pillow refuses a picture of more than twice this number.
         Image.MAX_IMAGE_PIXELS = (max_pixels + 1) // 2
         try:
             yield
         finally:
-            Image.MAX_IMAGE_PIXELS = pillows
+            Image.MAX_IMAGE_PIXELS = former_limit
             log.removeHandler(handler)
 
 
@@ -154,7 +154,7 @@ def _first_picture(
     try:
         picture = factory(file)
     except SyntaxError as error:  # Pillow's error for an invalid header
-        problem = _damaged(error, "the file is damaged or of an unusual kind")
+        problem = _describe_damage(error, "the file is damaged or of an unusual kind")
         raise PhotoError(f"{shown} cannot be read: {problem}.") from None
     width, height = picture.size
     check_size(path, width, height, max_pixels)
@@ -205,7 +205,7 @@ def _is_covered(picture: "ImageFile") -> bool:
     return reach[0] * reach[1] >= picture.width * picture.height
 
 
-def _damaged(error: Exception, problem: str = "the file is damaged") -> str:
+def _describe_damage(error: Exception, problem: str = "the file is damaged") -> str:
     """Write a decoder's message, which may quote the file's bytes, as part of a sentence."""
     words = re.sub(r"\s+", " ", "".join(c if c.isprintable() else " " for c in str(error)))
     words = words.strip().rstrip(".")[:120]

@@ -70,12 +70,12 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
     try:
         found = _stripes_of(part)
     except MatchError as error:
-        raise MatchError(*error.reasons, *_along_the_other_axis(part)) from None
-    return replace(found, region=_moved(found.region, within))
+        raise MatchError(*error.reasons, *_explain_other_axis(part)) from None
+    return replace(found, region=_shift_region(found.region, within))
 
 
-def _along_the_other_axis(photo: Photo) -> list[str]:
-    """Say of a photo without stripes how they repeat along its rows, where they do."""
+def _explain_other_axis(photo: Photo) -> list[str]:
+    """Explain that a photo without stripes has some along the other axis; empty if it has not."""
     samples = np.ascontiguousarray(photo.samples.T)
     try:
         found = _stripes_of(replace(photo, samples=samples))
@@ -90,8 +90,8 @@ def _along_the_other_axis(photo: Photo) -> list[str]:
     ]
 
 
-def _moved(here: Region, within: Region) -> Region:
-    """Count the rows and columns of a rectangle in those of the photo that it was cut from."""
+def _shift_region(here: Region, within: Region) -> Region:
+    """Return a part's region in the rows and columns of the photo that it was cut from."""
     return Region(
         here.first_row + within.first_row,
         here.last_row + within.first_row,
@@ -107,23 +107,23 @@ def _stripes_of(photo: Photo) -> Stripes:
             f"No stripes: the photo has {counted(columns, 'column')}; "
             f"at least {_LEAST_COLUMNS} are needed."
         )
-    first_row, last_row = _striped_rows(photo)
+    first_row, last_row = _find_striped_rows(photo)
     rows = Region(first_row, last_row, 0, columns)
     return _stripes_between(photo, rows, column_means(photo, first_row, last_row))
 
 
 def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes:
-    first, last, gap = _striped_columns(profile)
+    first, last, gap = _find_striped_columns(profile)
     profile = profile[first:last]
     low, high = envelope(profile, 2 * gap)
     swing = float(np.median(high - low))
     _check_white(profile)
     if swing < FLAT_SPAN:
-        raise MatchError(_why_flat(profile, swing, 2 * gap))
+        raise MatchError(_explain_flat(profile, swing, 2 * gap))
     high = np.maximum(high, low + FLAT_SPAN)
     found = repeat_period((profile - low) / (high - low))
     period, uncertainty = found if found is not None else (None, None)
-    region = _moved(Region(0, rows.rows, first, last), rows)
+    region = _shift_region(Region(0, rows.rows, first, last), rows)
     part = region.crop(photo.samples)
     full = np.count_nonzero(part >= _SATURATED_LEVEL * photo.white) / part.size
     return Stripes(region, profile, low, high, period, uncertainty, full)
@@ -139,7 +139,7 @@ def _check_white(profile: FloatArray) -> None:
         )
 
 
-def _why_flat(profile: FloatArray, swing: float, width: int) -> str:
+def _explain_flat(profile: FloatArray, swing: float, width: int) -> str:
     """Say why a profile has no stripes whose median height within some columns is so small."""
     span = float(np.ptp(profile))
     if span < FLAT_SPAN:
@@ -150,7 +150,7 @@ def _why_flat(profile: FloatArray, swing: float, width: int) -> str:
     )
 
 
-def _striped_rows(photo: Photo) -> tuple[int, int]:
+def _find_striped_rows(photo: Photo) -> tuple[int, int]:
     """Find the rows that vary together, by the strength of the common stripes in each band."""
     rows, columns = photo.samples.shape
     bands = min(BANDS, rows)
@@ -159,7 +159,7 @@ def _striped_rows(photo: Photo) -> tuple[int, int]:
     if not slopes.any():
         profile = column_means(photo, 0, rows)
         _check_white(profile)
-        raise MatchError(_why_flat(profile, 0.0, columns))
+        raise MatchError(_explain_flat(profile, 0.0, columns))
     common, strengths = _common_slopes(slopes)
     coherence = float(strengths @ strengths) / float((slopes**2).sum())
     if bands > 1 and coherence < _LEAST_COHERENCE:
@@ -207,7 +207,7 @@ def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outwa
     return first + shows[0] if outward < 0 else first + shows[-1] + 1
 
 
-def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
+def _find_striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     """Find the columns from the first edge to the last, and the widest gap between two edges."""
     slopes = _local_range(profile)
     # Without noise a few edges leave even the steep columns flat.
@@ -222,20 +222,22 @@ def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     edges = edges[
         int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
     ]
-    apart = int(np.count_nonzero(np.diff(edges) > 1)) + 1 if edges.size else 0
-    found = max(apart, _reversals(profile, edges))
+    separate_edges = int(np.count_nonzero(np.diff(edges) > 1)) + 1 if edges.size else 0
+    found = max(separate_edges, _count_reversals(profile, edges))
     if found < _LEAST_EDGES:
         raise MatchError(
             f"No stripes: {counted(found, 'steep edge')} between bright and dark columns; at least "
             f"{_LEAST_EDGES} are needed; come closer to the panel, or raise its frequency."
         )
     gap = int(np.diff(edges).max())
-    start = _faintest(slopes, int(edges[0]), gap, steep)
-    end = len(slopes) - _faintest(slopes[::-1], len(slopes) - 1 - int(edges[-1]), gap, steep)
+    start = _follow_faint_edges(slopes, int(edges[0]), gap, steep)
+    end = len(slopes) - _follow_faint_edges(
+        slopes[::-1], len(slopes) - 1 - int(edges[-1]), gap, steep
+    )
     return start, end, gap
 
 
-def _reversals(profile: FloatArray, edges: IndexArray) -> int:
+def _count_reversals(profile: FloatArray, edges: IndexArray) -> int:
     """Count the edges by the slopes that change their sign: narrow stripes are edges throughout."""
     if edges.size == 0:
         return 0
@@ -246,19 +248,19 @@ def _reversals(profile: FloatArray, edges: IndexArray) -> int:
     return 1 + int(np.count_nonzero(np.diff(np.sign(steep)))) if steep.size else 0
 
 
-def _faintest(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
-    """Follow the edges from the first steep one to lower columns while they slowly become fainter.
+def _follow_faint_edges(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
+    """Follow the edges outwards from the first steep one while they slowly become fainter.
 
     A round lamp covers ever fewer rows towards its ends; at a panel's rim the stripes end at once.
     """
-    beside = float(slopes[edge : edge + gap + 1].max())
+    last_slope = float(slopes[edge : edge + gap + 1].max())
     while True:
         window = slopes[max(0, edge - gap) : edge]
         here = float(window.max(initial=0.0))
-        if here < max(_LEAST_NEIGHBOUR_RATIO * beside, _NOISE_SLOPE * steep):
+        if here < max(_LEAST_NEIGHBOUR_RATIO * last_slope, _NOISE_SLOPE * steep):
             return edge
         edge += int(np.flatnonzero(window >= _NOISE_SLOPE * steep)[0]) - len(window)
-        beside = here
+        last_slope = here
 
 
 def _local_range(profile: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from sockets import doors, processes_of
+from sockets import find_open_sockets, processes_of
 
 WORK = """
 import sys
@@ -50,14 +50,14 @@ def run_program(folder: Path, *words: str) -> Iterator[tuple[int, str]]:
 
 def test_an_open_socket_is_detected(tmp_path: Path) -> None:
     here = os.getpid()
-    assert not [door for door in doors(here) if "00000000" in door]
+    assert not [name for name in find_open_sockets(here) if "00000000" in name]
     with socket.socket() as listener, socket.socket(socket.AF_UNIX) as local:
         listener.bind(("", 0))
         listener.listen()
         local.bind("\0" + tmp_path.name)
         local.listen()
         port = f"{listener.getsockname()[1]:04X}"
-        assert {f"tcp 00000000:{port}", f"unix @{tmp_path.name}"} <= {*doors(here)}
+        assert {f"tcp 00000000:{port}", f"unix @{tmp_path.name}"} <= {*find_open_sockets(here)}
 
 
 def test_working_processes_listen_nowhere(tmp_path: Path) -> None:
@@ -65,4 +65,6 @@ def test_working_processes_listen_nowhere(tmp_path: Path) -> None:
     with run_program(tmp_path, str(tmp_path / "film.mkv")) as (session, said):
         assert said == "at work"
         assert len(processes_of(session)) >= 5
-        assert [door for process in processes_of(session) for door in doors(process)] == []
+        assert [
+            name for process in processes_of(session) for name in find_open_sockets(process)
+        ] == []

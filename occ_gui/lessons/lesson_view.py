@@ -49,7 +49,7 @@ class EndPage(QWidget):
         )
         content = QWidget()
         fill(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
-        # The button in the place of Done is one that a second click may press.
+        # A second click on Done hits the button in its place: Next lesson, which is harmless.
         rows = ((self.next,), (self.author,), ((self.report, 1), (self.all, 1)))
         lines = [fill(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
         fill(QVBoxLayout(self), (ScrollPane(content, LEAST_SIZE), 1), *lines, margins=0)

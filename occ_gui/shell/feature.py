@@ -140,7 +140,7 @@ class Feature(Generic[Part]):
     title: str = ""  # the title of the pane; empty where there is none
     places: Places = field(default_factory=dict)
     """Where each mode shows the pane at first."""
-    elsewhere: Side = "bottom"  # its side in modes that do not show it at first
+    default_side: Side = "bottom"  # its side in modes that do not show it at first
     help: str = ""  # page and heading of the manual that explains the pane
     make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None

@@ -24,7 +24,7 @@ class DockWindow(Protocol):
     def actions_by_name(self) -> Mapping[str, QAction]: ...
 
     def add_pane(
-        self, name: str, title: str, content: QWidget, places: Places, elsewhere: Side
+        self, name: str, title: str, content: QWidget, places: Places, default_side: Side
     ) -> QDockWidget:
         """Add a pane, and its entry in the view menu, before the window is shown."""
 
@@ -51,7 +51,7 @@ class Shell(QObject):
         if feature.title:
             place = self._place(feature)
             dock = window.add_pane(
-                feature.name, feature.title, place, feature.places, feature.elsewhere
+                feature.name, feature.title, place, feature.places, feature.default_side
             )
             dock.visibilityChanged.connect(place.set_seen)
         else:

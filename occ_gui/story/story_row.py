@@ -153,15 +153,15 @@ class StoryRow(QWidget):
         return font
 
     def _draw_name(self, painter: QPainter) -> None:
-        beside = painter.font()
-        font = QFont(beside)
+        regular = painter.font()
+        font = QFont(regular)
         font.setBold(True)
         painter.setFont(font)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         place = QRectF(4, 3, self.axis.gutter - 8, self.height())
         flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
         painter.drawText(place, flags, self.name)
-        painter.setFont(beside)
+        painter.setFont(regular)
 
     def _draw_line(
         self, painter: QPainter, column: float, area: QRectF, style: Qt.PenStyle

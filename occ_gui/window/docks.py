@@ -22,7 +22,7 @@ _SIDES = {
 class DeclaredPane:
     dock: QDockWidget
     places: Places
-    elsewhere: Side  # its side in modes that do not show it at first
+    default_side: Side  # its side in modes that do not show it at first
 
 
 class Panes(dict[str, DeclaredPane]):
@@ -56,7 +56,7 @@ class Panes(dict[str, DeclaredPane]):
             _show_as_tabs(window, area, docks)
         for name, pane in self.items():
             if name not in places:
-                window.addDockWidget(_SIDES[pane.elsewhere], pane.dock)
+                window.addDockWidget(_SIDES[pane.default_side], pane.dock)
                 pane.dock.hide()
         for orientation, sizes in (
             (Qt.Orientation.Horizontal, {n: at.width for n, at in places.items() if at.width}),

@@ -86,11 +86,11 @@ class MainWindow(QMainWindow):
         self.resize(_FIRST_SIZE)
 
     def _add_dock(
-        self, name: str, title: str, content: QWidget, places: Places, elsewhere: Side
+        self, name: str, title: str, content: QWidget, places: Places, default_side: Side
     ) -> Dock:
         dock = self.docks[name] = Dock(name, title, content, self)
         dock.opened_by_user.connect(self._on_opened)
-        self._panes[name] = DeclaredPane(dock, places, elsewhere)
+        self._panes[name] = DeclaredPane(dock, places, default_side)
         return dock
 
     def _on_opened(self) -> None:
@@ -100,10 +100,10 @@ class MainWindow(QMainWindow):
             QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
 
     def add_pane(
-        self, name: str, title: str, content: QWidget, places: Places, elsewhere: Side
+        self, name: str, title: str, content: QWidget, places: Places, default_side: Side
     ) -> Dock:
         """Add a pane, and its entry in the view menu, before the window is shown."""
-        dock = self._add_dock(name, title, content, places, elsewhere)
+        dock = self._add_dock(name, title, content, places, default_side)
         self.menus.add_dock(dock)
         return dock
 

@@ -198,25 +198,23 @@ class PhotoRowsModel(QAbstractTableModel):
             known = self._given.get(_kind(self.known), {}).get(place, self._usual)
             return "" if known is None else quantity(self.known).format(known)
         row = self._rows.get(place)
-        if row is None:
-            return ""
-        match column:
-            case 1:
-                return self._verdict(place, row)
-            case 3:
-                of_row = None if row.match is None else row.match.estimate
-                return _estimate(row, of_row or self._estimate)
-            case 4:
-                text = _estimate(row, "exposure_time")
-                # In a doubtful photo, all values are doubtful.
-                is_apart = row.verdict == SURE and row.exposure_verdict == DOUBTFUL
-                return f"{text} (doubtful)" if is_apart else text
-            case 5:
-                noted = row.noted_exposure
-                return "" if noted is None else quantity("exposure_time").format(noted, 4)
-            case 6:
-                return "" if row.correlation is None else f"{row.correlation:.3f}"
-        return one_line(row.note, 1000)
+        return "" if row is None else self._row_texts(place, row)[column]
+
+    def _row_texts(self, place: int, row: PhotoRow) -> dict[int, str]:
+        """Return the texts of a row's columns that depend on its result."""
+        exposure = _estimate(row, "exposure_time")
+        # In a doubtful photo, all values are doubtful.
+        is_alone_doubtful = row.verdict == SURE and row.exposure_verdict == DOUBTFUL
+        noted = row.noted_exposure
+        estimate = self._estimate if row.match is None else row.match.estimate
+        return {
+            VERDICT: self._verdict(place, row),
+            ESTIMATE: _estimate(row, estimate or self._estimate),
+            EXPOSURE: f"{exposure} (doubtful)" if is_alone_doubtful else exposure,
+            NOTED: "" if noted is None else quantity("exposure_time").format(noted, 4),
+            CORRELATION: "" if row.correlation is None else f"{row.correlation:.3f}",
+            NOTE: one_line(row.note, 1000),
+        }
 
     def _verdict(self, place: int, row: PhotoRow) -> str:
         text = f"{SIGNS[row.verdict]} {row.verdict}"

@@ -61,7 +61,7 @@ class PlainWindow(QMainWindow):
         self.docks: dict[str, QDockWidget] = {}
 
     def add_pane(
-        self, name: str, title: str, content: QWidget, _places: Places, _elsewhere: Side
+        self, name: str, title: str, content: QWidget, _places: Places, _default_side: Side
     ) -> QDockWidget:
         dock = self.docks[name] = QDockWidget(title, self)
         dock.setWidget(content)

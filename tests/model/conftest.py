@@ -22,7 +22,7 @@ def plain_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def offered(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
+def offer_decoders(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     """Give a function that offers decoders as plug-ins, until the test ends."""
     yield partial(offer, monkeypatch)
     monkeypatch.undo()

@@ -132,8 +132,10 @@ def test_a_window_needs_no_output(monkeypatch: pytest.MonkeyPatch) -> None:
     assert run_program("own", lambda: lambda: 0, is_process=False) == 2
 
 
-def test_a_plug_in_of_no_package_has_a_name_all_the_same(offered: Callable[..., None]) -> None:
-    offered(own=len)
+def test_a_plug_in_of_no_package_has_a_name_all_the_same(
+    offer_decoders: Callable[..., None],
+) -> None:
+    offer_decoders(own=len)
     said = [plugins.describe(plugins.DECODERS, name) for name in ("own", "missing")]
     assert [one.partition(" of the package ")[2] for one in said] == ["'?'", "'?'"]
 

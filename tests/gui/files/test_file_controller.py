@@ -21,7 +21,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
 
-class Bench:
+class FilesBench:
     """A controller without a window, and its messages."""
 
     def __init__(self, scene: Scene) -> None:
@@ -48,14 +48,14 @@ class Bench:
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
-    bench = Bench(small_scene)
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[FilesBench]:
+    bench = FilesBench(small_scene)
     yield bench
     bench.photos.work.task.stop()
 
 
 def test_a_saved_scene_is_opened_exactly_as_it_was_in_one_step_that_can_be_undone(
-    bench: Bench, tmp_path: Path
+    bench: FilesBench, tmp_path: Path
 ) -> None:
     path = tmp_path / "mine.toml"
     bench.store.change(exposure_time=1e-4 / 3, pattern="0110", yaw=0.1)
@@ -80,7 +80,7 @@ def test_a_saved_scene_is_opened_exactly_as_it_was_in_one_step_that_can_be_undon
     ],
 )
 def test_a_file_that_is_not_a_scene_is_refused_and_the_scene_stays(
-    bench: Bench, tmp_path: Path, small_scene: Scene, content: bytes | None, said: str
+    bench: FilesBench, tmp_path: Path, small_scene: Scene, content: bytes | None, said: str
 ) -> None:
     path = tmp_path / "wrong.toml"
     if content is not None:
@@ -96,7 +96,7 @@ def test_a_file_that_is_not_a_scene_is_refused_and_the_scene_stays(
 
 @pytest.mark.parametrize("what", ["scene", "picture"])
 def test_what_cannot_be_written_gives_a_sentence_and_no_file(
-    bench: Bench, tmp_path: Path, snapshot_of: SnapshotOf, what: str
+    bench: FilesBench, tmp_path: Path, snapshot_of: SnapshotOf, what: str
 ) -> None:
     bench.shown = snapshot_of()
     nowhere = tmp_path / "nowhere"
@@ -111,8 +111,8 @@ def test_what_cannot_be_written_gives_a_sentence_and_no_file(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_opened_scene_file_is_saved_under_a_new_name(
-    bench: Bench, tmp_path: Path, qtbot: QtBot
+def test_a_scene_inside_another_file_does_not_become_the_file_of_the_scene(
+    bench: FilesBench, tmp_path: Path, qtbot: QtBot
 ) -> None:
     path = tmp_path / "scene.txt"
     path.write_text(Scene().to_toml(), encoding="utf-8")
@@ -124,7 +124,7 @@ def test_an_opened_scene_file_is_saved_under_a_new_name(
 
 @pytest.mark.parametrize("ending", ["png", "tif"])
 def test_a_saved_picture_is_exactly_the_one_shown(
-    bench: Bench, tmp_path: Path, snapshot_of: SnapshotOf, ending: str
+    bench: FilesBench, tmp_path: Path, snapshot_of: SnapshotOf, ending: str
 ) -> None:
     shown = bench.shown = snapshot_of(iso=400.0)
     path = tmp_path / f"picture.{ending}"
@@ -134,8 +134,8 @@ def test_a_saved_picture_is_exactly_the_one_shown(
     assert np.array_equal(written, shown.frame.camera_image)
 
 
-def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
-    bench: Bench, tmp_path: Path, snapshot_of: SnapshotOf
+def test_a_picture_saved_after_a_wait_is_of_the_kind_chosen_before_it(
+    bench: FilesBench, tmp_path: Path, snapshot_of: SnapshotOf
 ) -> None:
     path = tmp_path / "picture.png"
     store = bench.store.store
@@ -153,7 +153,7 @@ def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
 
 
 def test_the_dialogs_answer_is_what_is_read_and_written(
-    bench: Bench,
+    bench: FilesBench,
     tmp_path: Path,
     photo_file: Path,
     snapshot_of: SnapshotOf,
@@ -180,8 +180,12 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
 
 
 @pytest.mark.parametrize(("name", "written"), [("scene", ["scene.toml"]), ("scene.txt", [])])
-def test_a_name_without_an_ending_gets_that_of_scenes_and_no_other_is_changed(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, written: list[str]
+def test_a_name_without_an_ending_gets_that_of_scenes_and_another_ending_is_refused(
+    bench: FilesBench,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    name: str,
+    written: list[str],
 ) -> None:
     answer = (str(tmp_path / name), "")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: answer)
@@ -190,7 +194,7 @@ def test_a_name_without_an_ending_gets_that_of_scenes_and_no_other_is_changed(
 
 
 def test_a_cancelled_dialog_does_nothing(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch, small_scene: Scene
+    bench: FilesBench, monkeypatch: pytest.MonkeyPatch, small_scene: Scene
 ) -> None:
     for ask in ("getOpenFileName", "getSaveFileName"):
         monkeypatch.setattr(QFileDialog, ask, lambda *_: ("", ""))
@@ -207,8 +211,12 @@ def test_a_cancelled_dialog_does_nothing(
     assert bench.store.scene == small_scene
 
 
-def test_several_photos_of_the_dialog_become_a_table_which_is_saved_by_one(
-    bench: Bench, photo_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+def test_several_photos_of_the_dialog_become_a_table_which_a_dialog_saves(
+    bench: FilesBench,
+    photo_file: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    qtbot: QtBot,
 ) -> None:
     copy = tmp_path / "copy.png"
     copy.write_bytes(photo_file.read_bytes())
@@ -227,7 +235,7 @@ def test_several_photos_of_the_dialog_become_a_table_which_is_saved_by_one(
 
 
 def test_a_name_without_an_ending_writes_over_no_file(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    bench: FilesBench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The dialog asked only about the name as it was typed."""
     own = tmp_path / "own.csv"
@@ -242,7 +250,11 @@ def test_a_name_without_an_ending_writes_over_no_file(
 
 
 def test_dialogs_begin_in_the_folder_of_the_last_file(
-    bench: Bench, tmp_path: Path, photo_file: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    bench: FilesBench,
+    tmp_path: Path,
+    photo_file: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    qtbot: QtBot,
 ) -> None:
     asked: list[str] = []
     for ask in ("getOpenFileName", "getOpenFileNames", "getSaveFileName"):
@@ -271,7 +283,7 @@ def test_dialogs_begin_in_the_folder_of_the_last_file(
 
 
 def test_only_what_was_opened_or_saved_is_a_recent_file(
-    bench: Bench, tmp_path: Path, small_scene: Scene
+    bench: FilesBench, tmp_path: Path, small_scene: Scene
 ) -> None:
     bench.files.open_scene(tmp_path / "missing.toml")
     bench.files.save_scene(tmp_path / "missing" / "a.toml")
@@ -285,7 +297,7 @@ def test_only_what_was_opened_or_saved_is_a_recent_file(
 
 @pytest.mark.parametrize("folder", ["/" + "a" * 300, "/a" * 4000, "/\x00", "/dev/null/a", "a" * 9])
 def test_a_dialog_does_not_begin_in_an_impossible_folder(
-    bench: Bench, tmp_path: Path, folder: str
+    bench: FilesBench, tmp_path: Path, folder: str
 ) -> None:
     kept = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
     kept.setValue("files/folder", folder)
@@ -299,14 +311,14 @@ def test_a_dialog_does_not_begin_in_an_impossible_folder(
         assert "is not a file" in bench.status_message[-1]
 
 
-def test_an_unusable_drop_is_answered_with_a_sentence(bench: Bench, tmp_path: Path) -> None:
+def test_an_unusable_drop_is_answered_with_a_sentence(bench: FilesBench, tmp_path: Path) -> None:
     for dropped in ([], [tmp_path]):
         bench.files.open_dropped(dropped)
         assert bench.status_message[-1].endswith("; drop a photo, a film or a scene (.toml).")
         assert ("computer" in bench.status_message[-1]) == (not dropped)
 
 
-def test_a_film_is_recognized_by_its_content(bench: Bench, tmp_path: Path) -> None:
+def test_a_film_is_recognized_by_its_content(bench: FilesBench, tmp_path: Path) -> None:
     path = tmp_path / "without an ending"
     path.write_bytes(b"\x00\x00\x00\x18ftypisom")
     asked: list[Path] = []

@@ -46,7 +46,7 @@ def scenes_in(folder: Path) -> list[Scene]:
     return [Scene.from_toml(record["scene"]) for record in records]
 
 
-def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path) -> None:
+def test_two_open_windows_do_not_report_each_other_as_crashed(tmp_path: Path) -> None:
     first, second = SessionFile(tmp_path), SessionFile(tmp_path)
     for file in (first, second):
         file.write(KeptSession(Workspace(Scene())), in_use=True)
@@ -61,7 +61,7 @@ def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path) -> None:
     assert not list(tmp_path.glob("*.toml"))
 
 
-def test_a_full_disk_is_reported_once_each_time_it_fills_and_a_folder_that_cannot_be_made(
+def test_a_full_disk_and_a_folder_that_cannot_be_made_are_each_reported_once(
     begin: Begin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session = begin(tmp_path)
@@ -89,7 +89,7 @@ def test_a_full_disk_is_reported_once_each_time_it_fills_and_a_folder_that_canno
     session.end()
 
 
-def test_the_scene_is_written_a_moment_after_it_was_changed_in_the_file_of_the_settings(
+def test_a_changed_scene_is_written_after_a_moment_with_the_settings_in_one_file(
     begin: Begin, scenes: SceneStore, tmp_path: Path, qtbot: QtBot
 ) -> None:
     session, store = begin(tmp_path), scenes

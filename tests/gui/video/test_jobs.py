@@ -35,9 +35,7 @@ def packet(
     return PacketReading(number, 0, 0.002 * number, frame, 1.0, read, wrong)
 
 
-def test_a_packet_is_read_only_if_it_is_as_the_others_and_a_frame_where_its_place_is_known() -> (
-    None
-):
+def test_packets_that_agree_and_frames_with_a_known_place_are_marked_as_read() -> None:
     found = [
         packet(0, [1, 0], 0),
         packet(1, [1, 1], 1),
@@ -68,7 +66,9 @@ def test_millions_of_packets_have_a_few_marks_that_cover_the_film() -> None:
     )
 
 
-def test_the_end_is_what_the_model_reads_of_the_whole_film(film: Video, film_scene: Scene) -> None:
+def test_the_last_report_equals_the_models_reading_of_the_whole_film(
+    film: Video, film_scene: Scene
+) -> None:
     reports: list[Any] = []
     found = read_film(ReadingRequest(film, film_scene), reports.append)
     whole = occ.decode_video(film, film_scene)
@@ -128,12 +128,12 @@ def reading(right: int, unread: int, unseen: int, wrong: int = 0) -> VideoReadin
     )  # fmt: skip
 
 
-def known(whole: VideoReading, placed: int = 2) -> FilmProgress:
+def progress_of(whole: VideoReading, placed: int = 2) -> FilmProgress:
     return FilmProgress(whole.frames[-1], 2, placed, "0", 1.0, True, None)
 
 
-def said(whole: VideoReading) -> dict[str, str]:
-    return {fact.label: fact.text for fact in film_facts(known(whole), whole)}
+def texts_of_facts(whole: VideoReading) -> dict[str, str]:
+    return {fact.label: fact.text for fact in film_facts(progress_of(whole), whole)}
 
 
 @pytest.mark.parametrize(
@@ -145,10 +145,10 @@ def said(whole: VideoReading) -> dict[str, str]:
         (reading(1, 0, 999), "99.90 % of 1000 packets", "0 % of 10 bits"),
     ],
 )
-def test_rates_name_what_they_count_and_have_no_digit_that_chance_has_made(
+def test_rates_name_what_they_count_and_have_only_significant_digits(
     whole: VideoReading, packets: str, bits: str | None
 ) -> None:
-    figures = said(whole)
+    figures = texts_of_facts(whole)
     assert figures["Packet error rate"] == packets
     assert figures.get("Bit error rate") == bits
 
@@ -170,20 +170,23 @@ def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
 
 def test_lost_packets_are_distinguished_from_wrong_bits() -> None:
     whole = reading(6, 1, 11, wrong=2)
-    (sentence,) = sentences_of(known(whole), whole, None)
+    (sentence,) = sentences_of(progress_of(whole), whole, None)
     assert sentence.startswith("11 of 14 lost packets are not whole in any frame: ")
     assert "3 were in view and misread" in sentence
     assert "not placed" not in sentence
-    assert "or in 1 frame without a known place" in sentences_of(known(whole, 1), whole, None)[0]
+    assert (
+        "or in 1 frame without a known place" in sentences_of(progress_of(whole, 1), whole, None)[0]
+    )
     one, two = (
-        sentences_of(known(each), each, None)[0] for each in (reading(6, 0, 1), reading(6, 1, 1))
+        sentences_of(progress_of(each), each, None)[0]
+        for each in (reading(6, 0, 1), reading(6, 1, 1))
     )
     assert one.startswith("1 of 1 lost packet is not whole in any frame: sent in the gap")
     assert "1 was in view and misread" in two
     whole = reading(6, 0, 11)
-    assert "misread" not in sentences_of(known(whole), whole, None)[0]
+    assert "misread" not in sentences_of(progress_of(whole), whole, None)[0]
     whole = reading(6, 0, 0)
-    assert sentences_of(known(whole), whole, None) == ()
+    assert sentences_of(progress_of(whole), whole, None) == ()
 
 
 @pytest.fixture
@@ -253,7 +256,7 @@ def test_a_draft_lies_where_the_whole_picture_does(request_of: FrameRequest) -> 
     assert abs(draft.region.last_row - whole.region.last_row) <= 8
 
 
-def test_a_scene_that_cannot_be_filmed_is_a_sentence_and_a_frame_that_is_not_there_refused(
+def test_a_scene_that_cannot_be_filmed_gives_a_sentence_and_a_missing_frame_is_refused(
     request_of: FrameRequest, film: Video
 ) -> None:
     fast = occ.Recording(frame_rate=1000.0)

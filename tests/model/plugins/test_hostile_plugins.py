@@ -1,4 +1,4 @@
-"""Plug-ins that raise or give rubbish: each is named in a sentence, and the program lives."""
+"""Plug-ins that raise or return rubbish: each is named in a sentence, and the program goes on."""
 
 import csv
 import re
@@ -94,19 +94,19 @@ def decoder(name, read):
     return occ.Decoder(name, name, read)
 
 
-def spoiled(name, **parts):
+def make_spoiled(name, **parts):
     read = occ.DecodeResult(name, code=1, bits=np.array([1]), chips=np.array([1, 0]))
     return decoder(name, lambda *_: replace(read, **parts))
 
 
-# As many values as nothing could look at one by one.
+# Too many values to check one by one.
 endless = np.broadcast_to(np.uint8(0), 10**12)
 raises = decoder("raises", fail)
 leaves = decoder("leaves", leave)
 nothing = decoder("nothing", lambda *_: None)
 empty = decoder("empty", lambda *_: occ.DecodeResult("empty"))
-floats = spoiled("floats", bits=np.array([0.5]))
-huge = spoiled("huge", chips=endless)
+floats = make_spoiled("floats", bits=np.array([0.5]))
+huge = make_spoiled("huge", chips=endless)
 overwrites = decoder("overwrites", overwrite)
 misnamed = decoder("another", fail)
 unset = decoder("unset", lambda *_: Mine("unset"))
@@ -161,7 +161,7 @@ FRAMINGS = [
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
 
-def named(names: list[str], module: str = "hostile") -> dict[str, str]:
+def list_entries(names: list[str], module: str = "hostile") -> dict[str, str]:
     return {name: f"{module}:{name}" for name in names}
 
 
@@ -169,9 +169,9 @@ def named(names: list[str], module: str = "hostile") -> dict[str, str]:
 def _hostile(tmp_path: Path) -> Iterator[None]:
     """Install hostile plug-ins, which no other test sees."""
     groups = {
-        plugins.DECODERS: named(DECODERS) | {"broken": "broken_import:DECODER"},
-        plugins.LINE_CODES: named(CODES),
-        plugins.FRAMINGS: named(FRAMINGS),
+        plugins.DECODERS: list_entries(DECODERS) | {"broken": "broken_import:DECODER"},
+        plugins.LINE_CODES: list_entries(CODES),
+        plugins.FRAMINGS: list_entries(FRAMINGS),
     }
     (tmp_path / "broken_import.py").write_text("raise SystemExit('no licence')\n")
     with importable(tmp_path, "hostile", groups, MODULE):
@@ -214,7 +214,7 @@ def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -
         ("titleless", "gives title = None of the type NoneType."),
     ],
 )
-def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> None:
+def test_a_plugin_that_is_not_a_decoder_is_refused_by_name(decoder: str, said: str) -> None:
     with pytest.raises(occ.PluginError) as caught:
         decode(decoder)
     expected = f"The plug-in '{decoder}' of the package 'hostile' {said}"
@@ -369,7 +369,7 @@ def test_every_study_says_how_often_a_plug_in_has_failed() -> None:
 
 
 @pytest.mark.parametrize("changes", [{"line_code": "code_mute"}, {"framing": "frame_fails"}])
-def test_what_fails_of_a_line_code_or_a_framing_is_counted_too(changes: dict[str, str]) -> None:
+def test_failures_of_a_line_code_or_a_framing_are_counted_too(changes: dict[str, str]) -> None:
     point = measure_point(
         SCENE.replace(**changes), RateSettings(2, ("threshold", "matched")), 0, {}
     )
@@ -378,7 +378,7 @@ def test_what_fails_of_a_line_code_or_a_framing_is_counted_too(changes: dict[str
 
 
 @pytest.mark.parametrize("gap", [0.0, 5e-324, 1e-300, 1e-12, 1e-9])
-def test_chips_that_lie_on_each_other_are_no_chips_of_a_film(gap: float) -> None:
+def test_chips_at_the_same_place_give_a_film_no_regular_chips(gap: float) -> None:
     scene = SCENE.replace(enhancement="none")
 
     def read(signal: FloatArray, scene: occ.Scene) -> occ.DecodeResult:
@@ -390,15 +390,15 @@ def test_chips_that_lie_on_each_other_are_no_chips_of_a_film(gap: float) -> None
     assert "The stripes show no regular chips." in str(reading.failure)
 
 
-def test_what_a_signal_raises_within_a_plug_in_is_for_the_program() -> None:
+def test_the_exception_of_a_signal_handler_passes_through_a_plug_in() -> None:
     class Late(Exception):  # noqa: N818 - no error
         pass
 
     def end(error: BaseException) -> Callable[..., NoReturn]:
-        def answer(*_: object) -> NoReturn:
+        def handle(*_: object) -> NoReturn:
             raise error
 
-        return answer
+        return handle
 
     before = signal.getsignal(signal.SIGTERM)
     for error in (SystemExit(143), Late(), KeyboardInterrupt()):

@@ -38,13 +38,15 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
 
 
 def test_bits_that_the_decoder_rejects_carry_nothing(
-    offered: Callable[..., None],
+    offer_decoders: Callable[..., None],
 ) -> None:
     def read(failure: str | None, _: object, scene: Scene) -> DecodeResult:
         bits = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
         return DecodeResult("any", bits=bits, code=0, failure=failure)
 
-    offered(sure=partial(read, None), unsure=partial(read, "The chips are not certain enough."))
+    offer_decoders(
+        sure=partial(read, None), unsure=partial(read, "The chips are not certain enough.")
+    )
     found, nothing = occ.most_bits(FAR, ("sure", "unsure"), pictures=1)
     assert found.scene is not None
     assert nothing.scene is None

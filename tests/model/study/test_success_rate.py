@@ -32,7 +32,7 @@ def test_the_same_seed_gives_the_same_rate_and_another_seed_other_images() -> No
 
 
 def test_the_rate_is_the_fraction_of_correct_bits_and_only_accepted_payloads_are_whole(
-    scene: Scene, offered: Callable[..., None]
+    scene: Scene, offer_decoders: Callable[..., None]
 ) -> None:
     sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
     three_wrong = sent.copy()
@@ -45,10 +45,10 @@ def test_the_rate_is_the_fraction_of_correct_bits_and_only_accepted_payloads_are
         DecodeResult("x", bits=sent, failure="The chips are not certain enough."),
     ]
     given = itertools.cycle(results)
-    offered(x=lambda *_: next(given))
-    asked = scene.replace(code=718)
-    assert module.count_right_and_whole(asked, RateSettings(5, ("x",))) == ((17,), (1,))
-    assert occ.success_rate(asked, 5, "x") == pytest.approx(100 * 17 / 50)
+    offer_decoders(x=lambda *_: next(given))
+    sending = scene.replace(code=718)
+    assert module.count_right_and_whole(sending, RateSettings(5, ("x",))) == ((17,), (1,))
+    assert occ.success_rate(sending, 5, "x") == pytest.approx(100 * 17 / 50)
 
 
 def test_the_profile_path_has_the_images_signal_with_noise(scene: Scene) -> None:

@@ -137,7 +137,7 @@ def test_the_title_of_a_lesson_is_one_line(tmp_path: Path) -> None:
         read_lesson(path)
 
 
-def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_named(
+def test_a_teachers_lessons_are_listed_after_those_of_the_program_and_bad_ones_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     count = len(lessons().lessons)
@@ -175,9 +175,9 @@ def test_an_empty_folder_gets_a_valid_lesson_to_start_from(
     assert not found.problems
     own = found.lessons[-1]
     assert (own.name, written.suffix) == (written.stem, ".toml")
-    (asked,) = [step for step in own.steps if step.check is not None]
-    explained = asked.answer.rpartition("=")[2].strip(" .")
-    assert check_answer(asked, explained).outcome == "right"
+    (checked_step,) = [step for step in own.steps if step.check is not None]
+    stated_value = checked_step.answer.rpartition("=")[2].strip(" .")
+    assert check_answer(checked_step, stated_value).outcome == "right"
 
 
 def test_a_folder_with_a_lesson_is_left_as_it_is(

@@ -11,7 +11,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 import occ_model as occ
-from hard_cases.attack import chance as made
+from hard_cases.attack import hostile
 from hard_cases.attack.doors.typed import check_scene
 from hard_cases.attack.promise import Door
 from occ_model.files.resources import resource_names, resource_text
@@ -50,7 +50,7 @@ def _texts_of(folder: str) -> tuple[str, ...]:
 
 
 def _scene(chance: Random, folder: Path) -> list[str]:
-    content = made.encoded(chance, made.damaged(chance, chance.choice(scene_texts())))
+    content = hostile.encoded(chance, hostile.damaged(chance, chance.choice(scene_texts())))
     path = folder / f"{chance.choice(_NAMES)}.toml"
     path.write_bytes(content)
     check_scene(read_scene_file(path))
@@ -58,7 +58,7 @@ def _scene(chance: Random, folder: Path) -> list[str]:
 
 
 def _preset(chance: Random, folder: Path) -> list[str]:
-    text = made.damaged(chance, chance.choice((*preset_texts(), *scene_texts())))
+    text = hostile.damaged(chance, chance.choice((*preset_texts(), *scene_texts())))
     preset = preset_from("own", text)
     check_scene(preset.scene)
     assert preset.title
@@ -70,8 +70,8 @@ def _own_files(chance: Random, folder: Path) -> list[str]:
     import pytest
 
     for kind in ("presets", "lessons"):
-        text = made.damaged(chance, chance.choice(_texts_of(kind)))
-        (folder / f"{chance.choice(_NAMES)}.toml").write_bytes(made.encoded(chance, text))
+        text = hostile.damaged(chance, chance.choice(_texts_of(kind)))
+        (folder / f"{chance.choice(_NAMES)}.toml").write_bytes(hostile.encoded(chance, text))
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(PRESETS, str(folder))
         patch.setenv(LESSONS, str(folder))
@@ -84,9 +84,9 @@ def _own_files(chance: Random, folder: Path) -> list[str]:
 
 
 def _lesson(chance: Random, folder: Path) -> list[str]:
-    text = made.damaged(chance, chance.choice(lesson_texts()))
+    text = hostile.damaged(chance, chance.choice(lesson_texts()))
     path = folder / f"{chance.choice(_NAMES)}.toml"
-    path.write_bytes(made.encoded(chance, text))
+    path.write_bytes(hostile.encoded(chance, text))
     lesson = read_lesson(path)
     assert lesson.title
     assert lesson.steps
@@ -104,7 +104,7 @@ def _film_note() -> str:
 
 
 def _recording(chance: Random, _folder: Path) -> list[str]:
-    recording = Recording.from_text(made.damaged(chance, _film_note()))
+    recording = Recording.from_text(hostile.damaged(chance, _film_note()))
     if recording is None:
         return ["The note is damaged."]
     assert Recording.from_text("\n".join(recording.lines())) == recording
@@ -129,14 +129,16 @@ def _carrier(chance: Random, folder: Path) -> list[str]:
     kind = chance.choice(("svg", "pdf", "png", "csv"))
     content = exported()[kind]
     if kind == "png" and chance.random() < 0.5:
-        content = _png_with(chance, made.damaged(chance, _provenance_text()))
+        content = _png_with(chance, hostile.damaged(chance, _provenance_text()))
     elif kind == "png" or chance.random() < 0.3:
         content = damage.damaged(np.random.default_rng(chance.getrandbits(32)), content)
     else:
         # Of a PDF as of bytes, each a letter.
         text = content.decode("latin-1" if kind == "pdf" else "utf-8")
-        text = made.damaged(chance, text)
-        content = text.encode("latin-1", "replace") if kind == "pdf" else made.encoded(chance, text)
+        text = hostile.damaged(chance, text)
+        content = (
+            text.encode("latin-1", "replace") if kind == "pdf" else hostile.encoded(chance, text)
+        )
     path = folder / f"{chance.choice(_NAMES)}.{kind}"
     path.write_bytes(content)
     check_scene(read_scene_file(path))
@@ -159,7 +161,7 @@ def _png_with(chance: Random, text: str) -> bytes:
 
 def _several(chance: Random, _folder: Path) -> list[str]:
     text = Provenance("Title", {"a": occ.Scene(), "b": occ.load_preset("phone-68us")}).text()
-    scene = first_scene_in(made.damaged(chance, text))
+    scene = first_scene_in(hostile.damaged(chance, text))
     if scene is not None:
         check_scene(scene)
     return []

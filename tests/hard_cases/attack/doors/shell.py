@@ -17,7 +17,7 @@ import numpy as np
 from PIL import Image
 
 import occ_model as occ
-from hard_cases.attack import chance as made
+from hard_cases.attack import hostile
 from hard_cases.attack.promise import Door
 from occ_model.effects.registry import NAMES
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED, EXIT_MISUSE, INTERRUPTED
@@ -81,7 +81,7 @@ def _value(chance: Random, folder: Path) -> str:
     if kind == 0:
         return str(folder / chance.choice(_FILES))
     if kind == 1:
-        return f"{chance.choice((*PARAMETERS,))}={made.quantity(chance)}"
+        return f"{chance.choice((*PARAMETERS,))}={hostile.quantity(chance)}"
     if kind == 2:
         return chance.choice((
             *NAMES, "threshold", "matched", "sequence", "equalizer", "both", "all", "exact",
@@ -91,10 +91,11 @@ def _value(chance: Random, folder: Path) -> str:
             "1kHz,2kHz", "1280x800", "dark", "split", "explore", "map",
         ))  # fmt: skip
     if kind in (3, 4):
-        return made.quantity(chance)
+        return hostile.quantity(chance)
     if kind == 5:
-        return f"{chance.choice((*PARAMETERS,))}={':'.join(made.number(chance) for _ in range(3))}"
-    return made.word(chance)
+        name = chance.choice((*PARAMETERS,))
+        return f"{name}={':'.join(hostile.number(chance) for _ in range(3))}"
+    return hostile.word(chance)
 
 
 _FILES = (

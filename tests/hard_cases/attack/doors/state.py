@@ -1,4 +1,4 @@
-"""What the window has kept: sessions, and preferences with the layout of the panes."""
+"""Files that the window reads again: sessions, and preferences with the layout of the panes."""
 
 import base64
 import re
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import damage
 import numpy as np
 
-from hard_cases.attack import chance as made
+from hard_cases.attack import hostile
 from hard_cases.attack.doors.typed import check_scene
 from hard_cases.attack.promise import Door
 from occ_model.results.decoding import Region
@@ -27,7 +27,7 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 
 @cache
 def session_text() -> str:
-    """A whole session file."""
+    """Return the text of a complete session file."""
     from occ_gui.core.store import History, StepChange
     from occ_gui.core.workspace import UndoState, Workspace
     from occ_gui.files.session import SessionFile
@@ -49,12 +49,12 @@ def session_text() -> str:
         file = SessionFile(Path(folder))
         path, form = Path(__file__), MatchChoice("lamp", 500.0, "switching_frequency")
         room = load_room("hall").replace(x=1.0, y=-2.0)
-        there = RoomChoice("hall", room, path, 0.026)
-        moved = replace(there, room=room.replace(y=1.0), photo=None)
+        chosen_room = RoomChoice("hall", room, path, 0.026)
+        moved_room = replace(chosen_room, room=room.replace(y=1.0), photo=None)
         steps = (
             StepChange("change", {"iso": 200.0}, {}),
-            StepChange("room", {}, {"jpeg": True}, there, "phone-68us"),
-            StepChange("move", {}, {"jpeg": True}, moved),
+            StepChange("room", {}, {"jpeg": True}, chosen_room, "phone-68us"),
+            StepChange("move", {}, {"jpeg": True}, moved_room),
         )
         workspace = Workspace(
             Scene(),
@@ -70,7 +70,7 @@ def session_text() -> str:
                 certain={"readout_time": 8e-6},
             ),
             film=FilmChoice(path, "lines", recording=Recording(frame_rate=24.0), frames=9),
-            room=there,
+            room=chosen_room,
             preset="phone-68us",
             pins=(PinnedScene(SimulationRequest(Scene(), settings, more=("sequence",))), None),
         )
@@ -81,7 +81,7 @@ def session_text() -> str:
 
 
 def _check_session(session: "KeptSession | None") -> None:
-    """See that a session can be written, and is the same again when it is read."""
+    """Check that a session can be written, and is the same when it is read again."""
     from occ_gui.files.session import SessionFile
 
     if session is None:
@@ -103,12 +103,12 @@ def _session(chance: Random, folder: Path) -> list[str]:
 
     text = session_text()
     if chance.random() < 0.2:
-        text = re.sub(r'(?<="count": )1', made.number(chance), text)
+        text = re.sub(r'(?<="count": )1', hostile.number(chance), text)
     elif chance.random() < 0.1:
-        text = re.sub(r'(?<="format": )1', made.number(chance), text)
+        text = re.sub(r'(?<="format": )1', hostile.number(chance), text)
     else:
-        text = made.damaged(chance, text)
-    content = made.encoded(chance, text)
+        text = hostile.damaged(chance, text)
+    content = hostile.encoded(chance, text)
     (folder / SESSION).write_bytes(content)
     file = SessionFile(folder)
     _check_session(file.last)
@@ -153,7 +153,7 @@ _QT_VALUES = (
 
 
 def damaged_ini(chance: Random, text: str) -> str:
-    """Change some values to what only Qt writes, and the layouts within their bytes."""
+    """Replace some values by texts that only Qt writes, and damage the bytes of the layouts."""
     lines = text.splitlines()
     rng = np.random.default_rng(chance.getrandbits(32))
     for _ in range(chance.choice((1, 2, 4))):
@@ -166,7 +166,7 @@ def damaged_ini(chance: Random, text: str) -> str:
         elif equals:
             lines[place] = f"{key}={chance.choice(_QT_VALUES)}"
     text = "\n".join(lines)
-    return made.damaged(chance, text) if chance.random() < 0.5 else text
+    return hostile.damaged(chance, text) if chance.random() < 0.5 else text
 
 
 def _preferences(chance: Random, folder: Path) -> list[str]:
@@ -176,7 +176,7 @@ def _preferences(chance: Random, folder: Path) -> list[str]:
 
     text = _INI.format(here=__file__, folder=folder)
     path = folder / SETTINGS
-    path.write_bytes(made.encoded(chance, damaged_ini(chance, text)))
+    path.write_bytes(hostile.encoded(chance, damaged_ini(chance, text)))
     kept = Preferences(QSettings(str(path), QSettings.Format.IniFormat))
     for stored in kept.files:
         assert stored.is_absolute()

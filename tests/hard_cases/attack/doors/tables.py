@@ -11,7 +11,7 @@ import damaged_photos
 import numpy as np
 
 import occ_model as occ
-from hard_cases.attack import chance as made
+from hard_cases.attack import hostile
 from hard_cases.attack.promise import Door
 from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
@@ -45,7 +45,7 @@ def _with_counts(chance: Random, request: SweepRequest, whole: bytes) -> bytes:
         row = next(csv.reader([lines[place]]))
         for cell in chance.sample((5, 6, 10), chance.choice((1, 1, 2))):
             row[cell] = (
-                made.number(chance) if chance.random() < 0.7 else str(chance.randint(-9, 30))
+                hostile.number(chance) if chance.random() < 0.7 else str(chance.randint(-9, 30))
             )
         try:
             right, sent, read = (int(row[cell]) for cell in (5, 6, 10))
@@ -67,7 +67,7 @@ def _resumed(chance: Random, folder: Path) -> list[str]:
     if kind < 0.3:
         content = _with_counts(chance, request, whole)
     elif kind < 0.5:
-        content = made.encoded(chance, made.damaged(chance, whole.decode()))
+        content = hostile.encoded(chance, hostile.damaged(chance, whole.decode()))
     elif kind < 0.7:
         content = whole[: chance.randrange(len(whole))]
     else:
@@ -92,13 +92,15 @@ def _samples(chance: Random, folder: Path) -> list[str]:
     names = chance.sample(COLUMNS, len(COLUMNS))
     cells = dict(zip(COLUMNS, ("photo.png", "1e-6", "20", "100", "400"), strict=True))
     if chance.random() < 0.3:
-        cells[chance.choice(COLUMNS)] = chance.choice((made.number(chance), made.word(chance)))
+        cells[chance.choice(COLUMNS)] = chance.choice(
+            (hostile.number(chance), hostile.word(chance))
+        )
     row = ",".join(cells[name] for name in names)
     table = "\n".join([",".join(names), row, row.rpartition(",")[0], ""])
     if chance.random() < 0.6:
-        table = made.damaged(chance, table)
+        table = hostile.damaged(chance, table)
     path = folder / chance.choice(("table.csv", "ta\x1bble\n", "é" * 80))
-    path.write_bytes(made.encoded(chance, table))
+    path.write_bytes(hostile.encoded(chance, table))
     samples = load_pictures(path)
     failures = []
     for reading in read_pictures(samples[:2], ("threshold",)):

@@ -7,7 +7,7 @@ from random import Random
 from typing import Any
 
 import occ_model as occ
-from hard_cases.attack import chance as made
+from hard_cases.attack import hostile
 from hard_cases.attack.promise import Door
 from occ_model.commands.vary import axes_of
 from occ_model.results.sweep_request import MOST_POINTS
@@ -27,7 +27,7 @@ _SLOW = ("threshold-limit", "photo-")  # beginnings of the quantities of lessons
 
 
 def _text(chance: Random) -> str:
-    return made.quantity(chance) if chance.random() < 0.8 else made.word(chance)
+    return hostile.quantity(chance) if chance.random() < 0.8 else hostile.word(chance)
 
 
 def _near(chance: Random, declared: Any) -> str:
@@ -35,7 +35,7 @@ def _near(chance: Random, declared: Any) -> str:
     if isinstance(declared, Quantity) and chance.random() < 0.5:
         value = declared.at(chance.random()) if chance.random() < 0.7 else declared.low
         text = declared.format(value, chance.randint(1, 17))
-        return text if chance.random() < 0.6 else made.spoiled(chance, text)
+        return text if chance.random() < 0.6 else hostile.spoiled(chance, text)
     if isinstance(declared, Choice) and chance.random() < 0.7:
         return chance.choice(declared.choices)
     return _text(chance)
@@ -77,7 +77,7 @@ def _settings(chance: Random, _folder: Path) -> list[str]:
         name = chance.choice(_NAMES)
         text = _near(chance, PARAMETERS[name])
         equals = "=" if chance.random() < 0.95 else chance.choice((":", "", "=="))
-        name = name if chance.random() < 0.95 else made.word(chance)
+        name = name if chance.random() < 0.95 else hostile.word(chance)
         texts.append(f"{name}{equals}{text}")
     check_scene(change_scene(Scene(), texts))
     return []
@@ -90,7 +90,7 @@ def _axes(chance: Random, _folder: Path) -> list[str]:
         count = chance.choice((1, 2, 3, 3, 3, 4))
         parts = [_near(chance, PARAMETERS[name]) for _ in range(count)]
         if chance.random() < 0.3:
-            parts[-1] = f"x{made.number(chance)}"
+            parts[-1] = f"x{hostile.number(chance)}"
         between = chance.choice((":", ":", ","))
         texts.append(f"{name}={between.join(parts)}")
     axes = axes_of(texts)
@@ -102,7 +102,7 @@ def _axes(chance: Random, _folder: Path) -> list[str]:
 
 def _values(chance: Random, _folder: Path) -> list[str]:
     names = chance.sample(_NAMES, chance.choice((1, 1, 3)))
-    changes: dict[str, Any] = {name: made.value(chance) for name in names}
+    changes: dict[str, Any] = {name: hostile.value(chance) for name in names}
     if chance.random() < 0.05:
         changes["nothing of the kind"] = 1
     check_scene(Scene().replace(**changes))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import damaged_photos
 
-from hard_cases.attack import chance as made
+from hard_cases.attack import hostile
 from hard_cases.attack.doors.scenes import exported, lesson_texts, preset_texts, scene_texts
 from hard_cases.attack.doors.state import SESSION, SETTINGS, damaged_ini, session_text
 from hard_cases.attack.promise import LONGEST, Door
@@ -119,13 +119,13 @@ def _kept() -> dict[str, str]:
 def _leave_state(chance: Random, folder: Path) -> None:
     """Write what the window reads at its start, damaged."""
     session = session_text() if chance.random() < 0.5 else _kept()[SESSION]
-    (folder / SESSION).write_bytes(made.encoded(chance, made.damaged(chance, session)))
+    (folder / SESSION).write_bytes(hostile.encoded(chance, hostile.damaged(chance, session)))
     ini = damaged_ini(chance, _kept()[SETTINGS])
-    (folder / SETTINGS).write_bytes(made.encoded(chance, ini))
+    (folder / SETTINGS).write_bytes(hostile.encoded(chance, ini))
     for kind, texts in (("presets", preset_texts()), ("lessons", lesson_texts())):
         (folder / kind).mkdir()
-        text = made.damaged(chance, chance.choice(texts))
-        (folder / kind / "own.toml").write_bytes(made.encoded(chance, text))
+        text = hostile.damaged(chance, chance.choice(texts))
+        (folder / kind / "own.toml").write_bytes(hostile.encoded(chance, text))
 
 
 def _drop(chance: Random, folder: Path, application: "Application") -> None:
@@ -134,12 +134,12 @@ def _drop(chance: Random, folder: Path, application: "Application") -> None:
     for number in range(chance.choice((1, 1, 2))):
         kind = chance.choice(("toml", "photo", "photo", "odd", "svg", "csv", "png"))
         if kind == "toml":
-            content = made.encoded(chance, made.damaged(chance, chance.choice(scene_texts())))
+            content = hostile.encoded(chance, hostile.damaged(chance, chance.choice(scene_texts())))
         elif kind in ("photo", "odd"):
             make = damaged_photos.damaged if kind == "photo" else damaged_photos.odd
             content = make(chance.getrandbits(32))[1]
         else:
-            text = made.damaged(chance, exported()[kind].decode("latin-1"))
+            text = hostile.damaged(chance, exported()[kind].decode("latin-1"))
             content = text.encode("latin-1", "replace")
         path = folder / f"{chance.choice(('a', chr(27) + '[31m', 'é' * 60))}{number}.{kind}"
         path.write_bytes(content)
@@ -153,7 +153,7 @@ def _type(chance: Random, application: "Application") -> None:
 
     fields = [each for each in application.window.findChildren(QLineEdit) if each.isEnabled()]
     for each in chance.sample(fields, min(6, len(fields))):
-        text = made.quantity(chance) if chance.random() < 0.7 else made.word(chance)
+        text = hostile.quantity(chance) if chance.random() < 0.7 else hostile.word(chance)
         each.setText(text.encode("utf-8", "replace").decode())
         each.textEdited.emit(each.text())
         each.returnPressed.emit()

@@ -69,6 +69,8 @@ class Application(Parts):
         story.verdict.lesson_wanted.connect(self._show_lesson)
         self.background_rates.rate_changed.connect(story.verdict.show_rate)
         self._connect_strips()
+        window.modes.changed.connect(self._show_bars)
+        self._is_code.changed.connect(self._show_bars)
         entries = window.actions_by_name
         entries["undo"].triggered.connect(self._say_undone)
         entries["redo"].triggered.connect(self._say_redone)
@@ -111,6 +113,11 @@ class Application(Parts):
         entry.toggled.connect(self._show_strips)
         self._is_code.changed.connect(self._show_strips)
         self._show_strips()
+
+    def _show_bars(self) -> None:
+        """Show, of the panes on limits, the one that is not about codes where none is sent."""
+        if self.window.modes.mode == "limits" and not self._is_code.value:
+            self.window.bring_to_front("bands")
 
     def _show_strips(self) -> None:
         """Show the strips if the user wants them, and a code is sent."""

@@ -8,11 +8,10 @@ import numpy as np
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import NO_BARS_DEPTH, SpeedDepth
 from occ_model.results.bars_answer import ROWS, BarsAnswer, Beat, FrameRateBeats, UnlitRows
-from occ_model.scene.light_words import describe_light
+from occ_model.scene.light_words import describe_light, has_chips
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import speed_depths
 from occ_model.study.bands.depth import light_depth, light_fractions
-from occ_model.study.bands.least_depth import is_sent_by_chips
 from occ_model.study.bands.sines import repeat_time, sines_of
 
 FRAME_RATES = {
@@ -45,7 +44,7 @@ def bars_answer(scene: Scene, *, knows_readout: bool = True, rows: int = 0) -> B
     exposure, sent = scene.camera.exposure_time, scene.transmitter
     period = repeat_time(sent) if light_fractions(scene)[0] else Fraction(0)
     near = [each for each in speed_depths(scene) if 1.0 / _NEAR <= each.nominal / exposure <= _NEAR]
-    sines = () if is_sent_by_chips(sent) else _deepest_sines(scene)
+    sines = () if has_chips(sent) else _deepest_sines(scene)
     return BarsAnswer(
         lamp=describe_light(sent),
         exposure=exposure,

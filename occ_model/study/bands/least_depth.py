@@ -13,7 +13,7 @@ from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of
 from occ_model.light.waveform import Waveform
 from occ_model.results.bands import DepthMap, FrequencyAxis
-from occ_model.scene.light_words import blinking_lamp
+from occ_model.scene.light_words import blinking_lamp, has_chips
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.study.bands.depth import light_fractions
@@ -143,17 +143,12 @@ class DepthOver:
         return np.asarray(least)
 
 
-def is_sent_by_chips(transmitter: Transmitter) -> bool:
-    """Return whether a light is a code's, and no lamp that blinks."""
-    return transmitter.light == "code" and blinking_lamp(transmitter) is None
-
-
 def frequency_axis(transmitter: Transmitter) -> FrequencyAxis:
     """Return the frequency that a light's owner can vary: a lamp's, a code's, else the light's."""
     lamp = blinking_lamp(transmitter)
     if lamp is not None and transmitter.light != "pulses":
         return FrequencyAxis("lamp_frequency", lamp.frequency, quantity("lamp_frequency").label)
-    if is_sent_by_chips(transmitter):
+    if has_chips(transmitter):
         switching = quantity("switching_frequency")
         return FrequencyAxis(switching.name, transmitter.switching_frequency, switching.label)
     light = light_of(transmitter)

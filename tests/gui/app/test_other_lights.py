@@ -149,3 +149,31 @@ def test_figures_of_codes_are_away_while_a_lamp_is_sent(
         names = {figure.name for figure in application.shell.different_figures}
         assert ("map" in names) == (light == "code")
         assert "profile" in names
+
+
+def test_the_limits_of_a_lamp_are_its_bars(application: Application, user: User) -> None:
+    window, store = application.window, application.store
+    window.modes.switch("limits")
+    user.wait_until_idle()
+    bars, detection = (window.docks[name].widget() for name in ("bands", "map"))
+    assert detection.visibleRegion().boundingRect().isValid()
+    store.change(light="lamp")
+    user.wait_until_idle()
+    assert bars.visibleRegion().boundingRect().isValid()
+    assert not detection.visibleRegion().boundingRect().isValid()
+
+
+@pytest.mark.parametrize("name", ["lamp-240hz", "mains-lamp"])
+def test_a_preset_of_a_lamp_is_shown_with_its_controls(
+    application: Application, user: User, name: str
+) -> None:
+    application.presets.load(name)
+    user.wait_until_idle()
+    scene, controls = application.store.scene, application.controls
+    assert controls.preset.currentData() == name
+    rows = controls.panels["Main"].rows
+    shown = [each for each, row in rows.items() if row.isVisible()]
+    assert tuple(shown) == main_of(scene.transmitter.light)
+    assert {each: rows[each].value for each in shown} == {e: scene.value(e) for e in shown}
+    light = describe_light(scene.transmitter)
+    assert application.story.verdict.heading.lower().startswith(light.lower())

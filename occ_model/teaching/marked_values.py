@@ -9,6 +9,7 @@ from occ_model.errors import OccError, counted
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of, light_period
 from occ_model.results.teaching import MarkedValue
+from occ_model.scene.light_samples import samples_of
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -137,12 +138,15 @@ _FREQUENCIES = {
 @lru_cache(maxsize=8)
 def _bar_period(sent: Transmitter) -> float:
     """Return the seconds of which multiples show no bars of a light; 0 if it is steady."""
+    if sent.light == "waveform" and sent.waveform_file:  # its exact light can take seconds
+        seconds, samples = samples_of(sent.waveform_file)
+        return seconds[-1] if sent.luminance and min(samples) < max(samples) else 0.0
     light, period = light_of(sent), float(light_period(sent))
     if isinstance(light, Cosine):
         return period if light.depth else 0.0
     levels = light.waveform.levels
     if not sent.luminance or levels.min() == levels.max():
         return 0.0
-    if sent.light == "waveform" and not sent.waveform_file and len(levels) <= _LONGEST_WAVEFORM:
+    if sent.light == "waveform" and len(levels) <= _LONGEST_WAVEFORM:
         period *= shortest_period(levels) / len(levels)
     return period

@@ -4,7 +4,7 @@ from binascii import crc32
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QByteArray, QObject, QPoint, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, QObject, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QMoveEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
 
@@ -145,6 +145,10 @@ class ModeSwitch(QObject):
             self._show_page(MODES[self.mode].centre)
             self._limit_sides()
             # Even if a layout is stored, because Qt leaves the tabs of the former mode behind.
+            self.panes.arrange(window, self.mode)
+            # Once more when the panes know what they need: each has the least height of when it
+            # was last seen, and Qt leaves one that needs less now drawn over the status line.
+            QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
             self.panes.arrange(window, self.mode)
             if self.mode in self.layouts:
                 window.restoreState(self.layouts[self.mode], self.version)

@@ -1,15 +1,19 @@
 """Modes: a layout for each task, chosen by keys and tabs, which keeps the user's changes."""
 
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
+from pathlib import Path
 
 import pytest
+from gui.user import User
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QApplication, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.values.choices import PhotoChoice
 from occ_gui.values.modes import MODES, STORY
 
 NAMES = list(MODES)
@@ -151,6 +155,26 @@ def test_no_change_of_the_mode_widens_the_window_even_for_a_moment(
             window.modes.switch(each)
             QApplication.processEvents()
     assert widths.values <= {1000}
+
+
+@pytest.mark.parametrize("size", [(1024, 700), (1280, 800), (1920, 1080)])
+def test_a_pane_that_needs_less_height_than_when_it_was_seen_covers_nothing_below(
+    application: Application, user: User, photo_file: Path, size: tuple[int, int]
+) -> None:
+    window = application.window
+    application.files.open_photo(photo_file)
+    user.wait_until_idle()
+    needed = window.docks["profile"].minimumHeight()
+    store = application.store.store
+    store.put(replace(store.workspace, photo=PhotoChoice()), "no photo")
+    window.modes.switch("explore")
+    user.wait_until_idle()
+    window.modes.layouts.clear()
+    window.resize(*size)
+    window.modes.switch("photo")
+    profile = window.docks["profile"]
+    assert profile.minimumSizeHint().height() < needed
+    assert profile.geometry().bottom() < window.statusBar().geometry().top()
 
 
 @pytest.mark.own_window  # each pane is made when it is first open_panes

@@ -157,8 +157,8 @@ class AccuracyView(QWidget):
     def scene_parts(self) -> tuple[QWidget, ...]:
         return self.table, self.detail
 
-    def set_seen(self, seen: bool) -> None:
-        self._is_visible = seen
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
         self._redraw()
 
     def show_settings(self, settings: SimulationSettings) -> None:

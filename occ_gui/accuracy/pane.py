@@ -68,9 +68,9 @@ class AccuracyController(QObject):
     def _request(self) -> SimulationRequest:
         return SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
 
-    def set_seen(self, seen: bool) -> None:
-        self._is_visible = seen
-        if seen:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible:
             self._predict()
             self._wait_until_idle()
             return
@@ -163,6 +163,6 @@ class AccuracyPane(PiecesPane):
         # The control still shows the refused value.
         self.view.show_settings(self._settings.settings)
 
-    def set_seen(self, seen: bool) -> None:
-        self.view.set_seen(seen)
-        self.study.set_seen(seen)
+    def set_visible(self, visible: bool) -> None:
+        self.view.set_visible(visible)
+        self.study.set_visible(visible)

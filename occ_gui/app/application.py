@@ -156,7 +156,7 @@ class Application(Parts):
     def _show_lesson(self, name: str) -> None:
         self.window.bring_to_front("lessons")
         lessons = self.shell.pane("lessons").controller
-        lessons.set_seen(True)
+        lessons.set_visible(True)
         lessons.choose(name)
 
     def _prepare_to_close(self) -> None:

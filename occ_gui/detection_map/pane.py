@@ -72,9 +72,9 @@ class DetectionMapController(QObject):
         scene = self._scenes.scene.replace(**{**UNSEEN_PARAMETERS, **defaults})
         return MapRequest(scene, x, y, self._scenes.settings.settings, self._with_image_effects)
 
-    def set_seen(self, seen: bool) -> None:
-        self._is_visible = seen
-        if seen:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible:
             self._follow_change()
         else:
             self._stop()
@@ -221,5 +221,5 @@ class MapPane(Pane[None]):
         view.most_bits.cancelled.connect(self.most_bits.cancel)
         view.most_bits.chosen.connect(self.most_bits.go)
 
-    def set_seen(self, seen: bool) -> None:
-        self.map.set_seen(seen)
+    def set_visible(self, visible: bool) -> None:
+        self.map.set_visible(visible)

@@ -63,9 +63,9 @@ class RateController(QObject):
     def is_idle(self) -> bool:
         return self._channel.is_idle and not self._rest_timer.isActive()
 
-    def set_seen(self, seen: bool) -> None:
-        self._is_visible = seen
-        if seen:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible:
             self._follow_change()
         else:
             self._rest_timer.stop()

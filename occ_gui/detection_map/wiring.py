@@ -94,21 +94,21 @@ class BackgroundRates(QObject):
         # Not in the event that delivers the picture, so that it is painted first.
         was_ready, self._was_ready = self._was_ready, self._may_begin()
         if was_ready and self._was_ready:
-            self._set_seen(True)
+            self._set_visible(True)
         else:
             self._start.start()
 
-    def _set_seen(self, seen: bool) -> None:
-        self.slider_strips.set_seen(seen)
-        self.scene_rate.set_seen(seen)
+    def _set_visible(self, visible: bool) -> None:
+        self.slider_strips.set_visible(visible)
+        self.scene_rate.set_visible(visible)
 
-    def _follow_strips(self, seen: bool) -> None:
-        if seen:
+    def _follow_strips(self, visible: bool) -> None:
+        if visible:
             self._start.start()
             return
         self._start.stop()
         if "scene_rate" in vars(self):
-            self._set_seen(False)
+            self._set_visible(False)
 
     def stop(self) -> None:
         self._start.stop()

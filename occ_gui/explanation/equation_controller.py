@@ -20,14 +20,14 @@ class EquationController(QObject):
     ) -> None:
         super().__init__()
         self._scenes, self._tell = scenes, show
-        self._seen = False
+        self._is_visible = False
         self._shown: Scene | None = None
         self._only = ""
         scenes.changed.connect(self._show)
 
-    def set_seen(self, seen: bool) -> None:
-        self._seen = seen
-        if seen and self._shown != self._scenes.scene:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible and self._shown != self._scenes.scene:
             self._shown = None  # changes made while hidden are not recent
             self._show(self._scenes.scene)
 
@@ -36,7 +36,7 @@ class EquationController(QObject):
         self._show(self._scenes.scene)
 
     def _show(self, scene: Scene) -> None:
-        if not self._seen:
+        if not self._is_visible:
             return
         last, self._shown = self._shown, scene
         changed = frozenset[str]()

@@ -26,11 +26,11 @@ class ExposureController(QObject):
         self._snapshot: Snapshot | None = None
         self._column: int | None = None
         self._held = False
-        self._seen = False
+        self._is_visible = False
 
-    def set_seen(self, seen: bool) -> None:
-        self._seen = seen
-        self._mark.set_active(seen)
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        self._mark.set_active(visible)
         self._show()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -71,7 +71,7 @@ class ExposureController(QObject):
 
     def _show(self) -> None:
         snapshot = self._snapshot
-        if snapshot is None or not self._seen:
+        if snapshot is None or not self._is_visible:
             return
         profile = snapshot.frame.profile
         if self._column is None:  # start in the first packet, which the profile shows
@@ -112,9 +112,9 @@ class ExplanationPane(Pane[Snapshot]):
         view.exposure.column_chosen.connect(exposure.choose)
         view.exposure.hold_chosen.connect(exposure.hold)
 
-    def set_seen(self, seen: bool) -> None:
-        self._equations.set_seen(seen)
-        self.exposure.set_seen(seen)
+    def set_visible(self, visible: bool) -> None:
+        self._equations.set_visible(visible)
+        self.exposure.set_visible(visible)
 
     def show_part(self, part: Snapshot) -> None:
         self.exposure.show_snapshot(part)

@@ -75,9 +75,9 @@ class LessonController(QObject):
         pane.end.report_asked.connect(self._ask_report)
         pane.end.next_asked.connect(self._go_to_next)
 
-    def set_seen(self, seen: bool) -> None:
+    def set_visible(self, visible: bool) -> None:
         """Read the lessons when their pane is shown, unless a lesson is under way."""
-        if seen and self.current is None and self._ended_lesson is None:
+        if visible and self.current is None and self._ended_lesson is None:
             failure = ""
             try:
                 self._loaded = lessons()
@@ -93,7 +93,7 @@ class LessonController(QObject):
         self._pane.list_lessons(self._loaded.lessons, reached, failure, self._loaded.problems)
 
     def begin_first(self) -> None:
-        self.set_seen(True)
+        self.set_visible(True)
         if self._loaded.lessons:
             self.choose(self._loaded.lessons[0].name)
 
@@ -237,7 +237,7 @@ class LessonController(QObject):
         if step is None:
             return
         scene = self._store.workspace.scene
-        self._pane.step.show_changed(describe_changes(step, scene))
+        self._pane.step.show_changes(describe_changes(step, scene))
         self._pane.step.show_explanation(explanation(step, scene))
         self._mark_answer()
         if step.animation:
@@ -266,7 +266,7 @@ class LessonController(QObject):
     def _show_answer(self, lesson: Lesson, place: int) -> None:
         answer = self._answers.find_answer(lesson, place)
         if lesson is self.current and place == self._places[lesson.name] and answer is not None:
-            self._pane.step.answer_field.show_checked(answer)
+            self._pane.step.answer_field.show_outcome(answer)
             self._mark_answer()
         if lesson is self._ended_lesson:  # its end was shown before this answer was checked
             self._show_end(lesson)

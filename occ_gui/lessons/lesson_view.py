@@ -18,7 +18,7 @@ from occ_gui.widgets.plain_text import in_menu
 from occ_model.errors import counted
 from occ_model.results.teaching import CheckedAnswer, Lesson
 
-_LONGEST_NAME = 120
+_LONGEST_NAME = 120  # characters
 
 
 class EndPage(QWidget):
@@ -39,9 +39,9 @@ class EndPage(QWidget):
         self.author = name_widget(
             QLineEdit(placeholderText="Your name, for the report", maxLength=_LONGEST_NAME),
             "Your name on the report",
-            "The name that the report gives; it is kept for the next one.",
+            "The name printed on the report; it is kept for the next report.",
         )
-        self.all = push_button(
+        self.all_lessons = push_button(
             "All lessons", "Go back to the list, and to your own scene.", self.list_asked
         )
         self.next = push_button(
@@ -49,23 +49,23 @@ class EndPage(QWidget):
         )
         content = QWidget()
         fill(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
-        # A second click on Done hits the button in its place: Next lesson, which is harmless.
-        rows = ((self.next,), (self.author,), ((self.report, 1), (self.all, 1)))
+        # The second click of a double click on Done hits Next lesson, which is harmless.
+        rows = ((self.next,), (self.author,), ((self.report, 1), (self.all_lessons, 1)))
         lines = [fill(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
         fill(QVBoxLayout(self), (ScrollPane(content, LEAST_SIZE), 1), *lines, margins=0)
 
     def show_answers(
-        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
+        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], next_title: str
     ) -> None:
-        self.next.setText(f"Next lesson: {following}")
-        self.next.setVisible(bool(following))
+        self.next.setText(f"Next lesson: {next_title}")
+        self.next.setVisible(bool(next_title))
         self.title.setText(f"Done: {lesson.title}")
         lines = []
-        for place, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):
+        for number, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):
             text = "no answer"
             if answer is not None:
                 text = f"{step.with_unit(answer.text)}. {answer.sentence}"
-            lines.append(f"{place}. {step.question}\n    {text}")
+            lines.append(f"{number}. {step.question}\n    {text}")
         self.answers.setText("\n\n".join(lines))
 
 
@@ -98,15 +98,15 @@ class LessonList(QWidget):
     def show_lessons(
         self,
         lessons: Sequence[Lesson],
-        reached: Mapping[str, int],
+        done_steps: Mapping[str, int],
         failure: str,
         problems: Mapping[str, str],
     ) -> None:
-        usual = (
-            "Each step sets a scene and asks for something that you find by trying. At the end "
+        introduction = (
+            "Each step sets a scene and asks a question that you answer by trying. At the end "
             "your own scene returns."
         )
-        self.message.setText(failure or usual)
+        self.message.setText(failure or introduction)
         self.problems.setText("\n".join(problems.values()))
         self.problems.setVisible(bool(problems))
         for box in self._boxes:
@@ -118,17 +118,17 @@ class LessonList(QWidget):
             if lesson.is_sheet and not has_sheets:
                 has_sheets = True
                 self._add_box(heading("Lab sheets"))
-            self._add(lesson, reached.get(lesson.name))
+            self._add(lesson, done_steps.get(lesson.name))
 
     def _add_box(self, box: QWidget) -> None:
         self._boxes.append(box)
         self._rows.addWidget(box)
 
-    def _add(self, lesson: Lesson, reached: int | None) -> None:
+    def _add(self, lesson: Lesson, done_steps: int | None) -> None:
         count = len(lesson.steps)
         title = in_menu(lesson.title)
         texts = {None: f"{title}  ({counted(count, 'step')})", count: f"✓  {title}"}
-        text = texts.get(reached, f"{title}  (step {(reached or 0) + 1} of {count})")
+        text = texts.get(done_steps, f"{title}  (step {(done_steps or 0) + 1} of {count})")
         choice = push_button(text, "Set the scene of its step and show its question.")
         choice.setAccessibleDescription(lesson.summary)
         choice.setStyleSheet(_CHOICE_STYLE)
@@ -147,7 +147,7 @@ class LessonList(QWidget):
         self.chosen.emit(self.sender().property("lesson"))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme: a button with a style sheet keeps its first colours."""
+        """Set the style sheets again, without which the buttons keep the old colours."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             for choice in self.choices:
@@ -155,7 +155,7 @@ class LessonList(QWidget):
                 choice.setStyleSheet(_CHOICE_STYLE)
 
 
-_WANTED_HEIGHT = 320
+_PREFERRED_HEIGHT = 320  # pixels
 
 
 class LessonView(QWidget):
@@ -170,22 +170,22 @@ class LessonView(QWidget):
     def list_lessons(
         self,
         lessons: Sequence[Lesson],
-        reached: Mapping[str, int],
+        done_steps: Mapping[str, int],
         failure: str,
         problems: Mapping[str, str],
     ) -> None:
-        self.list.show_lessons(lessons, reached, failure, problems)
+        self.list.show_lessons(lessons, done_steps, failure, problems)
         self._pages.setCurrentIndex(0)
 
-    def show_step(self, lesson: Lesson, place: int, answer: CheckedAnswer | None) -> None:
-        self.step.show_step(lesson, place, answer)
+    def show_step(self, lesson: Lesson, index: int, answer: CheckedAnswer | None) -> None:
+        self.step.show_step(lesson, index, answer)
         self._pages.setCurrentIndex(1)
 
     def show_end(
-        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
+        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], next_title: str
     ) -> None:
-        self.end.show_answers(lesson, answers, following)
+        self.end.show_answers(lesson, answers, next_title)
         self._pages.setCurrentIndex(2)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(super().sizeHint().width(), _WANTED_HEIGHT)
+        return QSize(super().sizeHint().width(), _PREFERRED_HEIGHT)

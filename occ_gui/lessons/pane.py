@@ -25,7 +25,7 @@ from occ_model.results.teaching import AnsweredStep, Lesson
 from occ_model.teaching.lessons import begin_lessons_folder
 
 _AUTHOR = "lessons/author"
-_ENDING = ".pdf"
+_SUFFIX = ".pdf"
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class LessonReports(QObject):
     def __init__(self, window: QWidget | None, preferences: Preferences) -> None:
         super().__init__()
         self._window, self._preferences = window, preferences
-        self.runner: Task[_Job, Path] = Task(lambda request, _: _write(request), "lesson report")
+        self.runner: Task[_Job, Path] = Task(lambda job, _: _write(job), "lesson report")
         self.runner.finished.connect(self._announce)
         self.runner.failed.connect(self.status_message)
 
@@ -50,20 +50,20 @@ class LessonReports(QObject):
     def author(self) -> str:
         return self._preferences.recall(_AUTHOR)
 
-    def keep_author(self, author: str) -> None:
+    def save_author(self, author: str) -> None:
         self._preferences.keep(_AUTHOR, one_line(author.strip()))
 
     def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
         """Ask for a file, and write the report under the student's name."""
-        self.keep_author(author)
-        start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")
+        self.save_author(author)
+        proposal = Path(self._preferences.export_folder, f"{lesson.name}{_SUFFIX}")
         name, _ = QFileDialog.getSaveFileName(
-            self._window, "Save the report", str(start),
+            self._window, "Save the report", str(proposal),
             "PDF document (*.pdf);;Markdown (*.md);;PNG picture (*.png);;SVG drawing (*.svg)",
         )  # fmt: skip
         if name:
             path = Path(name)
-            path = path if path.suffix else path.with_suffix(_ENDING)
+            path = path if path.suffix else path.with_suffix(_SUFFIX)
             self.write(path, lesson, steps, self.author)
 
     def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
@@ -85,7 +85,7 @@ def _write(job: _Job) -> Path:
 
 
 class LessonPane(Pane[None]):
-    """The lessons and what they change; a step marks one of the controls."""
+    """The pane of the lessons; a step highlights one of the controls."""
 
     noted = Signal(str)  # the outcome of an action, shown until the scene changes
 
@@ -96,29 +96,29 @@ class LessonPane(Pane[None]):
         controls: ControlPanel,
         preferences: Preferences,
     ) -> None:
-        self.view = pane = LessonView()
-        super().__init__(pane)
+        self.view = view = LessonView()
+        super().__init__(view)
         self.answers = LessonAnswers()
-        self.controller = LessonController(scenes.store, results_store, pane, self.answers)
-        self.reports = LessonReports(pane, preferences)
+        self.controller = LessonController(scenes.store, results_store, view, self.answers)
+        self.reports = LessonReports(view, preferences)
         self.tasks = (self.answers.runner, self.reports.runner)
-        self._end = pane.end
+        self._end = view.end
         self._end.author.setText(self.reports.author)
         self._end.author.editingFinished.connect(
-            lambda: self.reports.keep_author(self._end.author.text())
+            lambda: self.reports.save_author(self._end.author.text())
         )
         self.spotlight = Spotlight(controls)
-        self._equations = EquationController(scenes, pane.step.equation.show_equations)
+        self._equations = EquationController(scenes, view.step.equation.show_equations)
         self.controller.control_wanted.connect(self.spotlight.show_only)
         self.controller.equation_wanted.connect(self._equations.show_only)
         self.controller.report_asked.connect(self._write_report)
-        pane.step.explained.connect(self._equations.set_seen)
-        pane.list.folder_asked.connect(self.open_folder)
+        view.step.equation_shown.connect(self._equations.set_visible)
+        view.list.folder_asked.connect(self.open_folder)
         for source in (self.controller, self.reports):
             source.status_message.connect(self.noted)
 
-    def set_seen(self, seen: bool) -> None:
-        self.controller.set_seen(seen)
+    def set_visible(self, visible: bool) -> None:
+        self.controller.set_visible(visible)
 
     def open_folder(self) -> None:
         try:

@@ -20,7 +20,7 @@ from occ_model.results.teaching import RollingShutter
 
 _LOOP_MS = 9000
 _FRAME_MS = 33
-_END_PART = 0.12  # fraction of a loop for which the finished picture stays
+_END_PART = 0.12  # fraction of a loop during which the finished picture stays
 
 _LIT, _DARK = QColor("#f2c14e"), QColor("#3c4048")
 _LAMP_HEIGHT, _STRIPE_HEIGHT, _GAP = 18, 26, 6
@@ -44,7 +44,7 @@ class ShutterAnimation(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Animation of a rolling shutter")
         self.setAccessibleDescription(
-            "Each column gathers light a little later than the one before."
+            "Each column gathers light a little later than the column before it."
         )
         self.setToolTip("Click, or press the space bar, to pause and to resume.")
 
@@ -58,9 +58,9 @@ class ShutterAnimation(QWidget):
 
     def toggle(self) -> None:
         self._is_paused = not self._is_paused
-        self._run()
+        self._run_timer()
 
-    def _run(self) -> None:
+    def _run_timer(self) -> None:
         if self.isVisible() and not self._is_paused:
             self._timer.start()
         else:
@@ -72,7 +72,7 @@ class ShutterAnimation(QWidget):
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
-        self._run()
+        self._run_timer()
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
         super().hideEvent(event)
@@ -112,7 +112,7 @@ class ShutterDrawing:
         self._width, self._height = widget.width(), widget.height()
         self._ink = widget.palette().color(QPalette.ColorRole.WindowText)
         self._accent = widget.palette().color(QPalette.ColorRole.Highlight)
-        # A lamp on the mains is brighter than its mean in a part of each cycle.
+        # In a part of each cycle, a mains lamp is brighter than its mean, which is 1.
         self._brightest = max(1.0, float(shutter.levels.max()))
 
     def draw(self) -> None:
@@ -131,8 +131,8 @@ class ShutterDrawing:
         for begin, end, level in zip(edges[:-1], edges[1:], levels, strict=True):
             left, right = self._x(max(begin, 0.0)), self._x(min(end, self._shutter.duration))
             if right > left:
-                place = QRectF(left, 0, right - left, _LAMP_HEIGHT)
-                self.painter.fillRect(place, mix_colours(_LIT, _DARK, level))
+                rect = QRectF(left, 0, right - left, _LAMP_HEIGHT)
+                self.painter.fillRect(rect, mix_colours(_LIT, _DARK, level))
 
     def draw_bars(self) -> None:
         shutter = self._shutter
@@ -141,15 +141,15 @@ class ShutterDrawing:
         step = height / len(shutter.columns)
         outline = QColor(self._ink)
         outline.setAlpha(90)
-        for place, (start, fraction) in enumerate(
+        for index, (start, fraction) in enumerate(
             zip(shutter.starts, shutter.lit_fraction, strict=True)
         ):
-            x, y = self._x(start), top + place * step
+            x, y = self._x(start), top + index * step
             width = max(self._x(shutter.exposure_time), 2.0)
             elapsed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
-            filled = QRectF(x, y, width * elapsed / shutter.exposure_time, bar.height())
-            self.painter.fillRect(filled, mix_colours(_LIT, _DARK, fraction / self._brightest))
+            filled_part = QRectF(x, y, width * elapsed / shutter.exposure_time, bar.height())
+            self.painter.fillRect(filled_part, mix_colours(_LIT, _DARK, fraction / self._brightest))
             self.painter.setPen(QPen(outline, 1))
             self.painter.drawRect(bar)
 
@@ -157,12 +157,12 @@ class ShutterDrawing:
         shutter = self._shutter
         top = self._height - _STRIPE_HEIGHT
         width = self._width / len(shutter.columns)
-        for place, (start, fraction) in enumerate(
+        for index, (start, fraction) in enumerate(
             zip(shutter.starts, shutter.lit_fraction, strict=True)
         ):
             if self._now >= start + shutter.exposure_time * (1.0 - 1e-9):
                 self.painter.fillRect(
-                    QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT),
+                    QRectF(index * width, top, width + 1.0, _STRIPE_HEIGHT),
                     _grey(fraction / self._brightest),
                 )
         self.painter.setPen(QPen(self._ink, 1))

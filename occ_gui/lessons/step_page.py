@@ -33,7 +33,7 @@ _HEADING_SCALE = 1.25
 
 
 def typeset(text: str) -> str:
-    """Typeset indices such as that of t_r, and escape all else."""
+    """Return HTML with indices, such as that of t_r, as subscripts."""
     return _SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>", html.escape(text, quote=False))
 
 
@@ -54,7 +54,7 @@ def heading(text: str = "") -> QLabel:
 _LONGEST_ANSWER = 300  # characters of an answer
 
 _SIGNS = {"right": "✓", "near": "≈", "wrong": "✗", "unreadable": "?", None: "→"}
-"""Sign of each outcome, so that colour alone does not show it."""
+"""Sign of each outcome, so that it does not depend on colour."""
 
 
 class AnswerField(QWidget):
@@ -68,13 +68,15 @@ class AnswerField(QWidget):
         self.field = name_widget(QLineEdit(maxLength=_LONGEST_ANSWER), "Your answer", tip)
         leave_undo_to_window(self.field)
         self.unit = QLabel()
-        self.check = push_button("Check", "Compare your answer with the model (Enter).", self._ask)
-        self.field.returnPressed.connect(self._ask)
+        self.check = push_button(
+            "Check", "Compare your answer with the model (Enter).", self._emit_answer
+        )
+        self.field.returnPressed.connect(self._emit_answer)
         self.field.textEdited.connect(self._clear_outcome)
         self.sentence = name_widget(paragraph(), "Result of the check")
         self._outcome, self._is_outdated = "", False
         row = fill(QHBoxLayout(), self.field, self.unit, self.check, spacing=8)
-        # Above the field, which so stays in its place at the lower end of the pane.
+        # Above the field, so that the field stays at the bottom of the pane.
         fill(QVBoxLayout(self), self.sentence, row, margins=0, spacing=4)
 
     def begin(self, unit: str, is_number: bool, answer: CheckedAnswer | None) -> None:
@@ -86,9 +88,9 @@ class AnswerField(QWidget):
         if answer is None:
             self._clear_outcome()
         else:
-            self.show_checked(answer)
+            self.show_outcome(answer)
 
-    def show_checked(self, answer: CheckedAnswer) -> None:
+    def show_outcome(self, answer: CheckedAnswer) -> None:
         self.check.setEnabled(True)
         self._outcome = f"{_SIGNS[answer.outcome]}  {answer.sentence}"
         self._write()
@@ -101,8 +103,8 @@ class AnswerField(QWidget):
     def _write(self) -> None:
         if not self._outcome:
             return
-        after = "The scene has changed since: check again."
-        self.sentence.setText(f"{self._outcome} {after}" if self._is_outdated else self._outcome)
+        hint = "The scene has changed since: check again."
+        self.sentence.setText(f"{self._outcome} {hint}" if self._is_outdated else self._outcome)
         self.sentence.show()
 
     def show_waiting(self) -> None:
@@ -111,7 +113,7 @@ class AnswerField(QWidget):
         self.sentence.setText("The model computes…")
         self.sentence.show()
 
-    def _ask(self) -> None:
+    def _emit_answer(self) -> None:
         if self.field.text().strip():
             self.checked.emit(self.field.text())
 
@@ -126,7 +128,7 @@ LEAST_SIZE = QSize(200, 160)  # smallest size in pixels, at which a question wit
 
 _EQUATION_HEIGHT = 112
 
-_LAYOUT_MS = 100  # longest layout of the explanation
+_LAYOUT_MS = 100  # longest time in milliseconds until the explanation is laid out
 
 _ANIMATION_HEIGHT = 200
 _ACTIONS = {
@@ -144,11 +146,11 @@ class StepPage(QWidget):
     control_asked = Signal()
     action_asked = Signal()
     answer_given = Signal(str)
-    explained = Signal(bool)
+    equation_shown = Signal(bool)  # whether the equation is shown from now on
 
     def __init__(self) -> None:
         super().__init__()
-        self.place, self.goal = paragraph(), heading()
+        self.position, self.goal = paragraph(), heading()
         self.text, self.question = typeset_paragraph(), embolden(typeset_paragraph())
         self.progress = name_widget(QProgressBar(textVisible=False), "Progress of the lesson")
         self.progress.setFixedHeight(6)
@@ -160,8 +162,8 @@ class StepPage(QWidget):
             self.control_asked,
             name="Show the control of this step",
         )
-        self.changed = name_widget(paragraph(), "Your changes to the scene")
-        self.changed.hide()
+        self.changes = name_widget(paragraph(), "Your changes to the scene")
+        self.changes.hide()
         self.action = push_button(
             "", "Do what this step is about.", self.action_asked, name="Do what this step asks for"
         )
@@ -172,23 +174,23 @@ class StepPage(QWidget):
         self._lay_out()
 
     def _make_explanation(self) -> None:
-        self.answer = typeset_paragraph()
-        self.answer.setFrameShape(QFrame.Shape.StyledPanel)
-        self.answer.setMargin(8)
-        self.answer.setAccessibleName("Explanation")
+        self.explanation = typeset_paragraph()
+        self.explanation.setFrameShape(QFrame.Shape.StyledPanel)
+        self.explanation.setMargin(8)
+        self.explanation.setAccessibleName("Explanation")
         self.equation = EquationText()
         self.equation.setFixedHeight(_EQUATION_HEIGHT)
         self.reveal = push_button(
             "Show the explanation", "Show the explanation, to compare with what you found."
         )
         self.reveal.setCheckable(True)
-        self.reveal.toggled.connect(self._show_answer)
-        self.answer.hide()
+        self.reveal.toggled.connect(self._toggle_explanation)
+        self.explanation.hide()
         self.equation.hide()
         self._has_equation = self._is_revealing = False
 
     def _make_buttons(self) -> None:
-        self.all = push_button(
+        self.all_lessons = push_button(
             "All lessons", "Go back to the list, and to your own scene.", self.list_asked
         )
         self.back = push_button(
@@ -197,7 +199,7 @@ class StepPage(QWidget):
         self.next = push_button(
             "Next", "Go to the next step, and set its scene.", lambda: self.moved.emit(1)
         )
-        self.again = push_button(
+        self.reset = push_button(
             "Set the scene again",
             "Set the scene of this step again, as one step that can be undone.",
             self.again_asked,
@@ -206,12 +208,12 @@ class StepPage(QWidget):
     def _lay_out(self) -> None:
         content = QWidget()
         fill(
-            QVBoxLayout(content), self.place, self.progress, self.goal, self.animation, self.text,
-            self.control, self.action, self.changed, self.reveal, self.answer, self.equation,
-            None, margins=8, spacing=8,
+            QVBoxLayout(content), self.position, self.progress, self.goal, self.animation,
+            self.text, self.control, self.action, self.changes, self.reveal, self.explanation,
+            self.equation, None, margins=8, spacing=8,
         )  # fmt: skip
         self._scroll = ScrollPane(content, LEAST_SIZE)
-        # The text is laid out in several passes, and each moves the end down.
+        # The text is laid out in several passes, each of which moves the end down.
         self._scroll.verticalScrollBar().rangeChanged.connect(self._follow_end)
         # The question stays in view, however long the text above it is.
         self.foot = QWidget()
@@ -219,15 +221,15 @@ class StepPage(QWidget):
         fill(QVBoxLayout(self.foot), self.question, self.answer_field, margins=below, spacing=4)
         rows = [
             fill(QHBoxLayout(), *((button, 1) for button in buttons), margins=below, spacing=8)
-            for buttons in ((self.all, self.again), (self.back, self.next))
+            for buttons in ((self.all_lessons, self.reset), (self.back, self.next))
         ]
         fill(QVBoxLayout(self), (self._scroll, 1), self.foot, *rows, margins=0, spacing=4)
 
-    def show_step(self, lesson: Lesson, place: int, answer: CheckedAnswer | None) -> None:
-        step, count = lesson.steps[place], len(lesson.steps)
-        self.place.setText(f"{lesson.title} · step {place + 1} of {count}")
+    def show_step(self, lesson: Lesson, index: int, answer: CheckedAnswer | None) -> None:
+        step, count = lesson.steps[index], len(lesson.steps)
+        self.position.setText(f"{lesson.title} · step {index + 1} of {count}")
         self.progress.setRange(0, count)
-        self.progress.setValue(place + 1)
+        self.progress.setValue(index + 1)
         self.goal.setText(step.goal)
         self.goal.setVisible(bool(step.goal))
         self.animation.setVisible(step.animation)
@@ -242,23 +244,23 @@ class StepPage(QWidget):
         self.answer_field.begin(unit, step.check is not None, answer)
         self._has_equation = bool(step.equation)
         self.reveal.setChecked(False)
-        self.back.setEnabled(place > 0)
-        self.next.setText("Next" if place + 1 < count else "Done")
+        self.back.setEnabled(index > 0)
+        self.next.setText("Next" if index + 1 < count else "Done")
         self._scroll.verticalScrollBar().setValue(0)
 
-    def show_changed(self, sentence: str) -> None:
-        self.changed.setText(sentence)
-        self.changed.setVisible(bool(sentence))
+    def show_changes(self, sentence: str) -> None:
+        self.changes.setText(sentence)
+        self.changes.setVisible(bool(sentence))
 
     def show_explanation(self, text: str) -> None:
-        self.answer.setText(typeset(text))
+        self.explanation.setText(typeset(text))
 
-    def _show_answer(self, shown: bool) -> None:
-        self.answer.setVisible(shown)
-        self.equation.setVisible(shown and self._has_equation)
-        self.reveal.setText("Hide the explanation" if shown else "Show the explanation")
-        self.explained.emit(shown and self._has_equation)
-        if shown:
+    def _toggle_explanation(self, visible: bool) -> None:
+        self.explanation.setVisible(visible)
+        self.equation.setVisible(visible and self._has_equation)
+        self.reveal.setText("Hide the explanation" if visible else "Show the explanation")
+        self.equation_shown.emit(visible and self._has_equation)
+        if visible:
             self._is_revealing = True
             QTimer.singleShot(_LAYOUT_MS, self, self._end_revealing)
             self._show_end()
@@ -272,6 +274,6 @@ class StepPage(QWidget):
         self._is_revealing = False
 
     def _show_end(self) -> None:
-        last = self.equation if self._has_equation else self.answer
-        # Of a widget with text, ensureWidgetVisible shows only the cursor.
+        last = self.equation if self._has_equation else self.explanation
+        # ensureWidgetVisible would show only the cursor of a widget with text.
         self._scroll.ensureVisible(0, last.geometry().bottom(), 0, 8)

@@ -35,7 +35,7 @@ class CompareView(QWidget):
         super().__init__()
         self._pinned = PinnedPair()
         self._drawn: PinnedPair | None = None
-        self._seen = False
+        self._is_visible = False
         self.pins = {
             name: push_button(
                 f"Pin {name}",
@@ -102,14 +102,14 @@ class CompareView(QWidget):
         panes.setSizes([560, 380])
         fill(QVBoxLayout(self), self.hint, row, (panes, 1), None, margins=(4, 2, 4, 2), spacing=2)
 
-    def set_seen(self, seen: bool) -> None:
-        self._seen = seen
-        if seen and self._drawn is not self._pinned:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible and self._drawn is not self._pinned:
             self._redraw()
 
     def show_pinned(self, pinned: PinnedPair) -> None:
         self._pinned = pinned
-        if self._seen:
+        if self._is_visible:
             self._redraw()
 
     def _redraw(self) -> None:
@@ -200,5 +200,5 @@ class ComparePane(Pane[None]):
     def _show(self) -> None:
         self.view.show_pinned(self._pins.pinned)
 
-    def set_seen(self, seen: bool) -> None:
-        self.view.set_seen(seen)
+    def set_visible(self, visible: bool) -> None:
+        self.view.set_visible(visible)

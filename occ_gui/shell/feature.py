@@ -90,7 +90,7 @@ class Service(QObject):
 
 
 class Pane(Service, Generic[Part]):
-    """A widget with its connections, made when its pane is first seen."""
+    """A widget with its connections, made when its pane is first shown."""
 
     made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
     """Widgets that are marked while their results are of an earlier scene."""
@@ -109,7 +109,7 @@ class Pane(Service, Generic[Part]):
     def show_part(self, part: Part) -> None:
         """Show this part of workspace and results in place of the last one."""
 
-    def set_seen(self, seen: bool) -> None:
+    def set_visible(self, visible: bool) -> None:
         """Note whether the pane is visible; parts are shown only while it is."""
 
 

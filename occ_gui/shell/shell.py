@@ -53,7 +53,7 @@ class Shell(QObject):
             dock = window.add_pane(
                 feature.name, feature.title, place, feature.places, feature.default_side
             )
-            dock.visibilityChanged.connect(place.set_seen)
+            dock.visibilityChanged.connect(place.set_visible)
         else:
             self._unseen[feature.name] = feature
         self._entries.append((feature, window.actions_by_name))
@@ -77,7 +77,7 @@ class Shell(QObject):
     def embed(self, feature: Feature[Any]) -> QWidget:
         """Return a widget for a feature that is part of another pane, which shows and hides it."""
         place = self._place(feature)
-        place.shown.connect(place.set_seen)
+        place.shown.connect(place.set_visible)
         return place
 
     def _place(self, feature: Feature[Any]) -> "_PaneHolder":
@@ -155,7 +155,7 @@ class _PaneHolder(QWidget):
     def __init__(self, feature: Feature[Any], shell: Shell) -> None:
         super().__init__()
         self.feature, self._shell = feature, shell
-        self._is_seen = False
+        self._is_visible = False
         self._shown: Any = None
         self.pane: Pane[Any] | None = None
         self._note = paragraph(name=feature.title)
@@ -189,13 +189,13 @@ class _PaneHolder(QWidget):
             self.show_change()
         return self.pane
 
-    def set_seen(self, seen: bool) -> None:
-        self._is_seen = seen
-        if seen and not self.is_away:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible and not self.is_away:
             self.make_pane()
         self.show_change()
         if self.pane is not None:
-            self.pane.set_seen(seen and not self.is_away)
+            self.pane.set_visible(visible and not self.is_away)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -214,9 +214,9 @@ class _PaneHolder(QWidget):
             self._note.setVisible(is_away)
             if self.pane is not None:
                 self.pane.widget.setHidden(is_away)
-            if self._is_seen:
-                self.set_seen(True)
-        if is_away or self.pane is None or not (self._is_seen or self.feature.updates_hidden):
+            if self._is_visible:
+                self.set_visible(True)
+        if is_away or self.pane is None or not (self._is_visible or self.feature.updates_hidden):
             return
         part = self.feature.part(self._shell._store.workspace, self._shell._results_store.results)
         if part is not None and part != self._shown:

@@ -124,7 +124,7 @@ class FilmController(QObject):
         self.is_live = False  # whether the film comes from a camera, which keeps no frames
         self.last_live: VideoFrame | None = None
         """The last frame of a camera; it stays when the camera is gone."""
-        self._is_seen = False
+        self._is_visible = False
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
         self.opener = ResultUpdater(
@@ -166,9 +166,9 @@ class FilmController(QObject):
             settings=self._scenes.settings.settings,
         )  # fmt: skip
 
-    def set_seen(self, seen: bool) -> None:
-        self._is_seen = seen
-        if seen:
+    def set_visible(self, visible: bool) -> None:
+        self._is_visible = visible
+        if visible:
             self.show()
         else:
             self.player.pause()
@@ -218,7 +218,7 @@ class FilmController(QObject):
             self.show()
 
     def show(self) -> None:
-        if not self._is_seen or (self.is_live and self.last_live is None):
+        if not self._is_visible or (self.is_live and self.last_live is None):
             return
         is_fast = self.player.is_playing or self.is_live
         self.loader.ask(

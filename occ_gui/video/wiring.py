@@ -117,12 +117,12 @@ class VideoWiring(Pane[FilmChoice]):
         endless = self.readings.runner if self.live.is_filming else None
         return all(task.is_idle for task in self.tasks if task is not endless)
 
-    def set_seen(self, seen: bool) -> None:
+    def set_visible(self, visible: bool) -> None:
         """Show frames while the pane is visible; release the camera when it is hidden."""
-        if not seen:
+        if not visible:
             self.live.stop_filming()
             self._show_bar()
-        self.films.set_seen(seen)
+        self.films.set_visible(visible)
 
     def open(self, path: Path) -> None:
         self.live.stop_filming()

@@ -348,7 +348,7 @@ class Monkey:
 
     def choose_a_lesson(self) -> None:
         guide = self._guide()
-        guide.step.all.click()
+        guide.step.all_lessons.click()
         self._random.choice(guide.list.choices).click()
 
     def step_on_or_back(self) -> None:
@@ -360,7 +360,7 @@ class Monkey:
         self._random.choice(buttons).click()
 
     def leave_the_lesson(self) -> None:
-        self._guide().step.all.click()
+        self._guide().step.all_lessons.click()
 
     def save_the_scene(self) -> None:
         self._dialogs.lay_ready(self._folder / "scene.toml")

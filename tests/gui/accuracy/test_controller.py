@@ -114,7 +114,7 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_while_visible_the_points_come_one_by_one_and_only_once(bench: Bench) -> None:
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
     assert "finished" not in bench.pane.received
@@ -122,15 +122,15 @@ def test_while_visible_the_points_come_one_by_one_and_only_once(bench: Bench) ->
     bench.wait_until_idle()
     assert bench.pane.received == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
     assert bench.requests == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
-    bench.controller.set_seen(False)
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(False)
+    bench.controller.set_visible(True)
     assert bench.controller.runner.is_idle
     bench.wait_until_idle()
     assert bench.pane.received[-1] == "finished"
 
 
 def test_a_change_cancels_the_study_and_the_next_one_includes_it(bench: Bench) -> None:
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
     bench.scenes.change(iso=200.0)
@@ -145,10 +145,10 @@ def test_a_change_cancels_the_study_and_the_next_one_includes_it(bench: Bench) -
 
 
 def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot: QtBot) -> None:
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
-    bench.controller.set_seen(False)
+    bench.controller.set_visible(False)
     qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
     assert bench.controller.is_idle
     assert bench.pane.received[-1] == "outdated"
@@ -156,7 +156,7 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
     qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
     qtbot.wait(2 * IDLE_MS)
     assert bench.controller.is_idle, "the pane is hidden"
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
     assert bench.pane.received[-1] == "finished"
@@ -167,7 +167,7 @@ def test_the_study_waits_while_a_picture_is_simulated(
 ) -> None:
     bench.scenes.change(iso=123.0)
     assert not bench.simulation.runner.is_idle
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     qtbot.waitUntil(lambda: bench.controller.is_idle)
     assert bench.requests == []
     release.set()
@@ -182,7 +182,7 @@ def test_a_study_that_fails_gives_the_reason_and_is_not_repeated(
         raise occ.ProjectionError("The panel is behind the camera.")
 
     monkeypatch.setattr(cost_measurement, "accuracy", refuse)
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.wait_until_idle()
     assert bench.pane.received == ["begun", "The panel is behind the camera."]
 
@@ -292,7 +292,7 @@ def test_all_stated_times_of_a_scene_are_of_one_measurement(
 
 def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
     before = len(bench.pane.forecasts)
     bench.settings.set_tolerance(math.inf)

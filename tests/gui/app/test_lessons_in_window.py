@@ -50,7 +50,7 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_a_pane_without_a_row_i
     assert application.store.scene == step.scene
     assert application.store.undo_stack.count() == 1
     assert guide.step.question.text() == step.question
-    assert "step 1 of 3" in guide.step.place.text()
+    assert "step 1 of 3" in guide.step.position.text()
     assert not guide.step.back.isEnabled()
     # The row of the story shows the profile, larger than beside a pane of it.
     assert step.pane == "profile"
@@ -58,7 +58,7 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_a_pane_without_a_row_i
     assert application.window.docks["profile"].isHidden()
     user.choose("&Undo")
     assert application.store.scene == small_scene
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     lesson = next(each for each in lessons().lessons if each.steps[0].pane == "accuracy")
     guide.list.choices[lessons().lessons.index(lesson)].click()
     user.wait_until_idle()
@@ -116,7 +116,7 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     values = [record["view"][name] for name in ("decoder", "picture_kind", "is_enhanced")]
     assert values == ["matched", "receiver", True]
     assert record["photo"]["path"] == str(photo_file)
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     user.wait_until_idle()
     application.store.change(distance=2.0)
     session.write()
@@ -159,7 +159,7 @@ def test_a_lesson_keeps_the_number_of_visible_columns_while_the_scene_changes(
         application.store.change(readout_time=readout)
         user.wait_until_idle()
         assert story.rows.axis.span == pytest.approx(span)
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     user.wait_until_idle()
     assert story.rows.ranges["packets"].text() == "2 packets"
     assert story.rows.axis.span == pytest.approx(usual)
@@ -204,5 +204,5 @@ def test_a_lab_sheet_has_buttons_for_its_actions(
     assert last.match is application.shell.pane("photo").matching.match is match
     assert last.photo == "led-1khz.jpg"
     assert first.match is None
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     user.wait_until_idle()

@@ -60,7 +60,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     for name in ("picture", "profile", "decode", "accuracy"):
         application.view(name)
     application.window.bring_to_front("equations")
-    application.shell.pane("equations").set_seen(True)
+    application.shell.pane("equations").set_visible(True)
     assert {mark.parentWidget() for mark in marks(application)} == {
         application.story.rows.stripes,
         application.view("picture").simulation,

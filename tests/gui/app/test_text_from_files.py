@@ -121,11 +121,11 @@ def test_a_lessons_title_is_plain_text(
     qtbot.addWidget(view)
     controller = LessonController(application.store.store, application.results_store, view, answers)
     answers.runner.stop()
-    controller.set_seen(True)
+    controller.set_visible(True)
     assert plain(view.list.choices[0].text()).startswith(f"{TAG} & co")
     controller.choose(hostile[0].name)
-    assert view.step.place.textFormat() == Qt.TextFormat.PlainText
-    assert view.step.place.text().startswith(f"{TAG} & co · step 1")
+    assert view.step.position.textFormat() == Qt.TextFormat.PlainText
+    assert view.step.position.text().startswith(f"{TAG} & co · step 1")
 
 
 def test_a_name_that_is_not_utf_8_is_shown_and_listed(

@@ -89,7 +89,7 @@ def advice_bench(
     """Ask for advice, and wait for it."""
     map_bench.workers = inline_workers
     monkeypatch.setattr(advice_worker, "limits", find_limits)
-    monkeypatch.setattr(map_bench.pane.map, "set_seen", lambda _: None)  # not tested here
+    monkeypatch.setattr(map_bench.pane.map, "set_visible", lambda _: None)  # not tested here
     map_bench.see("map")
     map_bench.view.advise.click()
     qtbot.waitUntil(lambda: map_bench.pane.advisor.channel.is_idle)

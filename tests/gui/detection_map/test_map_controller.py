@@ -55,7 +55,7 @@ class Bench:
         return self.controller.map
 
     def look(self) -> RateMap:
-        self.controller.set_seen(True)
+        self.controller.set_visible(True)
         return self.wait_until_idle()
 
 
@@ -104,7 +104,7 @@ def test_a_coarse_map_comes_first_and_no_point_is_measured_again(
     assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(16))
     assert {index for index, _ in points[:4]} == {4 * x + y for x in (0, 3) for y in (0, 3)}
     before = len(bench.workers.jobs)
-    bench.controller.set_seen(False)
+    bench.controller.set_visible(False)
     bench.look()
     assert len(bench.workers.jobs) == before
 
@@ -119,7 +119,7 @@ def test_nothing_is_measured_while_the_map_is_hidden(
     assert bench.queue.workers is None
     bench.scenes.undo_stack.undo()
     bench.look()
-    bench.controller.set_seen(False)
+    bench.controller.set_visible(False)
     before = len(bench.workers.jobs)
     bench.scenes.change(iso=400.0)
     qtbot.wait(30)
@@ -259,7 +259,7 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
         return controller.awaits_first_points
 
     assert not waits()
-    controller.set_seen(True)
+    controller.set_visible(True)
     assert waits()
     bench.wait_until_idle()
     assert waits_at_maps
@@ -268,7 +268,7 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
     assert controller.complete[0] is controller.map
     bench.scenes.change(iso=200.0)
     assert waits()
-    controller.set_seen(False)
+    controller.set_visible(False)
     assert not waits()
     assert controller.complete is None, "the map is of another scene"
 

@@ -84,7 +84,7 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
 def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench) -> None:
     store, decoder = bench.scenes.store, "matched"
     store.put(replace(store.workspace, decoder=decoder))
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     fractions = bench.wait_until_idle()
     scene = bench.scenes.scene
     for name in NAMES:
@@ -99,15 +99,15 @@ def test_nothing_is_measured_while_the_strips_are_hidden(bench: Bench, qtbot: Qt
     bench.scenes.change(exposure_time=136e-6)
     qtbot.wait(30)
     assert bench.list_measured() == []
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.wait_until_idle()
     assert set(bench.list_measured()) == set(NAMES)
-    bench.controller.set_seen(False)
+    bench.controller.set_visible(False)
     bench.scenes.change(exposure_time=68e-6)
     qtbot.wait(30)
     assert bench.list_measured() == []
     bench.scenes.change(pattern="10")
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     assert set(bench.wait_until_idle()["iso"]) == {None}
 
 
@@ -119,7 +119,7 @@ def test_where_a_plug_in_fails_the_rate_is_unknown() -> None:
 
 
 def test_moving_a_slider_does_not_change_its_own_strip(bench: Bench) -> None:
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     before = bench.wait_until_idle()
     bench.list_measured()
     bench.scenes.change(switching_frequency=40e3)
@@ -130,7 +130,7 @@ def test_moving_a_slider_does_not_change_its_own_strip(bench: Bench) -> None:
 
 
 def test_rates_are_measured_once_at_the_end_of_a_movement(bench: Bench) -> None:
-    bench.controller.set_seen(True)
+    bench.controller.set_visible(True)
     bench.wait_until_idle()
     bench.list_measured()
     assert bench.list_outdated() == dict.fromkeys(NAMES, False)

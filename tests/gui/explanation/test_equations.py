@@ -96,16 +96,16 @@ def test_equations_follow_the_scene_only_while_they_are_visible(small_scene: Sce
     controller = EquationController(store, lambda *what: shown.append(what))
     store.change(iso=200.0)
     assert shown == []
-    controller.set_seen(True)
+    controller.set_visible(True)
     assert shown == [(equations(store.scene), NOTHING)]
     store.change(iso=300.0, exposure_time=1e-4)
     assert shown[1:] == [(equations(store.scene), {"iso", "exposure_time"})]
-    controller.set_seen(False)
+    controller.set_visible(False)
     store.change(iso=400.0)
-    controller.set_seen(True)
+    controller.set_visible(True)
     assert shown[2:] == [(equations(store.scene), NOTHING)]
-    controller.set_seen(False)
-    controller.set_seen(True)
+    controller.set_visible(False)
+    controller.set_visible(True)
     assert len(shown) == 3
 
 

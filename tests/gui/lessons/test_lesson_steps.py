@@ -80,7 +80,7 @@ def test_check_formula_explanation_and_report_use_the_present_scene(
     guide.step.reveal.click()
     assert "18.2 columns" in guide.step.equation.toPlainText()
     assert guide.step.equation.toPlainText().count("Columns") == 1
-    assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
+    assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.explanation.text()
     lesson = not_none(bench.pane.controller.current)
     (first, *others) = bench.pane.answers.list_steps(lesson)
     assert first.scene == bench.scenes.scene
@@ -101,10 +101,10 @@ def test_the_values_of_a_question_must_be_set_before_an_answer_is_judged(
     assert bench.answer("25") == "→  First set Readout time to 20 µs, as in the question."
     bench.scenes.change(readout_time=20e-6)
     assert "Right" in bench.answer("25")
-    assert "own scene" not in guide.step.answer.text()
+    assert "own scene" not in guide.step.explanation.text()
     bench.scenes.change(readout_time=18e-6)
     assert sentence.text().endswith("The scene has changed since: check again.")
-    guide.step.again.click()
+    guide.step.reset.click()
     assert "has changed" not in sentence.text()
 
 
@@ -128,20 +128,20 @@ def test_question_answer_and_check_stay_in_view_however_long_the_text(
         assert page.rect().contains(QRect(widget.mapTo(page, QPoint()), widget.size()))
         assert not widget.visibleRegion().isEmpty()
     page.reveal.click()
-    qtbot.waitUntil(lambda: not page.answer.visibleRegion().isEmpty())
+    qtbot.waitUntil(lambda: not page.explanation.visibleRegion().isEmpty())
 
 
 def test_a_step_states_what_is_changed_and_which_numbers_belong_to_which_scene(
     bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
-    changed = guide.step.changed
+    changed = guide.step.changes
     assert not changed.isVisible()
     bench.scenes.change(readout_time=19e-6)
     assert changed.isVisible()
     assert "Readout time is 19 µs instead of 8 µs." in changed.text()
     assert "check and report belong to your scene" in changed.text()
-    guide.step.again.click()
+    guide.step.reset.click()
     assert not changed.isVisible()
     bench.scenes.change(readout_time=19e-6)
     guide.step.next.click()
@@ -173,7 +173,7 @@ def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     assert bench.scenes.scene == before
     bench.enter("readout_time", "20 µs")
     assert bench.scenes.scene.camera.readout_time == 20e-6
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     assert not bench.pane.spotlight.is_on
     assert rows["iso"].graphicsEffect() is None
     assert all(row.isEnabled() for row in rows.values())
@@ -235,8 +235,8 @@ def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
     assert not QRect(report.mapTo(guide, QPoint()), report.size()).contains(spot)
     assert guide.end.next.text() == "Next lesson: Past the shutter speed"
     guide.end.next.click()
-    assert guide.step.place.text().startswith("Past the shutter speed · step 1")
-    guide.step.all.click()
+    assert guide.step.position.text().startswith("Past the shutter speed · step 1")
+    guide.step.all_lessons.click()
     guide.list.choices[-1].click()
     while guide.step.next.text() != "Done":
         guide.step.next.click()
@@ -288,7 +288,7 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     guide.step.back.click()
     bench.wait_until_idle()
     assert bench.photos.path is None
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     bench.wait_until_idle()
     assert bench.photos.path == sample
     assert bench.photos.choice.form.sent == "lamp"

@@ -31,13 +31,13 @@ def test_opening_the_lessons_lists_them_and_changes_nothing(
     assert bench.scenes.scene == small_scene
     assert bench.scenes.undo_stack.count() == 0
     guide.list.choices[1].click()
-    assert not guide.step.answer.isVisible()
+    assert not guide.step.explanation.isVisible()
     guide.step.reveal.click()
-    assert guide.step.answer.isVisible()
-    assert "<i>t</i><sub>r</sub>" in guide.step.answer.text()
+    assert guide.step.explanation.isVisible()
+    assert "<i>t</i><sub>r</sub>" in guide.step.explanation.text()
     assert guide.step.reveal.text() == "Hide the explanation"
     guide.step.next.click()
-    assert not guide.step.answer.isVisible()
+    assert not guide.step.explanation.isVisible()
     assert guide.step.reveal.text() == "Show the explanation"
 
 
@@ -49,27 +49,27 @@ def test_back_next_and_again_set_the_scene_and_progress_is_kept_and_ticked(
     guide.step.next.click()
     assert bench.scenes.scene == steps[1].scene
     bench.scenes.change(switching_frequency=9e3)
-    guide.step.again.click()
+    guide.step.reset.click()
     assert bench.scenes.scene == steps[1].scene
     guide.step.back.click()
     assert bench.scenes.scene == steps[0].scene
     guide.step.next.click()
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     assert guide.list.choices[0].text().endswith("(step 2 of 3)")
     assert guide.list.choices[1].text().endswith(" steps)")
     bench.see("lessons", False)
     bench.see("lessons")
     guide.list.choices[0].click()
-    assert "step 2 of 3" in guide.step.place.text()
+    assert "step 2 of 3" in guide.step.position.text()
     guide.step.next.click()
     assert guide.step.next.text() == "Done"
     assert bench.scenes.scene == steps[2].scene
     guide.step.next.click()
     assert guide.end.title.text() == "Done: What is a rolling shutter?"
-    guide.end.all.click()
+    guide.end.all_lessons.click()
     assert guide.list.choices[0].text().startswith("✓ ")
     guide.list.choices[0].click()
-    assert "step 1 of 3" in guide.step.place.text()
+    assert "step 1 of 3" in guide.step.position.text()
 
 
 def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: LessonView) -> None:
@@ -78,12 +78,12 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: 
     guide.list.choices[5].click()
     bench.wait_until_idle()
     assert bench.scenes.scene == lessons().lessons[5].steps[0].scene
-    guide.step.again.click()
+    guide.step.reset.click()
     bench.wait_until_idle()
     guide.step.next.click()
     bench.wait_until_idle()
     assert names == ["led-1khz", "packets-6khz"]
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     guide.list.choices[1].click()
     bench.wait_until_idle()
     assert names == ["led-1khz", "packets-6khz", ""]
@@ -98,14 +98,14 @@ def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_du
     guide.list.choices[1].click()
     bench.wait_until_idle()
     assert bench.photos.path is None
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     bench.wait_until_idle()
     assert bench.photos.path == photo_file
     assert bench.photos.choice.form.sent == "read"
     guide.list.choices[5].click()
     bench.wait_until_idle()
     assert bench.photos.path != photo_file
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     bench.wait_until_idle()
     assert bench.photos.path == photo_file
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
@@ -117,7 +117,7 @@ def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_du
     other = Path(shutil.copy(photo_file, photo_file.with_name("other.png")))
     bench.photos.open(other)  # during a lesson
     bench.wait_until_idle()
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     bench.wait_until_idle()
     assert bench.photos.path == other
 
@@ -157,7 +157,7 @@ def test_a_sample_that_is_still_being_read_is_not_opened_after_its_step(
         guide.step.next.click()
     assert not photos.work.task.is_idle
     if is_left:
-        guide.step.all.click()
+        guide.step.all_lessons.click()
     else:
         for _ in with_photo:
             guide.step.next.click()
@@ -218,11 +218,11 @@ def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
     bench.wait_until_idle()
     assert guide.end.isVisible()
     assert store.workspace == own
-    guide.end.all.click()
+    guide.end.all_lessons.click()
     guide.list.choices[number].click()
     bench.wait_until_idle()
     assert view_of(store.workspace) == view_of(first)
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     bench.wait_until_idle()
     assert store.workspace == own
 
@@ -239,7 +239,7 @@ def test_undo_within_a_step_loses_nothing_of_the_users(
     bench.scenes.undo_stack.undo()
     assert bench.scenes.scene == small_scene
     guide.step.next.click()
-    guide.step.all.click()
+    guide.step.all_lessons.click()
     bench.wait_until_idle()
     assert bench.store.workspace == own
 

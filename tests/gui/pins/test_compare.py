@@ -128,7 +128,7 @@ def test_an_impossible_command_is_answered_with_a_sentence(pins: PinController) 
 @pytest.fixture
 def view(qtbot: QtBot) -> CompareView:
     view = show_widget(qtbot, CompareView(), 660, 260)
-    view.set_seen(True)
+    view.set_visible(True)
     return view
 
 
@@ -191,11 +191,11 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
 def test_a_hidden_view_draws_nothing_until_it_is_shown(
     view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
-    view.set_seen(False)
+    view.set_visible(False)
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
     view.show_pinned(pins.pinned)
     assert view.table.rowCount() == 0
-    view.set_seen(True)
+    view.set_visible(True)
     assert view.table.rowCount() > 0
 
 

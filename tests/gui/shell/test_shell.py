@@ -23,14 +23,14 @@ class Noting(Pane[object]):
     def __init__(self) -> None:
         super().__init__(QLabel())
         self.parts: list[object] = []
-        self.seen: list[bool] = []
+        self.visibilities: list[bool] = []
         self.is_busy = self.is_stopped = False
 
     def show_part(self, part: object) -> None:
         self.parts.append(part)
 
-    def set_seen(self, seen: bool) -> None:
-        self.seen.append(seen)
+    def set_visible(self, visible: bool) -> None:
+        self.visibilities.append(visible)
 
     @property
     def is_idle(self) -> bool:
@@ -114,7 +114,7 @@ def test_a_hidden_pane_is_updated_when_it_is_shown_again(bench: Bench) -> None:
     assert len(bench.pane.parts) == 1
     bench.see(True)
     assert bench.pane.parts[1:] == [(300.0, None)]
-    assert bench.pane.seen == [True, False, True]
+    assert bench.pane.visibilities == [True, False, True]
 
 
 def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
@@ -162,10 +162,10 @@ def test_a_pane_about_codes_is_away_while_another_light_is_sent(qtbot: QtBot) ->
     send("code")
     pane = shell.pane("x")
     assert (note.isHidden(), pane.widget.isHidden()) == (True, False)
-    assert (pane.seen, len(pane.parts)) == ([True], 1)
+    assert (pane.visibilities, len(pane.parts)) == ([True], 1)
     send("mains")
     assert (note.isHidden(), pane.widget.isHidden()) == (False, True)
-    assert (pane.seen, len(pane.parts)) == ([True, False], 1)
+    assert (pane.visibilities, len(pane.parts)) == ([True, False], 1)
     send("code")
-    assert pane.seen == [True, False, True]
+    assert pane.visibilities == [True, False, True]
     shell.stop()

@@ -36,7 +36,7 @@ def pane(qtbot: QtBot, scenes: SceneStore) -> Iterator[VideoWiring]:
     qtbot.addWidget(wiring.view)
     wiring.view.resize(640, 600)
     wiring.view.show()
-    wiring.set_seen(True)
+    wiring.set_visible(True)
     qtbot.waitUntil(lambda: wiring.is_idle)
     yield wiring
     wiring.stop()

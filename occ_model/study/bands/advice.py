@@ -52,7 +52,7 @@ def band_advice(scene: Scene, limit: float = NO_BARS_DEPTH) -> BandAdvice:
         over.axis,
         limit,
         over.period / over.axis.frequency,
-        1.0 / over.flicker_frequency if over.of_flicker else 0.0,
+        1.0 / over.flicker_frequency if over.flicker_swing else 0.0,
         exposures,
         all_exposures,
         frequencies,
@@ -76,7 +76,7 @@ def speed_depths(scene: Scene) -> tuple[SpeedDepth, ...]:
 def _exposures(over: DepthOver, limit: float) -> tuple[Ranges, float | None]:
     allowed, frequency = quantity("exposure_time"), over.axis.frequency
     # The lamp's bars fall as 1 / (f t), the flicker's as 1 / (pi F t).
-    end = (over.most / frequency + over.most_flicker / over.flicker_frequency) / limit
+    end = (over.lamp_bound / frequency + over.flicker_bound / over.flicker_frequency) / limit
     nulls = np.arange(1, int(min(end * over.flicker_frequency, MAX_NODES)) + 1)
     nodes = [over.nodes_to(end * frequency) / frequency, nulls / over.flicker_frequency]
 
@@ -91,7 +91,7 @@ def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges
     left = limit - float(over.depth_of_flicker(np.array([exposure]))[0])
     if left <= 0.0:
         return (), None
-    end = over.most / left
+    end = over.lamp_bound / left
 
     def depths(frequencies: FloatArray) -> FloatArray:
         return over.bound_of_lamp(frequencies * exposure)
@@ -103,8 +103,8 @@ def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges
 def _split(ranges: list[tuple[float, float]], highest: float) -> tuple[Ranges, float | None]:
     """Separate the last range, which extends to infinity, from those before."""
     *others, last = ranges
-    ranges = tuple((low, min(high, highest)) for low, high in others if low < highest)
-    return ranges, last[0] if last[0] < highest else None
+    finite = tuple((low, min(high, highest)) for low, high in others if low < highest)
+    return finite, last[0] if last[0] < highest else None
 
 
 def _below(

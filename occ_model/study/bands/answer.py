@@ -1,4 +1,4 @@
-"""Bars answered in one line: which shutter speeds show none of a lamp's bars, and which films."""
+"""State which shutter speeds show no bars of a lamp, and how its bars move in films."""
 
 import math
 from fractions import Fraction
@@ -24,52 +24,58 @@ FRAME_RATES = {
 
 _ROUNDING_ROWS = 1e-9  # difference from whole cycles, in rows, that is a rounding error
 
-_NEAR = 32.0  # farthest ratio of a shutter speed that is advised to that asked about
+_LARGEST_RATIO = 32.0  # of an advised shutter speed and the scene's, either way
 _MOST_SPEEDS = 2
-_SINES_PER_PIECE = 4
+_SINES_PER_PIECE = 4  # sines that are searched per duration of the shortest piece of light
 _MOST_SINES = 5
 
 
 def bars_answer(scene: Scene, *, knows_readout: bool = True, rows: int = 0) -> BarsAnswer:
-    """Return which shutter speeds show no bars of a light, and how deep they are at the scene's.
+    """Return which shutter speeds show no bars of a light, and the bars' depth at the scene's.
 
     Parameters
     ----------
     knows_readout
-        Whether the scene's readout time is known: the answer then has the lines from bar to bar.
+        Whether the scene's readout time is known; if so, the answer states the lines from bar to
+        bar.
     rows
-        How many rows, or groups of rows, of a panel are lit in turn, each for an equal part of the
-        light's period; 0 for other lamps.
+        Number of rows, or groups of rows, of a panel that are lit in turn, each for an equal part
+        of the light's period; 0 for other lamps.
     """
-    exposure, sent = scene.camera.exposure_time, scene.transmitter
-    period = repeat_time(sent) if light_fractions(scene)[0] else Fraction(0)
-    near = [each for each in speed_depths(scene) if 1.0 / _NEAR <= each.nominal / exposure <= _NEAR]
-    sines = () if has_chips(sent) else _deepest_sines(scene)
+    exposure, transmitter = scene.camera.exposure_time, scene.transmitter
+    period = repeat_time(transmitter) if light_fractions(scene)[0] else Fraction(0)
+    speeds_nearby = [
+        speed for speed in speed_depths(scene)
+        if 1.0 / _LARGEST_RATIO <= speed.nominal / exposure <= _LARGEST_RATIO
+    ]  # fmt: skip
+    sines = () if has_chips(transmitter) else _deepest_sines(scene)
     return BarsAnswer(
-        lamp=describe_light(sent),
+        lamp=describe_light(transmitter),
         exposure=exposure,
         depth=light_depth(scene).peak_to_peak,
-        speeds=_advised(near, exposure),
-        best=min(near, key=lambda each: each.at_nominal, default=None),
+        speeds=_choose_speeds(speeds_nearby, exposure),
+        best=min(speeds_nearby, key=lambda speed: speed.at_nominal, default=None),
         valley=float(period),
-        columns=_columns_of(scene, sines[0][1]) if knows_readout and sines else None,
-        rates=_beats_of(sines, exposure),
+        columns=_columns_per_bar(scene, sines[0][1]) if knows_readout and sines else None,
+        rates=_compute_beats(sines, exposure),
         rows=unlit_rows(rows, float(1 / period), exposure) if rows and period else None,
     )
 
 
-def _advised(near: list[SpeedDepth], exposure: float) -> tuple[SpeedDepth, ...]:
-    """Return the nearest speeds without bars: first those that show none on any camera."""
-    free = [each for each in near if each.at_nominal < NO_BARS_DEPTH]
-    free.sort(key=lambda each: (not each.is_free, abs(math.log(each.nominal / exposure))))
-    return tuple(sorted(free[:_MOST_SPEEDS], key=lambda each: -each.nominal))
+def _choose_speeds(speeds: list[SpeedDepth], exposure: float) -> tuple[SpeedDepth, ...]:
+    """Return the nearest speeds without bars: before others those that show none on any camera."""
+    without_bars = [speed for speed in speeds if speed.at_nominal < NO_BARS_DEPTH]
+    without_bars.sort(
+        key=lambda speed: (not speed.is_free, abs(math.log(speed.nominal / exposure)))
+    )
+    return tuple(sorted(without_bars[:_MOST_SPEEDS], key=lambda speed: -speed.nominal))
 
 
 def _deepest_sines(scene: Scene) -> tuple[tuple[float, Fraction], ...]:
-    """Return depth and frequency in Hz of the sines whose bars are deep enough, deepest first."""
+    """Return depth and frequency in Hz of the sines with visible bars, deepest first."""
     sines = sines_of(scene.transmitter, _SINES_PER_PIECE)
-    left = sines.in_exposure(Fraction(scene.camera.exposure_time))
-    depths = 2.0 * light_fractions(scene)[0] * left
+    amplitudes = sines.in_exposure(Fraction(scene.camera.exposure_time))
+    depths = 2.0 * light_fractions(scene)[0] * amplitudes
     return tuple(
         (float(depths[place]), sines.base * int(sines.orders[place]))
         for place in np.argsort(-depths, kind="stable")[:_MOST_SINES].tolist()
@@ -77,7 +83,7 @@ def _deepest_sines(scene: Scene) -> tuple[tuple[float, Fraction], ...]:
     )
 
 
-def _columns_of(scene: Scene, frequency: Fraction) -> float:
+def _columns_per_bar(scene: Scene, frequency: Fraction) -> float:
     """Return the columns from bar to bar, as the columns sample the light."""
     step = frequency * Fraction(scene.camera.readout_time)
     step = abs(step - round(step))
@@ -85,36 +91,37 @@ def _columns_of(scene: Scene, frequency: Fraction) -> float:
 
 
 def frame_rate_beats(scene: Scene) -> tuple[FrameRateBeats, ...]:
-    """Return what becomes of a light's bars at the usual frame rates that its exposure allows.
+    """Return how a light's bars move at the usual frame rates that the exposure allows.
 
-    From frame to frame a sine of frequency F moves on by F / R cycles at the rate R. Whole cycles
-    do not show: its bars come back |F - R round(F / R)| times a second.
+    From frame to frame a sine of frequency F advances by F / R cycles at the rate R, of which only
+    the fraction shows: its bars return to a place |F - R round(F / R)| times a second.
     """
-    return _beats_of(_deepest_sines(scene), scene.camera.exposure_time)
+    return _compute_beats(_deepest_sines(scene), scene.camera.exposure_time)
 
 
-def _beats_of(
+def _compute_beats(
     sines: tuple[tuple[float, Fraction], ...], exposure: float
 ) -> tuple[FrameRateBeats, ...]:
-    def beats(rate: Fraction) -> tuple[Beat, ...]:
+    def beats_at(rate: Fraction) -> tuple[Beat, ...]:
         return tuple(
-            Beat(depth, float(abs(sine - rate * round(sine / rate)))) for depth, sine in sines
+            Beat(depth, float(abs(frequency - rate * round(frequency / rate))))
+            for depth, frequency in sines
         )
 
     return tuple(
-        FrameRateBeats(name, float(rate), beats(rate))
+        FrameRateBeats(name, float(rate), beats_at(rate))
         for name, rate in FRAME_RATES.items()
         if sines and Fraction(exposure) * rate <= 1
     )
 
 
 def unlit_rows(rows: int, frequency: float, exposure: float) -> UnlitRows:
-    """Return which rows of a panel lit row by row one exposure leaves dark, and which it cuts.
+    """Return the fractions of the rows of a panel, lit in turn, that are dark or cut short.
 
     Each of n rows is lit for 1 / n of a cycle, one after the other. An exposure of a fraction of a
-    cycle, w rows long, lights w + 1 of them on average over its starts, of which it cuts the first
-    and the last; further whole cycles light all. This holds for a shutter that opens for all lines
-    at once, and on average for one that reads line by line.
+    cycle, w rows long, lights w + 1 of them on average over its starts, of which the first and the
+    last are cut short; further whole cycles light all. This holds for a shutter that opens for all
+    lines at once, and on average for one that reads line by line.
 
     Parameters
     ----------
@@ -136,6 +143,8 @@ def unlit_rows(rows: int, frequency: float, exposure: float) -> UnlitRows:
             raise ParameterError.of(name, shown(value), "above 0")
     cycles = Fraction(frequency) * Fraction(exposure)
     lit = (cycles % 1) * rows  # rows long
-    none, whole = max(Fraction(0), rows - 1 - lit) / rows, max(Fraction(0), lit - 1) / rows
+    dark, fully_lit = max(Fraction(0), rows - 1 - lit) / rows, max(Fraction(0), lit - 1) / rows
     cuts = min(lit, rows - lit) > _ROUNDING_ROWS
-    return UnlitRows(float(none) if cycles < 1 else 0.0, float(1 - none - whole) if cuts else 0.0)
+    return UnlitRows(
+        float(dark) if cycles < 1 else 0.0, float(1 - dark - fully_lit) if cuts else 0.0
+    )

@@ -33,15 +33,15 @@ _NO_DEPTH = Depth(0.0, 0.0)
 
 _SINES_PER_PIECE = 4  # sines of the light that are searched; higher ones are below a quarter
 _ROUNDING_LIGHT = 1e-12  # part of a column's exposure that is lit by rounding errors
-_PADDING = 4  # times that a spectrum is finer than its columns tell apart
-_WINDOW_BINS = 0.75  # of unpadded columns, within which a sine lies from its peak
+_PADDING = 4  # length of the zero-padded spectrum, divided by the number of columns
+_WINDOW_BINS = 0.75  # largest distance of a sine from its peak, in bins without padding
 
 
 def band_depth(scene: Scene) -> BandDepth:
     """Return the depth of the bars of a scene's light, and what of it the scene's picture shows.
 
-    The depth of the light is taken over all starts of an exposure within the light's period, and
-    over all phases of the ambient flicker, which is not synchronous with it. Its relative error is
+    The depth of the light covers all starts of an exposure within the light's period, and all
+    phases of the ambient flicker, which is not synchronous with it. Its relative error is
     below 1e-9 with sharp edges; with LED edges it is below 1e-13 of the mean. The picture's columns
     are those of the scene: they start where its readout time and start time put them. LED edges,
     flicker, tone curve, saturation and full well are included; noise, blur and vignetting are not.
@@ -53,25 +53,25 @@ def band_depth(scene: Scene) -> BandDepth:
     """
     columns = _column_light(scene)
     dark, bright = luminance_levels(scene)
-    of_columns = dark * columns.ambient + (bright - dark) * columns.lit
+    light = dark * columns.ambient + (bright - dark) * columns.lit
     frequency, period = 0.0, math.inf
-    if _depth(of_columns).peak_to_peak > ROUNDING_DEPTH:
-        frequency, period = _strongest_part(scene, of_columns)
+    if _depth(light).peak_to_peak > ROUNDING_DEPTH:
+        frequency, period = _find_strongest_sine(scene, light)
     values = panel_values(scene, columns)
     pixels = np.minimum(saturate(values), saturation_value(scene))
     depth = BandDepth(
         light=light_depth(scene),
-        columns=_depth(of_columns),
+        columns=_depth(light),
         pixel=_depth(pixels),
         frequency=frequency,
         period=period,
         contrast=_contrast(pixels),
         threshold=contrast_threshold(scene, period),
     )
-    return replace(depth, hidden=_what_hides(depth, pixels, values, _extremes(scene)))
+    return replace(depth, hidden=_explain_invisible_bars(depth, pixels, values, _extremes(scene)))
 
 
-def _what_hides(
+def _explain_invisible_bars(
     depth: BandDepth, pixels: FloatArray, values: FloatArray, extremes: FloatArray
 ) -> str:
     """Return why the picture does not show the light's bars, as a clause; empty if it does.
@@ -84,9 +84,9 @@ def _what_hides(
         return ""
     if _contrast(values) > depth.threshold:
         return "the picture is overexposed"
-    shows_part = depth.columns.peak_to_peak < 0.5 * depth.light.peak_to_peak
-    if shows_part and _contrast(extremes) > depth.threshold:
-        return "the picture's columns all start at like places of the light's period"
+    is_reduced = depth.columns.peak_to_peak < 0.5 * depth.light.peak_to_peak
+    if is_reduced and _contrast(extremes) > depth.threshold:
+        return "the picture's columns all start at the same phase of the light"
     return ""
 
 
@@ -94,7 +94,7 @@ def _column_light(scene: Scene) -> ColumnLight:
     light = ColumnLight.of(scene)
     for effect in effects_named(NAMES, LightEffect):
         light = effect.apply(scene, light)
-    # Of a dark column rounding would otherwise leave some light, and bars of it.
+    # Rounding errors would otherwise leave some light, and bars, in dark columns.
     return replace(light, lit=np.where(light.lit > _ROUNDING_LIGHT, light.lit, 0.0))
 
 
@@ -111,30 +111,30 @@ def _contrast(values: FloatArray) -> float:
 def light_depth(scene: Scene) -> Depth:
     """Return the depth of the light of a scene's exposure, before the tone curve.
 
-    Extremes and variances of the panel's light and of the flicker add, as all phases combine; on
-    the mains both have one phase, but for the LED's edges.
+    The extremes and variances of the panel's light and of the flicker add, because all their phases
+    occur together; a lamp on the mains is in phase with the flicker, except for its LED's edges.
     """
-    of_lamp, of_flicker = light_fractions(scene)
+    lamp, flicker = light_fractions(scene)
     light = light_of(scene.transmitter)
     if isinstance(light, Cosine):
-        amplitude = float(abs(_phasors(scene, light) @ [of_lamp, of_flicker]))
+        amplitude = float(abs(_phasors(scene, light) @ [lamp, flicker]))
         return Depth(2.0 * amplitude, amplitude / math.sqrt(2.0))
     exposed, units = _exposed(scene, light)
     low, high = exposed.extremes
-    of_lamp /= units
-    of_flicker *= depth_in_exposure(scene)
+    lamp /= units
+    flicker *= depth_in_exposure(scene)
     return Depth(
-        of_lamp * (high - low) + 2.0 * of_flicker,
-        math.hypot(of_lamp * math.sqrt(exposed.variance), of_flicker / math.sqrt(2.0)),
+        lamp * (high - low) + 2.0 * flicker,
+        math.hypot(lamp * math.sqrt(exposed.variance), flicker / math.sqrt(2.0)),
     )
 
 
 def _phasors(scene: Scene, light: Cosine) -> NDArray[np.complex128]:
-    """Return the swing of a lamp on the mains and of the surroundings, over their means."""
-    left = light.depth * light.response(Fraction(scene.camera.exposure_time))
+    """Return the complex amplitudes of a lamp on the mains and of the flicker, over their means."""
+    swing = light.depth * light.response(Fraction(scene.camera.exposure_time))
     edge = Fraction(scene.transmitter.edge_time)
     delay = cmath.exp(-1j * math.pi * float(Fraction(light.frequency) * edge % 2))
-    return np.array([left * light.response(edge) * delay, complex(left)])
+    return np.array([swing * light.response(edge) * delay, complex(swing)])
 
 
 def _exposed(scene: Scene, light: PiecewiseLight) -> tuple[ExposedLight, float]:
@@ -145,13 +145,13 @@ def _exposed(scene: Scene, light: PiecewiseLight) -> tuple[ExposedLight, float]:
 
 
 def _extremes(scene: Scene) -> FloatArray:
-    """Return the least and the largest pixel value over all starts, before saturation."""
+    """Return the smallest and the largest pixel value over all starts, before saturation."""
     light, ends = light_of(scene.transmitter), np.array([-1.0, 1.0])
     if isinstance(light, Cosine):
-        swings = _phasors(scene, light)
-        total = swings @ np.array(light_fractions(scene))
-        in_phase = (swings * np.conj(total)).real / (abs(total) or 1.0)
-        return panel_values(scene, ColumnLight(*(1.0 + swing * ends for swing in in_phase)))
+        phasors = _phasors(scene, light)
+        total = phasors @ np.array(light_fractions(scene))
+        in_phase = (phasors * np.conj(total)).real / (abs(total) or 1.0)
+        return panel_values(scene, ColumnLight(*(1.0 + part * ends for part in in_phase)))
     exposed, units = _exposed(scene, light)
     lit = light.mean + np.array(exposed.extremes) / units
     ambient = 1.0 + depth_in_exposure(scene) * ends
@@ -171,33 +171,35 @@ def mean_light(transmitter: Transmitter) -> float:
     return 1.0 if isinstance(light, Cosine) else light.mean
 
 
-def _strongest_part(scene: Scene, light: FloatArray) -> tuple[float, float]:
-    """Return the frequency in Hz of the strongest part of the columns' light, and its period.
+def _find_strongest_sine(scene: Scene, light: FloatArray) -> tuple[float, float]:
+    """Return the frequency in Hz and the period of the strongest sine of the columns' light.
 
-    The period is in columns, as these sample the light: above half the row rate, an alias. The
-    columns' spectrum says near which period they vary most, and of the light's sines and the
-    flicker the strongest near it is the exact one.
+    The period is in columns, as these sample the light; for frequencies above half the row rate it
+    is that of an alias. The peak of the columns' spectrum gives it approximately; of the sines of
+    the light and the flicker near this peak, the strongest gives it exactly.
     """
     count = len(light)
     spectrum = np.abs(np.fft.rfft((light - light.mean()) * np.hanning(count), _PADDING * count))
     peak = int(spectrum.argmax()) / (_PADDING * count)
-    frequencies, steps, amplitudes = _parts(scene)
+    frequencies, steps, amplitudes = _list_sines(scene)
     near = np.abs(np.abs(steps) - peak) < _WINDOW_BINS / count
-    best = int(np.where(near, amplitudes * _swing_of_columns(steps, count), 0.0).argmax())
+    best = int(np.where(near, amplitudes * _deviation_of_columns(steps, count), 0.0).argmax())
     step = abs(float(steps[best]))
     return float(frequencies[best]), 1.0 / step if step else math.inf
 
 
-def _parts(scene: Scene) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _list_sines(scene: Scene) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the sines of an exposure's light: frequencies in Hz, cycles a column, amplitudes.
 
-    Those of the panel, and the flicker. Of the cycles from one column's start to the next whole
-    ones are left out.
+    They are the panel's sines and, last, the flicker. Whole cycles a column are subtracted.
     """
     dark, bright = (float(each) for each in luminance_levels(scene))
     sines, flicker = sines_of(scene.transmitter, _SINES_PER_PIECE), flicker_of(scene).frequency
     amplitudes = (bright - dark) * sines.in_exposure(Fraction(scene.camera.exposure_time))
-    steps = np.append(_step(scene, sines.base) * sines.orders, _step(scene, Fraction(flicker)))
+    steps = np.append(
+        _cycles_per_column(scene, sines.base) * sines.orders,
+        _cycles_per_column(scene, Fraction(flicker)),
+    )
     return (
         np.append(sines.frequencies, flicker),
         steps - np.round(steps),
@@ -205,17 +207,17 @@ def _parts(scene: Scene) -> tuple[FloatArray, FloatArray, FloatArray]:
     )
 
 
-def _step(scene: Scene, frequency: Fraction) -> float:
-    """Return the cycles from one column's start to the next, less whole ones."""
+def _cycles_per_column(scene: Scene, frequency: Fraction) -> float:
+    """Return the cycles from one column's start to the next, minus whole ones."""
     step = frequency * Fraction(scene.camera.readout_time)
     return float(step - round(step))
 
 
-def _swing_of_columns(steps: FloatArray, columns: int) -> FloatArray:
-    """Return the deviation of a sine's samples from their mean, relative to the sine's own.
+def _deviation_of_columns(steps: FloatArray, columns: int) -> FloatArray:
+    """Return the standard deviation of a sine's samples, relative to that of the whole sine.
 
-    It is that of the root mean square over all phases, sqrt(1 - D^2), where N samples in steps of s
-    cycles have the mean D = sin(pi N s) / (N sin(pi s)).
+    Its root mean square over all phases is sqrt(1 - D^2), where N samples in steps of s cycles have
+    the mean D = sin(pi N s) / (N sin(pi s)).
     """
     mean = np.sinc(columns * steps) / np.sinc(steps)
     return np.sqrt(np.maximum(1.0 - mean * mean, 0.0))
@@ -251,10 +253,10 @@ def _sensitivity(cycles: float) -> float:
 def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
     """Return the depth of the bars of a lamp with pulse-width modulation.
 
-    Of an exposure of a = n + r periods the n whole ones hold the same light for any start.
-    The light of the rest varies by h = min(r, 1 - r, D, 1 - D) periods: a trapezoid over the start,
-    h / (a D) peak to peak relative to the mean. With M = max(min(r, 1 - r), min(D, 1 - D)) its root
-    mean square is sqrt(h^2 (M (1 - M) - h / 3)) / (a D).
+    In an exposure of a = n + r periods the n whole ones contain the same light for any start. The
+    light of the remainder varies by h = min(r, 1 - r, D, 1 - D) periods: a trapezoid over the
+    start, h / (a D) peak to peak relative to the mean. With M = max(min(r, 1 - r), min(D, 1 - D))
+    its root mean square is sqrt(h^2 (M (1 - M) - h / 3)) / (a D).
 
     Parameters
     ----------
@@ -274,8 +276,7 @@ def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
         raise ParameterError.of("periods", shown(periods), "above 0")
     exact, lit = Fraction(periods), Fraction(duty)
     rest = exact % 1
-    short = sorted([min(rest, 1 - rest), min(lit, 1 - lit)])
-    height, longer = short
+    height, longer = sorted([min(rest, 1 - rest), min(lit, 1 - lit)])
     mean = exact * lit
     spread = longer * (1 - longer) - height / 3
     return Depth(float(height / mean), float(height / mean) * math.sqrt(spread))

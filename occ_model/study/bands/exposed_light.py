@@ -35,10 +35,10 @@ class ExposedLight:
     @property
     def extremes(self) -> tuple[float, float]:
         """Return the smallest and the largest value."""
-        first, slope, bend = self._coefficients()
+        first, slope, curvature = self._coefficients()
         with np.errstate(divide="ignore", invalid="ignore"):
-            place = -slope / (2.0 * bend)
-            peak = first - slope**2 / (4.0 * bend)
+            place = -slope / (2.0 * curvature)
+            peak = first - slope**2 / (4.0 * curvature)
         inner = peak[(place > 0.0) & (place < 1.0)]
         values = np.concatenate([self.values[:, 0], self.values[:, 2], inner])
         return float(values.min()), float(values.max())
@@ -46,38 +46,42 @@ class ExposedLight:
     @property
     def variance(self) -> float:
         """Return the mean square over all starts."""
-        first, slope, bend = (each[:, None] for each in self._coefficients())
-        values = first + _PLACES * (slope + _PLACES * bend)
+        first, slope, curvature = (each[:, None] for each in self._coefficients())
+        values = first + _PLACES * (slope + _PLACES * curvature)
         return float((self.lengths / self.lengths.sum()) @ (values**2 @ _WEIGHTS))
 
     def _coefficients(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         first, middle, last = self.values.T
-        bend = 2.0 * (first + last) - 4.0 * middle
-        return first, last - first - bend, bend
+        curvature = 2.0 * (first + last) - 4.0 * middle
+        return first, last - first - curvature, curvature
 
 
 @lru_cache(maxsize=2)
 def exposed_light(waveform: Waveform, exposure: Fraction, edge: Fraction) -> ExposedLight:
     """Return the light of an exposure; ``exposure`` and ``edge`` in the waveform's units."""
-    # Whole periods hold the same light for any start.
+    # Whole periods contain the same light for any start.
     part = exposure % waveform.period
     if edge:
-        return _ramped(waveform, part, edge)
-    return _sharp_even(waveform, part) if is_even(waveform) else _sharp(waveform, part)
+        return _expose_ramps(waveform, part, edge)
+    return (
+        _expose_equal_pieces(waveform, part)
+        if has_equal_pieces(waveform)
+        else _expose_pieces(waveform, part)
+    )
 
 
-def is_even(waveform: Waveform) -> bool:
+def has_equal_pieces(waveform: Waveform) -> bool:
     """Return whether all pieces are equally long."""
     return waveform.lengths.dtype != object
 
 
 @lru_cache(maxsize=4)
-def _whole_numbers(waveform: Waveform) -> tuple[Exact, int]:
-    """Return the levels as multiples of a common part of full light, and how many make it up."""
+def _integer_levels(waveform: Waveform) -> tuple[Exact, int]:
+    """Return the levels as integers, and the integer that stands for full light."""
     if waveform.levels.dtype != object:
         return waveform.levels, 1
-    parts = math.lcm(*(level.denominator for level in waveform.levels))
-    return _integers(waveform.levels * parts), parts
+    full = math.lcm(*(level.denominator for level in waveform.levels))
+    return _integers(waveform.levels * full), full
 
 
 def _integers(values: Exact) -> Exact:
@@ -89,40 +93,40 @@ def _float(values: Exact) -> FloatArray:
     return np.asarray(values).astype(np.float64)
 
 
-def _sharp_even(waveform: Waveform, exposure: Fraction) -> ExposedLight:
+def _expose_equal_pieces(waveform: Waveform, exposure: Fraction) -> ExposedLight:
     """Return the light of equally long pieces with sharp edges.
 
     The exposure is an integer number of units plus a fraction from -1/2 to 1/2. The light at the
-    ends of the pieces is then an integer plus a product of that fraction, so that no digits are
-    lost where the bars vanish.
+    ends of the pieces is then an integer plus an integer times that fraction, so that no digits
+    are lost where the bars vanish.
     """
     period = waveform.period
     whole = round(exposure)
     fraction = float(exposure - whole)
-    levels, parts = _whole_numbers(waveform)
+    levels, full = _integer_levels(waveform)
     level = np.tile(levels, 3)
-    before = np.concatenate([[0], np.cumsum(level)])
+    light_before = np.concatenate([[0], np.cumsum(level)])
     start = np.arange(period)
     total = levels.sum()
-    # In lit units times the units of a period, minus the mean: integers.
-    count = period * (before[start + whole] - before[start]) - whole * total
+    # Integers: the light in lit units minus its mean, times the units of a period.
+    counts = period * (light_before[start + whole] - light_before[start]) - whole * total
 
-    def value(of: Exact, lit: Exact) -> FloatArray:
-        swing = fraction * _float((period * lit - total) / parts)
-        return np.asarray((_float(of / parts) + swing) / period)
+    def value(count_at_start: Exact, level_added: Exact) -> FloatArray:
+        swing = fraction * _float((period * level_added - total) / full)
+        return np.asarray((_float(count_at_start / full) + swing) / period)
 
-    following = np.roll(count, -1)
+    following = np.roll(counts, -1)
     if fraction >= 0.0:
         ends = (
-            value(count, level[start + whole]),
+            value(counts, level[start + whole]),
             value(following, level[start]),
             value(following, level[start + 1 + whole]),
         )
         lengths = (1.0 - fraction, fraction)
     else:
         ends = (
-            value(count, level[start + whole - 1]),
-            value(count, level[start]),
+            value(counts, level[start + whole - 1]),
+            value(counts, level[start]),
             value(following, level[start + whole]),
         )
         lengths = (-fraction, 1.0 + fraction)
@@ -136,42 +140,42 @@ def _linear(ends: Iterable[tuple[FloatArray, FloatArray]]) -> FloatArray:
     )
 
 
-def _sharp(waveform: Waveform, exposure: Fraction) -> ExposedLight:
-    """Return the light of pieces of any lengths with sharp edges, exact before it is rounded."""
-    levels, parts = _whole_numbers(waveform)
+def _expose_pieces(waveform: Waveform, exposure: Fraction) -> ExposedLight:
+    """Return the light of pieces of any lengths with sharp edges, exact before rounding."""
+    levels, full = _integer_levels(waveform)
     count = len(levels)
     ticks = math.lcm(exposure.denominator, *(each.denominator for each in waveform.lengths))
     period, window = waveform.period * ticks, int(exposure * ticks)
-    # Of three periods: starts are in the first, and ends before the third.
+    # Three periods: exposures start in the first and end before the third.
     lengths, level = np.tile(_integers(waveform.lengths * ticks), 3), np.tile(levels, 3)
     edges = np.concatenate([[0], np.cumsum(lengths)])
-    before = np.concatenate([[0], np.cumsum(level * lengths)])
-    near = _float(edges / period)
+    light_before = np.concatenate([[0], np.cumsum(level * lengths)])
+    rounded_edges = _float(edges / period)
 
-    def light_until(places: Exact) -> Exact:
-        piece = np.searchsorted(near, _float(places / period), side="right") - 1
-        # The neighbour where rounding has met it.
-        piece -= edges[piece] > places
-        piece += edges[piece + 1] <= places
-        return np.asarray(before[piece] + level[piece] * (places - edges[piece]))
+    def light_until(times: Exact) -> Exact:
+        pieces = np.searchsorted(rounded_edges, _float(times / period), side="right") - 1
+        # Rounding may have led to a neighbouring piece.
+        pieces -= edges[pieces] > times
+        pieces += edges[pieces + 1] <= times
+        return np.asarray(light_before[pieces] + level[pieces] * (times - edges[pieces]))
 
     starts = np.sort(np.concatenate([edges[:count], (edges[:count] - window) % period]))
     light = light_until(starts + window) - light_until(starts)
-    values = _float((period * light - window * before[count]) / (period * ticks * parts))
+    values = _float((period * light - window * light_before[count]) / (period * ticks * full))
     spans = np.diff(np.append(starts, starts[0] + period))
     return ExposedLight(_float(spans / ticks), _linear([(values, np.roll(values, -1))]))
 
 
-def _ramped(waveform: Waveform, exposure: Fraction, edge: Fraction) -> ExposedLight:
+def _expose_ramps(waveform: Waveform, exposure: Fraction, edge: Fraction) -> ExposedLight:
     """Return the light for an LED with rise and fall times."""
     period, mean = waveform.period, float(waveform.mean * exposure)
-    light_of = _edged(waveform, edge)
-    # Equally long pieces have their cuts at like places, so that one piece stands for all.
+    light_of = _add_ramps(waveform, edge)
+    # Equally long pieces have cuts at the same places, so one piece stands for all.
     places, span = np.array([Fraction(0)]), 1
-    if not is_even(waveform):
+    if not has_equal_pieces(waveform):
         places, span = np.cumsum(waveform.lengths), period
     cells = np.arange(0, period, span, dtype=np.int64)
-    # Twice the least common denominator: the middles between cuts are whole numbers of ticks, too.
+    # Twice the least common denominator: the middles between cuts are then integers, too.
     ticks = 2 * math.lcm(*(each.denominator for each in (exposure, edge, *places)))
     shifts = (Fraction(0), edge, -exposure, edge - exposure)
     cuts = np.concatenate([_integers((places + shift) * ticks) for shift in shifts])
@@ -187,12 +191,14 @@ def _ramped(waveform: Waveform, exposure: Fraction, edge: Fraction) -> ExposedLi
         return (light_of.light_in(starts, exposure) - mean).reshape(len(places), len(cells))
 
     spans = np.diff(np.append(cuts, cuts[0] + span * ticks))
-    at, middle = light(cuts), light(cuts + spans // 2)
-    after = np.concatenate([at[1:], np.roll(at[:1], -1, axis=1)])
+    at_cuts, at_middles = light(cuts), light(cuts + spans // 2)
+    at_next_cuts = np.concatenate([at_cuts[1:], np.roll(at_cuts[:1], -1, axis=1)])
     lengths = np.repeat(_float(spans / ticks), len(cells))
-    return ExposedLight(lengths, np.stack([at, middle, after], axis=2).reshape(-1, 3))
+    return ExposedLight(
+        lengths, np.stack([at_cuts, at_middles, at_next_cuts], axis=2).reshape(-1, 3)
+    )
 
 
 @lru_cache(maxsize=4)
-def _edged(waveform: Waveform, edge: Fraction) -> EdgedWaveform:
+def _add_ramps(waveform: Waveform, edge: Fraction) -> EdgedWaveform:
     return EdgedWaveform(waveform, edge)

@@ -1,8 +1,8 @@
 """Flicker of a lamp for the eye: flicker index, IEEE 1789-2015, SVM.
 
 The texts of IEEE Std 1789-2015 and IEC TR 63158:2018 were not available. The limits of the former
-are those that manufacturers quote from its recommended practices 1 and 2; of SVM two thresholds are
-published.
+are those that manufacturers quote from its recommended practices 1 and 2. Two thresholds of SVM
+have been published.
 """
 
 from collections.abc import Callable
@@ -19,43 +19,43 @@ from occ_model.study.bands.depth import mean_light
 from occ_model.study.bands.exposed_light import exposed_light
 from occ_model.study.bands.sines import repeat_time, sines_of
 
-NO_EFFECT, LOW_RISK, ABOVE = "no effect", "low risk", "above low risk"
+NO_EFFECT, LOW_RISK, ABOVE_LOW_RISK = "no effect", "low risk", "above low risk"
 
 _BREAK_FREQUENCY = 90.0  # Hz below which the limits of IEEE 1789-2015 are stricter
-_LOW_RISK = (0.025, 0.08, 1250.0)
-_NO_EFFECT = (0.01, 0.0333, 3000.0)  # % per Hz below and above 90 Hz, and the line's end in Hz
+_LOW_RISK_LINE = (0.025, 0.08, 1250.0)
+_NO_EFFECT_LINE = (0.01, 0.0333, 3000.0)  # % per Hz below and above 90 Hz, and the line's end in Hz
 _SVM_BAND = (80.0, 2000.0)  # Hz
 _SVM_EXPONENT = 3.7  # of the Minkowski sum over the components
-_SINES_PER_PIECE = 64  # of the shortest piece of light; higher ones are below 1 %
+_SINES_PER_PIECE = 64  # of the shortest duration; higher sines are below 1 %
 _MAX_SINES = 10_000  # components that are returned; a long payload has millions
 
 
 def eye_flicker(scene: Scene) -> EyeFlicker:
-    """Return the flicker measures of a scene's lamp while its light is repeated.
+    """Return the flicker measures of a scene's lamp, whose light repeats.
 
     They hold for the lamp's own light, including its edges: ambient light reduces them, and a code
     that changes between packets adds slower components.
     """
-    sent = scene.transmitter
-    mean = mean_light(sent) if sent.luminance else 0.0
-    least, most, above = _levels(sent) if mean else (0.0, 0.0, 0.0)
+    transmitter = scene.transmitter
+    mean = mean_light(transmitter) if transmitter.luminance else 0.0
+    least, most, excess = _light_range(transmitter) if mean else (0.0, 0.0, 0.0)
     percent = 100.0 * (most - least) / (most + least) if most else 0.0
-    sines = sines_of(sent, _SINES_PER_PIECE, _NO_EFFECT[2])
+    sines = sines_of(transmitter, _SINES_PER_PIECE, _NO_EFFECT_LINE[2])
     frequencies = sines.frequencies
     modulations = 100.0 * sines.amplitudes / mean if mean else 0.0 * frequencies
-    period = repeat_time(sent)
+    period = repeat_time(transmitter)
     frequency = float(1 / period) if period else 0.0
-    whole = np.array([frequency]), np.array([percent])
+    fundamental = np.array([frequency]), np.array([percent])
     strongest = np.sort(np.argsort(modulations)[-_MAX_SINES:])
     return EyeFlicker(
         percent_flicker=percent,
-        flicker_index=above / mean if mean else 0.0,
-        visibility=_visibility(frequencies, modulations / 100.0, threshold),
+        flicker_index=excess / mean if mean else 0.0,
+        visibility=_visibility(frequencies, modulations / 100.0, threshold_2018),
         visibility_2016=_visibility(frequencies, modulations / 100.0, threshold_2016),
         frequency=frequency,
         frequencies=frequencies[strongest],
         modulations=modulations[strongest],
-        risk=_risk(*whole),
+        risk=_risk(*fundamental),
         parts_risk=_risk(frequencies, modulations),
     )
 
@@ -63,7 +63,7 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
 def risk_limits(frequencies: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the limits of modulation in percent for no effect and low risk."""
     lines = []
-    for slow, fast, end in (_NO_EFFECT, _LOW_RISK):
+    for slow, fast, end in (_NO_EFFECT_LINE, _LOW_RISK_LINE):
         line = np.where(frequencies < _BREAK_FREQUENCY, slow, fast) * frequencies
         lines.append(np.where(frequencies > end, np.inf, line))
     return lines[0], lines[1]
@@ -77,12 +77,12 @@ def risk_lines() -> RiskLines:
             for rate, ends in ((slow, (1.0, _BREAK_FREQUENCY)), (fast, (_BREAK_FREQUENCY, end)))
             for at in ends
         ])
-        for slow, fast, end in (_NO_EFFECT, _LOW_RISK)
+        for slow, fast, end in (_NO_EFFECT_LINE, _LOW_RISK_LINE)
     ]  # fmt: skip
     return RiskLines(*lines)
 
 
-def threshold(frequencies: FloatArray) -> FloatArray:
+def threshold_2018(frequencies: FloatArray) -> FloatArray:
     """Return the modulation, 0 to 1, at which half of the observers see the effect.
 
     Of M. Perz and others, Stroboscopic effect: contrast threshold function and dependence on
@@ -92,9 +92,9 @@ def threshold(frequencies: FloatArray) -> FloatArray:
 
 
 def threshold_2016(frequencies: FloatArray) -> FloatArray:
-    """Return the same by CIE TN 006:2016, Visual aspects of time-modulated lighting systems.
+    """Return the threshold of CIE TN 006:2016, Visual aspects of time-modulated lighting systems.
 
-    Both are alike up to some 700 Hz; faster, this one rises no further than to 1.
+    Both thresholds agree up to some 700 Hz; above, this one does not exceed 1.
     """
     rising = 1.0 / (1.0 + np.exp(-0.00518 * (frequencies - 306.6)))
     return np.asarray(rising + 20.0 * np.exp(-frequencies / 10.0))
@@ -114,12 +114,12 @@ def _risk(frequencies: FloatArray, modulations: FloatArray) -> str:
     no_effect, low_risk = risk_limits(frequencies)
     if (modulations <= no_effect).all():
         return NO_EFFECT
-    return LOW_RISK if (modulations <= low_risk).all() else ABOVE
+    return LOW_RISK if (modulations <= low_risk).all() else ABOVE_LOW_RISK
 
 
-def _levels(sent: Transmitter) -> tuple[float, float, float]:
+def _light_range(transmitter: Transmitter) -> tuple[float, float, float]:
     """Return the minimum and maximum light over a period, and the mean excess above the mean."""
-    light, edge = light_of(sent), Fraction(sent.edge_time)
+    light, edge = light_of(transmitter), Fraction(transmitter.edge_time)
     if isinstance(light, Cosine):
         swing = light.depth * abs(light.response(edge))
         return 1.0 - swing, 1.0 + swing, swing / np.pi
@@ -134,8 +134,10 @@ def _levels(sent: Transmitter) -> tuple[float, float, float]:
     ramps = exposed_light(waveform, units, Fraction(0))
     lengths, (first, _, last) = ramps.lengths / waveform.period, ramps.values.T / float(units)
     low, high = (value / float(units) for value in ramps.extremes)
-    over, under = np.maximum(first, last), np.minimum(first, last)
-    crosses = (over > 0.0) & (under < 0.0)
+    higher, lower = np.maximum(first, last), np.minimum(first, last)
+    crosses = (higher > 0.0) & (lower < 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        part = np.where(crosses, over**2 / (2.0 * (over - under)), 0.5 * (over + under))
-    return mean + low, mean + high, float((lengths * np.maximum(part, 0.0)).sum())
+        excess_of_piece = np.where(
+            crosses, higher**2 / (2.0 * (higher - lower)), 0.5 * (higher + lower)
+        )
+    return mean + low, mean + high, float((lengths * np.maximum(excess_of_piece, 0.0)).sum())

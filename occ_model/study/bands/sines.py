@@ -11,7 +11,7 @@ from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of
 from occ_model.light.waveform import Waveform
 from occ_model.scene.scene import Transmitter
-from occ_model.study.bands.exposed_light import is_even
+from occ_model.study.bands.exposed_light import has_equal_pieces
 from occ_model.transmitter.scheme import shortest_period
 
 _MOST_TERMS = 4_000_000  # sines times pieces that are added up for pieces of unequal lengths
@@ -19,7 +19,7 @@ _MOST_TERMS = 4_000_000  # sines times pieces that are added up for pieces of un
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Sines:
-    """The sines of a light that a transmitter sends, its LED's edges included."""
+    """The sines of a transmitter's light, including its LED's edges."""
 
     base: Fraction  # Frequency of the first in Hz
     # Shapes (n,): multiples of the first, and amplitudes, 1 being the panel fully lit
@@ -32,7 +32,7 @@ class Sines:
         return np.asarray(float(self.base) * self.orders)
 
     def in_exposure(self, seconds: Fraction) -> FloatArray:
-        """Return the amplitudes that are left after averaging over an exposure."""
+        """Return the amplitudes after averaging over an exposure."""
         periods = self.base * seconds
         # Whole periods are subtracted before the sine.
         swing = np.abs(np.sin(np.pi * self.orders * float(periods % 1)))
@@ -40,7 +40,11 @@ class Sines:
 
 
 def sines_of(transmitter: Transmitter, per_piece: int, highest: float = math.inf) -> Sines:
-    """Return the sines of a light, up to some a piece (of its shortest) and a frequency in Hz."""
+    """Return the sines of a light.
+
+    ``per_piece``: maximum number of sines per duration of the shortest piece. ``highest``: maximum
+    frequency in Hz.
+    """
     light, edge = light_of(transmitter), Fraction(transmitter.edge_time)
     if isinstance(light, Cosine):
         amplitude = light.depth * abs(light.response(edge))
@@ -48,7 +52,7 @@ def sines_of(transmitter: Transmitter, per_piece: int, highest: float = math.inf
     waveform, base = light.waveform, 1 / light.period
     pieces = float(waveform.period / min(waveform.lengths))
     count = min(per_piece * pieces, highest / float(base))
-    if not is_even(waveform):
+    if not has_equal_pieces(waveform):
         count = min(count, _MOST_TERMS / waveform.period)
     orders = np.arange(1, int(count) + 1)
     edge_periods = float(edge * base)
@@ -61,21 +65,21 @@ def _sharp_sines(waveform: Waveform, orders: IndexArray) -> FloatArray:
     """Return the amplitudes of the sines of a light with sharp edges."""
     period = waveform.period
     levels = waveform.levels.astype(np.float64)
-    if is_even(waveform):
-        sent = 2.0 * np.abs(np.fft.fft(levels))[orders % period] / period
-        return np.asarray(sent * np.abs(np.sinc(orders / period)))
+    if has_equal_pieces(waveform):
+        amplitudes = 2.0 * np.abs(np.fft.fft(levels))[orders % period] / period
+        return np.asarray(amplitudes * np.abs(np.sinc(orders / period)))
     lengths = (waveform.lengths / period).astype(np.float64)
     middles = np.cumsum(lengths) - 0.5 * lengths
     total = np.zeros(len(orders), dtype=complex)
     for level, length, middle in zip(levels - levels.min(), lengths, middles, strict=True):
         if level:
-            turns = np.exp(-2j * np.pi * (orders * middle % 1.0))
-            total += level * length * np.sinc(orders * length) * turns
+            phasors = np.exp(-2j * np.pi * (orders * middle % 1.0))
+            total += level * length * np.sinc(orders * length) * phasors
     return np.asarray(2.0 * np.abs(total))
 
 
 def repeat_time(transmitter: Transmitter) -> Fraction:
-    """Return the shortest time in seconds after which a transmitter's light repeats; 0: steady."""
+    """Return the period of a transmitter's light in seconds; 0 if it is steady."""
     light = light_of(transmitter)
     if isinstance(light, Cosine):
         return 1 / Fraction(light.frequency) if light.depth else Fraction(0)
@@ -83,7 +87,7 @@ def repeat_time(transmitter: Transmitter) -> Fraction:
 
 
 def repeat_units(waveform: Waveform) -> int:
-    """Return the fewest pieces after which a light repeats, as many units of time; 0: steady."""
+    """Return the period of a light in units of its waveform; 0 if it is steady."""
     levels, lengths = waveform.levels, waveform.lengths
     if (levels == levels[0]).all():
         return 0

@@ -1,6 +1,6 @@
 """Measure bit error rates over exposure and noise, and decoders on a public data set.
 
-The model is bare: rows integrate the chips over their exposure and have independent noise. The
+The model is minimal: rows integrate the chips over their exposure and have independent noise. The
 settings are those of the published benchmark of rolling-shutter equalizers: exposures of one to
 seven symbols, four to seven rows per symbol, Manchester code (C. Jurado-Verdu et al., Opt. Express
 29:22973, 2021). A symbol is a chip.
@@ -65,8 +65,8 @@ class DataSetReading:
     picture: DataSetPicture
     decoder: str
     chips: int
-    # Correlation of the light predicted from the chips with the signal; None for decoders without a
-    # model
+    # Correlation of the signal with the light predicted from the chips; None for decoders that
+    # predict none
     correlation: float | None
     # Fraction of the chips that are wrong according to their own likelihoods; None without any
     wrong_chips: float | None
@@ -132,8 +132,8 @@ def read_pictures(
     line_code: str = "manchester",
     progress: Callable[[int, int], object] = lambda _done, _all: None,
 ) -> Iterator[DataSetReading]:
-    for done, picture in enumerate(pictures):
-        progress(done, len(pictures))
+    for number, picture in enumerate(pictures):
+        progress(number, len(pictures))
         image = load_photo(picture.path, "lines").image
         scene = Scene().replace(
             line_code=line_code,
@@ -144,16 +144,18 @@ def read_pictures(
             enhancement="none",
             averaging="light",
         )
-        for name in decoder_names:
-            found = decode(image, scene, name)
-            sure = found.chip_likelihoods
+        for decoder in decoder_names:
+            result = decode(image, scene, decoder)
+            likelihoods = result.chip_likelihoods
             yield DataSetReading(
                 picture,
-                name,
-                int(found.chips.size),
-                found.correlation,
-                float(np.mean(1.0 - sure)) if sure is not None and sure.size else None,
-                None if found.chips.size else found.failure,
+                decoder,
+                int(result.chips.size),
+                result.correlation,
+                float(np.mean(1.0 - likelihoods))
+                if likelihoods is not None and likelihoods.size
+                else None,
+                None if result.chips.size else result.failure,
             )
     progress(len(pictures), len(pictures))
 
@@ -168,12 +170,12 @@ def bench(
     request: BenchRequest, progress: Callable[[int, int], object] = lambda _done, _all: None
 ) -> tuple[BenchPoint, ...]:
     check_bench(request)
-    found: list[BenchPoint] = []
-    for done, place in enumerate(request.points):
-        progress(done, len(request.points))
-        found += measure_bench_point(request, place)
+    points: list[BenchPoint] = []
+    for number, place in enumerate(request.points):
+        progress(number, len(request.points))
+        points += measure_bench_point(request, place)
     progress(len(request.points), len(request.points))
-    return tuple(found)
+    return tuple(points)
 
 
 def measure_bench_point(
@@ -184,8 +186,8 @@ def measure_bench_point(
     scene = bench_scene(request, scheme, exposure)
     names = request.decoders or decoders()
     length, duration = request.payload_bits, _period(scene)
-    wrong: dict[str, list[int]] = {name: [] for name in names}
-    right = dict.fromkeys(names, 0)
+    wrong_bits: dict[str, list[int]] = {name: [] for name in names}
+    right_pictures = dict.fromkeys(names, 0)
     notes = dict.fromkeys(names, "")
     faults = {name: Faults() for name in names}
     random = np.random.default_rng(request.seed)
@@ -193,20 +195,24 @@ def measure_bench_point(
         heartbeat()
         bits = random.integers(0, 2, length)
         start = float(random.uniform(0.0, duration))
-        sent = with_payload(scene, bits.tolist()).replace(start_time=start)
-        signal = bench_signal(sent, ratio, random)
+        sent_scene = with_payload(scene, bits.tolist()).replace(start_time=start)
+        signal = bench_signal(sent_scene, ratio, random)
         for name in names:
             with faults[name].counting():
-                read = decode(signal, sent, name)
-            # Rejected bits count in the rate, since theory decides every bit, but the payload does
+                read = decode(signal, sent_scene, name)
+            # The rate includes rejected bits, since theory decides every bit, but the payload does
             # not count as read.
-            is_whole = read.bits.size == length
-            wrong[name].append(int((read.bits != bits).sum()) if is_whole else length)
-            right[name] += read.failure is None and not wrong[name][-1]
+            has_all_bits = read.bits.size == length
+            wrong_bits[name].append(int((read.bits != bits).sum()) if has_all_bits else length)
+            right_pictures[name] += read.failure is None and not wrong_bits[name][-1]
             notes[name] = notes[name] or read.failure or ""
     return tuple(
-        BenchPoint(*place, _bit_errors(scene, name, wrong[name], right[name], found), found or note)
-        for (name, note), found in zip(notes.items(), map(str, faults.values()), strict=True)
+        BenchPoint(
+            *place,
+            _bit_errors(scene, name, wrong_bits[name], right_pictures[name], fault),
+            fault or note,
+        )
+        for (name, note), fault in zip(notes.items(), map(str, faults.values()), strict=True)
     )
 
 
@@ -262,9 +268,9 @@ def _period(scene: Scene) -> float:
     return scheme_of(scene.transmitter).length * scene.transmitter.switching_period
 
 
-def _check_range(what: str, value: float, low: float, high: float) -> None:
+def _check_range(name: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
-        raise ParameterError.of(what, shown(value), f"{low:g} to {high:g}")
+        raise ParameterError.of(name, shown(value), f"{low:g} to {high:g}")
 
 
 _CURVE_POINTS = 31
@@ -291,8 +297,8 @@ def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> 
     return BenchBounds(
         tuple(_NULL_EXPOSURE * number for number in range(1, int(longest / _NULL_EXPOSURE) + 1)),
         {
-            "exposure": (exposures, tuple(bound(at, request.at_decibels) for at in exposures)),
-            "noise": (ratios, tuple(bound(request.at_exposure, at) for at in ratios)),
+            "exposure": (exposures, tuple(bound(each, request.at_decibels) for each in exposures)),
+            "noise": (ratios, tuple(bound(request.at_exposure, each) for each in ratios)),
         },
     )
 

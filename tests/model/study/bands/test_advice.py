@@ -85,7 +85,7 @@ def test_the_least_depth_of_a_range_is_not_above_any_within_and_is_reached(
 ) -> None:
     over = DepthOver.of(_PHONE.replace(**light, flicker_depth=flicker))
     ends = np.geomspace(1e-5, 3e-2, 30)
-    least = over.least(over.axis.frequency, ends)
+    least = over.least_depths(over.axis.frequency, ends)
     for index, (low, high) in enumerate(pairwise(ends)):
         depths = over.depths(np.linspace(low, high, 4001))
         assert least[index] <= depths.min() + 1e-12

@@ -149,7 +149,7 @@ def test_of_a_lamp_that_blinks_at_the_line_rate_the_columns_see_nothing() -> Non
     assert found.peak_to_peak > 1.9  # of another start
     assert found.columns.peak_to_peak < 1e-12
     assert (found.is_visible, found.period, found.frequency) == (False, math.inf, 0.0)
-    assert "like places" in found.sentence
+    assert "same phase" in found.sentence
     beside = occ.band_depth(scene.replace(switching_frequency=64.2e3))
     assert (beside.is_visible, beside.hidden) == (True, "")
     assert beside.period == pytest.approx(320.0)

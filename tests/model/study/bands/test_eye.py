@@ -6,7 +6,7 @@ import pytest
 import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.eye import risk_limits, threshold
+from occ_model.study.bands.eye import risk_limits, threshold_2018
 
 _PHONE = occ.load_preset("phone-136us")
 _SAMPLES = 400
@@ -51,15 +51,15 @@ def test_a_square_wave_of_100_hz_has_the_known_numbers() -> None:
     found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=200.0))
     assert found.percent_flicker == 100.0
     assert found.flicker_index == 0.5
-    # The fundamental alone, 4/pi of the mean against the threshold 0.26, gives 4.897.
+    # The fundamental alone, 4/pi of the mean against the threshold_2018 0.26, gives 4.897.
     assert found.visibility == pytest.approx(4.903, abs=1e-3)
     assert (found.risk, found.parts_risk) == ("above low risk", "above low risk")
 
 
 def test_a_sine_at_the_threshold_measures_one() -> None:
     # As published: 26 % at 100 Hz; and all of the light is not enough from 776 Hz on.
-    assert float(threshold(np.array([100.0]))[0]) == pytest.approx(0.26, abs=5e-3)
-    assert float(threshold(np.array([777.0]))[0]) == pytest.approx(1.05, abs=0.01)
+    assert float(threshold_2018(np.array([100.0]))[0]) == pytest.approx(0.26, abs=5e-3)
+    assert float(threshold_2018(np.array([777.0]))[0]) == pytest.approx(1.05, abs=0.01)
 
 
 @pytest.mark.parametrize(

@@ -35,35 +35,35 @@ def _outputs_of(options: argparse.Namespace) -> OutputFiles:
 
 
 def _run(options: argparse.Namespace) -> int:
-    sent = prepare_transmission(scene_of(options), board_named(options.board))
+    transmission = prepare_transmission(scene_of(options), board_named(options.board))
     make_folder(options.out)  # refuse a folder before drawing
     # matplotlib takes half a second to import, which only figures need.
     from occ_model.figures.transmitter_files import write_transmitter_files
 
-    paths, missing = write_transmitter_files(options.out, sent)
+    paths, missing = write_transmitter_files(options.out, transmission)
     print(f"{one_line(str(options.out))}: {', '.join(sorted(path.name for path in paths))}")
     for line in (
-        *_frequency_facts(sent),
-        missing or _wav_sentence(sent),
-        flicker_sentence(sent),
+        *_frequency_facts(transmission),
+        missing or _wav_sentence(transmission),
+        flicker_sentence(transmission),
         EYES,
     ):
         print(line)
     return 0
 
 
-def _frequency_facts(sent: Transmission) -> list[str]:
-    facts = [" ".join(frequency_lines(sent))]
-    if not sent.is_as_asked:
+def _frequency_facts(transmission: Transmission) -> list[str]:
+    facts = [" ".join(frequency_lines(transmission))]
+    if not transmission.is_as_asked:
         facts.append(f"{SCENE} has the frequency that is sent; match your photos with it.")
     return facts
 
 
-def _wav_sentence(sent: Transmission) -> str:
+def _wav_sentence(transmission: Transmission) -> str:
     """State the frequency error of the WAV file, whose sample rate is a whole number of Hz."""
-    timing = choose_wav_timing(sent)
+    timing = choose_wav_timing(transmission)
     return (
-        f"WAV: {timing.samples} samples a {sent.unit} at {HERTZ.format(timing.sample_rate)}, "
-        f"{float(timing.error_ppm):+.3g} ppm from the frequency sent; sound cards block steady "
-        "light and smooth the edges."
+        f"WAV: {timing.samples} samples a {transmission.unit} at "
+        f"{HERTZ.format(timing.sample_rate)}, {float(timing.error_ppm):+.3g} ppm from the "
+        "frequency sent; sound cards block steady light and smooth the edges."
     )

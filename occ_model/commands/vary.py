@@ -68,14 +68,14 @@ def _spread_values(
     factor = text[1:].lstrip("0")
     # Python does not convert numbers of thousands of digits.
     is_whole = factor.isdecimal() and len(factor) <= len(str(MOST_POINTS))
-    number = int(factor) if is_whole else 0
-    if not 2 <= number <= MOST_POINTS:
+    count = int(factor) if is_whole else 0
+    if not 2 <= count <= MOST_POINTS:
         raise parameter.refuse(f"varies in {shown(text)}", f"x2 to x{MOST_POINTS} values")
     if isinstance(parameter, Count):
-        return list(dict.fromkeys(np.rint(np.linspace(low, high, number)).astype(int).tolist()))
+        return list(dict.fromkeys(np.rint(np.linspace(low, high, count)).astype(int).tolist()))
     is_log = parameter.scale == "log" and low > 0.0
-    even = (np.geomspace if is_log else np.linspace)(low, high, number).tolist()
-    return [low, *(float(f"{value:.6g}") for value in even[1:-1]), high]
+    values = (np.geomspace if is_log else np.linspace)(low, high, count).tolist()
+    return [low, *(float(f"{value:.6g}") for value in values[1:-1]), high]
 
 
 def _step_values(
@@ -97,8 +97,8 @@ def _step_values(
         raise parameter.refuse(f"varies over {count}", f"up to {MOST_POINTS}")
     last = math.floor(steps)
     if isinstance(parameter, Count):
-        return [int(low + place * step) for place in range(last + 1)]
-    values = (float(f"{low + place * step:.{_DIGITS}g}") for place in range(last + 1))
+        return [int(low + index * step) for index in range(last + 1)]
+    values = (float(f"{low + index * step:.{_DIGITS}g}") for index in range(last + 1))
     return [min(value, high) for value in values]
 
 

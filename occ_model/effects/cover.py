@@ -41,8 +41,8 @@ def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
         ends.reverse()
     # The smaller slope of the two sides, since another edge begins at a corner.
     slopes = [2.0 * np.minimum(abs(at - before), abs(after - at)) for at, before, after in ends]
-    missed = (lines < along[0]) | (lines > along[turn])
-    return Spans(ends[0][0], ends[1][0], slopes[0], slopes[1], missed)
+    misses = (lines < along[0]) | (lines > along[turn])
+    return Spans(ends[0][0], ends[1][0], slopes[0], slopes[1], misses)
 
 
 def covers_of(
@@ -53,23 +53,25 @@ def covers_of(
     plain: Optics,
 ) -> dict[frozenset[str], FloatArray | None]:
     """Return the panel's fraction of each pixel, for every subset of the effects on the outline."""
-    found: dict[frozenset[str], FloatArray | None] = {}
+    covers: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
-    for chosen in subsets_of([*moved, *blurs]):
-        bend = next((name for name in moved if name in chosen), "")
-        blur = max((blurs[name] for name in blurs if name in chosen), default=0.0)
-        if bend not in distances:
-            outline = moved.get(bend, plain.outline)
-            distances[bend] = _distances(outline, columns, rows, max(blurs.values(), default=0.0))
-        top, bottom, left, right = distances[bend]
+    for names in subsets_of([*moved, *blurs]):
+        bending = next((name for name in moved if name in names), "")
+        blur = max((blurs[name] for name in blurs if name in names), default=0.0)
+        if bending not in distances:
+            outline = moved.get(bending, plain.outline)
+            distances[bending] = _distances(
+                outline, columns, rows, max(blurs.values(), default=0.0)
+            )
+        top, bottom, left, right = distances[bending]
         if blur:
             down = _light_fraction(top, blur) + _light_fraction(bottom, blur) - 1.0
             along = _light_fraction(left, blur) + _light_fraction(right, blur) - 1.0
-            found[chosen] = np.maximum(np.minimum(down, along), 0.0)
+            covers[names] = np.maximum(np.minimum(down, along), 0.0)
         else:
             inside = (top > 0.0) & (bottom > 0.0) & (left > 0.0) & (right > 0.0)
-            found[chosen] = inside.astype(np.float64)
-    return found
+            covers[names] = inside.astype(np.float64)
+    return covers
 
 
 def subsets_of(names: list[str]) -> list[frozenset[str]]:
@@ -80,7 +82,7 @@ def subsets_of(names: list[str]) -> list[frozenset[str]]:
 def _light_fraction(distance: FloatArray, blur: float) -> FloatArray:
     """Return the fraction of the panel's light at some distance inside a blurred rim.
 
-    A narrow blur is a sum over whole pixels, weighted by a Gaussian at whole distances.
+    A narrow blur is a sum over pixels with the weights of a sampled Gaussian.
     """
     if blur >= 1.0:
         return normal_fraction(distance / blur)
@@ -101,8 +103,8 @@ def _distances(
         distance.reshape(rows.shape)
         for distance in _distances_from_rims(along, lines.ravel(), blur)
     )
-    lost = down.missed[:, None] & along.missed.reshape(rows.shape)
-    return np.where(lost, -_FAR_RIM, top.T), bottom.T, left, right
+    outside = down.missed[:, None] & along.missed.reshape(rows.shape)
+    return np.where(outside, -_FAR_RIM, top.T), bottom.T, left, right
 
 
 def _distances_from_rims(
@@ -113,7 +115,7 @@ def _distances_from_rims(
     The distance to a slanting rim is shorter than along the line, except for a narrow blur, which
     acts along the axes. Inside a steep rim only the distance along the other axis counts.
     """
-    found = []
+    distances = []
     for sign, rim, slope in (
         (1.0, spans.first, spans.first_slope),
         (-1.0, spans.last, spans.last_slope),
@@ -122,9 +124,9 @@ def _distances_from_rims(
         if blur < 1.0:
             slant = np.where(slope < STEEP_SLOPE, 1.0, slant)
         distance = sign * (places - pixel_boundary(rim)) * slant
-        beside = spans.missed | ((slope > STEEP_SLOPE) & (distance > 0.0))
-        found.append(np.where(beside, _FAR_RIM, distance))
-    return found[0], found[1]
+        is_far = spans.missed | ((slope > STEEP_SLOPE) & (distance > 0.0))
+        distances.append(np.where(is_far, _FAR_RIM, distance))
+    return distances[0], distances[1]
 
 
 def pixel_boundary(places: FloatArray) -> FloatArray:

@@ -23,13 +23,13 @@ _MOST_PARTS = 1024  # most parts
 _CURVE_TOLERANCE = 0.01  # largest distance in pixels of a straight part from the curve
 _DIRECTIONS = 64  # directions in which to search for a fold of the image
 
-_MOST_STEPS = 30  # of the inverse distortion; 14 were enough for 22,000 lenses of all kinds
-_ROUNDING = 1e-15  # of the picture's half diagonal: an inverse cannot be more exact
-_LARGEST_OFF = 1e-12  # largest error of the inverse, of the picture's half diagonal
+_MOST_STEPS = 30  # Newton steps of the inverse distortion; 22,000 varied lenses needed at most 14
+_ROUNDING = 1e-15  # rounding error of the inverse, as a fraction of the half diagonal
+_LARGEST_ERROR = 1e-12  # largest error of the inverse, as a fraction of the half diagonal
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
-"""Radii at which to search for a fold, in multiples of the picture's corner and of the needed
-radius."""
+"""Radii at which to search for a fold, in multiples of the corner's radius and of the radius that
+blurred light reaches."""
 
 
 class Distortion(OpticsEffect):
@@ -71,10 +71,10 @@ def distort(rays: FloatArray, lens: Lens) -> FloatArray:
 
 
 def undistort(points: FloatArray, scene: Scene) -> FloatArray:
-    """Return points of the picture, (column, row), where a lens without distortion shows them.
+    """Return where a lens without distortion would show points (column, row) of the picture.
 
-    The result is exact to rounding, by Newton's method from the picture's middle. A point beyond
-    the picture may have no such place: it becomes not a number.
+    The result is exact to rounding, by Newton's method from the picture's middle. A point outside
+    the picture that no ray reaches becomes not a number.
 
     Raises
     ------
@@ -89,18 +89,18 @@ def undistort(points: FloatArray, scene: Scene) -> FloatArray:
     rays = image_rays(points, camera)
     straight = np.zeros_like(rays)
     for _ in range(_MOST_STEPS):
-        off = rays - distort(straight, lens)
-        if np.abs(off).max(initial=0.0) <= _ROUNDING * corner:
+        error = rays - distort(straight, lens)
+        if np.abs(error).max(initial=0.0) <= _ROUNDING * corner:
             break
         along_x, along_y, across = _slopes(straight, lens)
         area = along_x * along_y - across * across
-        x, y = off[..., 0] / area, off[..., 1] / area
+        x, y = error[..., 0] / area, error[..., 1] / area
         straight = straight + np.stack([along_y * x - across * y, along_x * y - across * x], -1)
         # Within this radius the lens does not fold.
-        far = np.hypot(straight[..., 0], straight[..., 1])
-        straight *= np.minimum(1.0, radius / np.maximum(far, radius))[..., None]
-    off = np.abs(rays - distort(straight, lens)).max(axis=-1, keepdims=True)
-    return image_points(np.where(off <= _LARGEST_OFF * corner, straight, np.nan), camera)
+        distance = np.hypot(straight[..., 0], straight[..., 1])
+        straight *= np.minimum(1.0, radius / np.maximum(distance, radius))[..., None]
+    error = np.abs(rays - distort(straight, lens)).max(axis=-1, keepdims=True)
+    return image_points(np.where(error <= _LARGEST_ERROR * corner, straight, np.nan), camera)
 
 
 def undistort_frame(scene: Scene) -> FloatArray:
@@ -109,10 +109,10 @@ def undistort_frame(scene: Scene) -> FloatArray:
     The shape is (points, 2), (column, row) of each; ProjectionError as for :func:`undistort`.
     """
     right, bottom = scene.camera.columns - 1.0, scene.camera.rows - 1.0
-    rim = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])
+    corners = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])
     if not scene.lens.distorts:
-        return rim
-    return undistort(subdivide(rim, np.full(4, _PARTS)), scene)
+        return corners
+    return undistort(subdivide(corners, np.full(4, _PARTS)), scene)
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -123,7 +123,7 @@ def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def _trace_outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Trace both outlines as far as their light can reach the picture; beyond, the law may fold."""
+    """Trace both outlines as far as light can reach the picture; farther out may be a fold."""
     camera = scene.camera
     rays = image_rays(corners, camera)
     focal = camera.focal_length_pixels
@@ -139,8 +139,8 @@ def _trace_outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, Floa
     bent = distort(rays, scene.lens)
     # A panel that extends beyond the fold continues as far as light can still reach the picture.
     beyond = np.hypot(*rays.T) >= view.radius
-    far = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
-    bent[beyond] *= far[:, None]
+    scale = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
+    bent[beyond] *= scale[:, None]
     return image_points(rays, camera), image_points(bent, camera)
 
 
@@ -154,9 +154,9 @@ def _count_parts(rays: FloatArray, scene: Scene) -> IndexArray:
     halves = subdivide(rays, np.full(len(rays), 2 * _PARTS))
     halves = distort(halves, scene.lens) * scene.camera.focal_length_pixels
     starts, middles = halves[::2], halves[1::2]
-    off = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T)
+    distance = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T)
     # The distance from the curve falls as the square of the number of parts.
-    wanted = _PARTS * np.sqrt(off.reshape(len(rays), _PARTS).max(axis=1) / _CURVE_TOLERANCE)
+    wanted = _PARTS * np.sqrt(distance.reshape(len(rays), _PARTS).max(axis=1) / _CURVE_TOLERANCE)
     parts: IndexArray = np.ceil(np.clip(wanted, _PARTS, _MOST_PARTS)).astype(np.int64)
     return parts
 
@@ -177,20 +177,20 @@ def _find_visible_rays(lens: Lens, corner: float, needed: float) -> _VisibleRays
     picture's ``corner`` is a ProjectionError.
     """
     if needed > corner:
-        _find_visible_rays(lens, corner, corner)  # whether it is refused is no matter of the blur
+        _find_visible_rays(lens, corner, corner)  # refuse a lens whatever the blur
     angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     radii = np.union1d(_RADII * corner, _RADII * needed)
     rays = radii[:, None, None] * circle
     bent = distort(rays, lens)
-    # A circle that is pictured inside out, on the other side of the middle, was folded before.
-    turned = (bent * rays).sum(axis=-1) <= 0.0
-    folded = np.asarray((turned | (_area_scale(rays, lens) <= 0.0)).any(axis=1))
-    far = np.hypot(*np.moveaxis(bent, -1, 0)).min(axis=1)
-    last = int(np.argmax(far >= needed)) if (far >= needed).any() else len(radii) - 2
+    # A ray whose image is on the other side of the middle lies beyond a fold.
+    reversed_rays = (bent * rays).sum(axis=-1) <= 0.0
+    folded = np.asarray((reversed_rays | (_area_scale(rays, lens) <= 0.0)).any(axis=1))
+    distances = np.hypot(*np.moveaxis(bent, -1, 0)).min(axis=1)
+    last = int(np.argmax(distances >= needed)) if (distances >= needed).any() else len(radii) - 2
     if folded[: last + 2].any():
         last = int(np.argmax(folded)) - 2
-    if last < 0 or far[last] < corner:
+    if last < 0 or distances[last] < corner:
         raise ProjectionError(
             f"A lens with k_1 = {lens.radial_k1:g}, k_2 = {lens.radial_k2:g}, "
             f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture "
@@ -242,21 +242,21 @@ def clip_polygon(polygon: FloatArray, window: FloatArray) -> FloatArray:
 
 def part_inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
     """Return the part of a polygon where ``side``, linear between its corners, is not negative."""
-    kept = []
-    for here in range(len(polygon)):
-        there = (here + 1) % len(polygon)
-        if side[here] >= 0.0:
-            kept.append(polygon[here])
-        if (side[here] >= 0.0) != (side[there] >= 0.0):
-            fraction = side[here] / (side[here] - side[there])
-            kept.append(polygon[here] * (1.0 - fraction) + polygon[there] * fraction)
-    return np.array(kept, dtype=np.float64).reshape(-1, polygon.shape[1])
+    corners = []
+    for index in range(len(polygon)):
+        following = (index + 1) % len(polygon)
+        if side[index] >= 0.0:
+            corners.append(polygon[index])
+        if (side[index] >= 0.0) != (side[following] >= 0.0):
+            fraction = side[index] / (side[index] - side[following])
+            corners.append(polygon[index] * (1.0 - fraction) + polygon[following] * fraction)
+    return np.array(corners, dtype=np.float64).reshape(-1, polygon.shape[1])
 
 
 def subdivide(polygon: FloatArray, parts: IndexArray) -> FloatArray:
     """Divide each edge of a polygon into its number of equal ``parts``."""
     edge = np.repeat(np.arange(len(polygon)), parts)
-    before = np.cumsum(parts) - parts
-    fraction = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]
+    first = np.cumsum(parts) - parts
+    fraction = ((np.arange(len(edge)) - first[edge]) / parts[edge])[:, None]
     following = np.roll(polygon, -1, axis=0)
     return np.asarray(polygon[edge] * (1.0 - fraction) + following[edge] * fraction)

@@ -35,7 +35,7 @@ class PaperView:
     """The picture of a scene by the paper's model; it follows from the scene and the corners."""
 
     scene: Scene
-    corner_bytes: bytes  # The corners as bytes, by which views are compared
+    corner_bytes: bytes  # The corners as bytes, to compare views by
     corners: FloatArray = field(compare=False)  # (column, row) of each of the panel's four
 
     light: ColumnLight = field(compare=False)
@@ -45,7 +45,7 @@ class PaperView:
     sides: tuple[float, float, float, float] | None = field(compare=False)
     """Left, top, right and bottom of a panel whose image is an upright rectangle, else None."""
 
-    is_seen: bool = field(compare=False)  # Whether any part of the panel is in the image
+    is_visible: bool = field(compare=False)  # Whether any part of the panel is in the image
 
     region: Region = field(compare=False)
     """The panel's bounding rectangle in the image; the whole image if no panel is in it."""
@@ -77,7 +77,7 @@ def paper_view_of(
         light=light,
         values=values,
         sides=outline.sides,
-        is_seen=outline.is_seen,
+        is_visible=outline.is_visible,
         region=region,
         swing=max(highest - lowest, FLAT_SPAN),
     )
@@ -86,17 +86,17 @@ def paper_view_of(
 @dataclass(frozen=True, eq=False, slots=True)
 class _Outline:
     sides: tuple[float, float, float, float] | None
-    is_seen: bool
+    is_visible: bool
     region: Region
 
 
 @lru_cache(maxsize=16)
 def _outline_of(corners: bytes, rows: int, columns: int) -> _Outline:
-    """Return what follows from the corners alone, cached while pose and lens stay."""
+    """Return what follows from the corners alone, cached while they stay the same."""
     places = np.frombuffer(corners).reshape(-1, 2)
-    seen = region_of(places, rows, columns)
-    region = seen or Region(0, rows, 0, columns)
-    return _Outline(_sides(places), seen is not None, region)
+    visible = region_of(places, rows, columns)
+    region = visible or Region(0, rows, 0, columns)
+    return _Outline(_sides(places), visible is not None, region)
 
 
 def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
@@ -163,7 +163,7 @@ class LightEffect(Effect):
 
 
 class OpticsEffect(Effect):
-    """An effect of the lens on where and how bright the panel is in the picture."""
+    """An effect of the lens on the panel's place and brightness in the picture."""
 
     kind = "image"
     stage = "optics"
@@ -205,7 +205,7 @@ class FileEffect(Effect):
 
     @abstractmethod
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Return the picture as read from the file; 8 rows of blocks depend on no others."""
+        """Return the picture as read from the file; each row of 8 x 8 blocks is independent."""
 
     @abstractmethod
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
@@ -217,8 +217,7 @@ class FileEffect(Effect):
 
     @abstractmethod
     def rounding_of_means(self, scene: Scene) -> float:
-        """Return the error of a column's mean over one block by rounding, in grey levels.
+        """Return the rounding error of a column's mean over one block, in grey levels.
 
-        It is the standard deviation for coefficients that lie anywhere between their steps with
-        equal probability.
+        It is the standard deviation if the coefficients are distributed uniformly over the steps.
         """

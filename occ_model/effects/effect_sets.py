@@ -1,8 +1,8 @@
 """The sets of effects with which a scene can be simulated, with their times and errors.
 
-The times were measured once on one computer, as the shortest of some pictures of the presets, so
-that a plan is the same on every computer. Once pixels are simulated at all, exposing and storing
-them takes the same time for any effects, and scaling noise from a stored plane takes the same time
+The times were measured once on one computer, as the shortest of several pictures of the presets, so
+that a plan is the same on every computer. If any effect needs single pixels, exposing and storing
+them takes the same time for all effects, and scaling noise from a stored plane takes the same time
 for any number of noises.
 """
 
@@ -22,8 +22,8 @@ from occ_model.results.frame import EffectSet
 from occ_model.scene.scene import NoiseSource, SimulationSettings
 
 _SUM_RATIO = 1.15
-"""Largest ratio of added changes to the tolerance at which the effects are tried together: changes
-may cancel in part."""
+"""Largest ratio of the sum of changes to the tolerance at which the effects are tried together, as
+changes may partly cancel."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -33,7 +33,7 @@ class EffectSets:
     estimates: Estimates
     names: frozenset[str]  # All effects of the scene that are not switched off
     complete_seconds: float  # Seconds for a picture with all of them
-    effect_sets: tuple[EffectSet, ...]  # Errors are as if changes added
+    effect_sets: tuple[EffectSet, ...]  # Their errors assume that changes add
 
     @classmethod
     def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> Self:
@@ -56,20 +56,20 @@ class EffectSets:
         return cls(estimates, subsets.effects[0], float(subsets.seconds[0]), effect_sets)
 
     def errors_of(self, effect_sets: Sequence[EffectSet]) -> list[float]:
-        """Return the smallest tolerance for each set, with all that it omits tried together."""
-        found = self.estimates.errors_of(
+        """Return the smallest tolerance for each set, leaving out all that it omits together."""
+        errors = self.estimates.errors_of(
             [self.names - effect_set.effects for effect_set in effect_sets]
         )
         return [
-            max(own, effect_set.error / _SUM_RATIO)
-            for own, effect_set in zip(found, effect_sets, strict=True)
+            max(error, effect_set.error / _SUM_RATIO)
+            for error, effect_set in zip(errors, effect_sets, strict=True)
         ]
 
     def choose(self, tolerance: float) -> tuple[EffectSet, float]:
         """Choose the fastest set within a tolerance; return it and its error."""
         if tolerance == math.inf:
             return EffectSet(frozenset(), self.effect_sets[0].seconds, math.inf), math.inf
-        near = (
+        candidates = (
             [
                 effect_set
                 for effect_set in self.effect_sets
@@ -78,12 +78,14 @@ class EffectSets:
             if tolerance
             else []
         )
-        for some in (
-            near[:1],
-            near[1:5],
-            near[5:],
+        for batch in (
+            candidates[:1],
+            candidates[1:5],
+            candidates[5:],
         ):  # the first one usually suffices
-            for effect_set, error in zip(some, self.errors_of(some) if some else (), strict=True):
+            for effect_set, error in zip(
+                batch, self.errors_of(batch) if batch else (), strict=True
+            ):
                 if error <= tolerance:
                     return effect_set, error
         return EffectSet(self.names, self.complete_seconds, 0.0), 0.0
@@ -107,7 +109,7 @@ def _list_subsets(
     inside = np.hstack([1.0 - left_out, np.ones((len(left_out), len(forced_in)))])
     seconds = seconds_of([*free, *forced_in], inside, pixels, noise)
     names = [
-        frozenset(e.name for e, out in zip(free, row, strict=True) if not out)
+        frozenset(e.name for e, is_out in zip(free, row, strict=True) if not is_out)
         for row in left_out.tolist()
     ]
     return _Subsets(tuple(names), left_out, seconds, np.argsort(seconds, kind="stable"))
@@ -116,14 +118,14 @@ def _list_subsets(
 def _errors_if_added(
     estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray
 ) -> FloatArray:
-    """Return the change when a set of effects is left out, in levels, as if changes added."""
-    if estimates.seen is None:
+    """Return the change without each set of effects, in levels, assuming that changes add."""
+    if estimates.observed is None:
         return np.where(left_out.any(axis=1), math.inf, 0.0)
     if not free:
         return np.zeros(1)
     names = [effect.name for effect in free]
     factors = np.array([estimates.factors[name] for name in names])
-    squares = estimates.seen.largest_squares_if_added(names, left_out)
+    squares = estimates.observed.largest_squares_if_added(names, left_out)
     factor = np.maximum((left_out * factors).max(axis=1), 1.0)
     errors = np.sqrt(squares) * estimates.stretch * factor
     errors[0] = 0.0
@@ -143,13 +145,15 @@ def seconds_of(
 ) -> FloatArray:
     """Return the time of each set, given by rows of ``sets``: 1 where an effect is simulated."""
     millions = pixels * 1e-6
-    each = np.array([effect.cost.picture + effect.cost.pixels * millions for effect in effects])
+    effect_seconds = np.array(
+        [effect.cost.picture + effect.cost.pixels * millions for effect in effects]
+    )
     by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)
     noises = np.array([isinstance(effect, NoiseEffect) for effect in effects], dtype=bool)
     files = np.array([isinstance(effect, FileEffect) for effect in effects], dtype=bool)
-    drawn = sets[:, noises].sum(axis=1)
+    planes = sets[:, noises].sum(axis=1)
     if noise == "reused":
-        drawn = np.minimum(drawn, 1.0)
-    shared = _PIXEL_SECONDS * (sets[:, by_pixel] > 0.0).any(axis=1) + _NOISE_SECONDS[noise] * drawn
-    shared = shared + _NOISY_FILE_SECONDS * ((drawn > 0.0) & (sets[:, files] > 0.0).any(axis=1))
-    return np.asarray(sets @ each + shared * millions)
+        planes = np.minimum(planes, 1.0)
+    shared = _PIXEL_SECONDS * (sets[:, by_pixel] > 0.0).any(axis=1) + _NOISE_SECONDS[noise] * planes
+    shared = shared + _NOISY_FILE_SECONDS * ((planes > 0.0) & (sets[:, files] > 0.0).any(axis=1))
+    return np.asarray(sets @ effect_seconds + shared * millions)

@@ -21,13 +21,13 @@ from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Observable, SimulationSettings
 from occ_model.transmitter.scheme import check_code
 
-_SHARP_NOISE = 1e-9  # noise in grey levels that stands for none
+_SHARP_NOISE = 1e-9  # noise in grey levels in place of none, to divide by
 
 
 def observe_image(pixels: SampledPixels) -> SampledObservable:
     """Observe the pixels, each weighted by how much of its change clipping leaves."""
-    everything, file = pixels.names, pixels.file
-    spread = pixels.spread(everything)
+    names, file = pixels.names, pixels.file
+    spread = pixels.spread(names)
     unclipped = unclipped_fraction(pixels.levels, spread, WHITE)
     # A change of the light also changes its noise, and clipped pixels change less.
     fraction = pixels.interpolate_at_pixels(unclipped * (1.0 + pixels.table.slope(spread) ** 2))
@@ -36,116 +36,115 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
     def observe(sets: Sequence[Names]) -> FloatArray:
         return pixels.values(sets).reshape(len(sets), -1) * weights
 
-    found = SampledObservable(everything, observe, pixels.moving)
+    observed = SampledObservable(names, observe, pixels.moving)
     region = pixels.view.region
     if pixels.sample.outline:
         doubt = unsampled_rim_square(pixels, pixels.contrast**2 / (region.rows * region.columns))
         square = 3.0 * pixels.contrast**2
-        found.doubt.update(
+        observed.doubt.update(
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
     for name, variance in pixels.variances.items():
-        found.alone[name] = (
+        observed.independent[name] = (
             pixels.mean_over_pixels(variance * unclipped)
             if file is None
             else pixels.noise_read_back[name][0]
         )
     if file is not None:
-        found.alone[pixels.files[0].name] = file.own_change
-        squares = np.array([found.sampled_square(name) for name in pixels.moving])
-        doubts = np.array([found.doubt.get(name, 0.0) for name in pixels.moving])
+        observed.independent[pixels.files[0].name] = file.own_change
+        squares = np.array([observed.sampled_square(name) for name in pixels.moving])
+        doubts = np.array([observed.doubt.get(name, 0.0) for name in pixels.moving])
         rims = (
             np.array([pixels.rims.count_moved_rims(name) for name in pixels.moving])
             * 8.0
             / region.rows
         )
-        inside, _, more = (of_sets[1:] for of_sets in file.growth)
+        inside, _, extra = (of_sets[1:] for of_sets in file.growth)
         added = inside + file.growth_at_rims(np.minimum(rims, 1.0), squares + doubts)
         alone = np.maximum(added, -squares)
-        doubts += np.maximum(added + more, -0.5 * (squares + doubts)) - alone
-        found.alone.update(zip(pixels.moving, alone.tolist(), strict=True))
-        found.doubt.update(zip(pixels.moving, doubts.tolist(), strict=True))
-    add_unsampled(pixels, found)
-    return found
+        doubts += np.maximum(added + extra, -0.5 * (squares + doubts)) - alone
+        observed.independent.update(zip(pixels.moving, alone.tolist(), strict=True))
+        observed.doubt.update(zip(pixels.moving, doubts.tolist(), strict=True))
+    add_unsampled(pixels, observed)
+    return observed
 
 
 def observe_profile(pixels: SampledPixels) -> SampledObservable:
     """Observe the means of the columns, after rounding, clipping and the file."""
-    everything, sample, file = pixels.names, pixels.sample, pixels.file
+    names, sample, file = pixels.names, pixels.sample, pixels.file
     rows, weights = pixels.view.region.rows, np.sqrt(sample.weights)
 
     def observe(sets: Sequence[Names]) -> FloatArray:
         spread = np.stack([pixels.spread(included) for included in sets])
         tables = mean_after_clipping(pixels.levels, spread, WHITE)
         if file is not None:  # its error is clipped again, also where pixels are black or white
-            filed = [at for at, one in enumerate(sets) if pixels.files[0].name in one]
-            below = normal_fraction(-pixels.levels / np.maximum(spread[filed], _SHARP_NOISE))
+            with_file = [at for at, included in enumerate(sets) if pixels.files[0].name in included]
+            below = normal_fraction(-pixels.levels / np.maximum(spread[with_file], _SHARP_NOISE))
             above = normal_fraction(
-                (pixels.levels - WHITE) / np.maximum(spread[filed], _SHARP_NOISE)
+                (pixels.levels - WHITE) / np.maximum(spread[with_file], _SHARP_NOISE)
             )
             error = math.sqrt(file.own_change)
-            tables[filed] += (below - above) * error / math.sqrt(2.0 * math.pi)
-        found = pixels.table.interpolate_each(tables, pixels.values_read_back(sets))
-        return pixels.mean_of_rows(found) * weights
+            tables[with_file] += (below - above) * error / math.sqrt(2.0 * math.pi)
+        means = pixels.table.interpolate_each(tables, pixels.values_read_back(sets))
+        return pixels.mean_of_rows(means) * weights
 
-    found = SampledObservable(everything, observe, sorted(everything))
+    observed = SampledObservable(names, observe, sorted(names))
     region = pixels.view.region
     if pixels.sample.outline:
         square = pixels.contrast**2
         doubt = unsampled_rim_square(pixels, square / (region.rows**2 * region.columns))
         doubt += cut_block_square(pixels)
-        found.doubt.update(
+        observed.doubt.update(
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
     if file is None:
         variances = {n: pixels.mean_over_pixels(v) for n, v in pixels.variances.items()}
-        found.add_noise({n: v / rows for n, v in variances.items()}, region.columns)
+        observed.add_noise({n: v / rows for n, v in variances.items()}, region.columns)
     else:
-        found.alone.update({n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()})
+        observed.independent.update(
+            {n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()}
+        )
         name = pixels.files[0].name
-        found.alone[name] = file.own_sampling_square()
-        found.doubt[name] = found.sampled_square(name)
-        for name in pixels.moving:  # the growth by rounding is known only to within its own size
-            added, more = (float(of_sets[pixels.stack_index(name)]) for of_sets in file.growth[1:])
-            found.alone[name] = added
-            added += 2.0 * more / file.block_rows
-            found.add_doubt([name], added)
-    add_unsampled(pixels, found)
-    return found
+        observed.independent[name] = file.own_sampling_square()
+        observed.doubt[name] = observed.sampled_square(name)
+        for name in pixels.moving:  # the growth by rounding is only known to a factor of two
+            added, extra = (float(of_sets[pixels.stack_index(name)]) for of_sets in file.growth[1:])
+            observed.independent[name] = added
+            added += 2.0 * extra / file.block_rows
+            observed.add_doubt([name], added)
+    add_unsampled(pixels, observed)
+    return observed
 
 
 ALLOWANCE = 1.05
-"""Factor from the change of the sample to the estimate, which hardly any true change exceeds."""
+"""Factor from the change of the sample to the estimate; true changes rarely exceed the estimate."""
 
 _PEAK, _NOISE_PEAK = 2.0, 3.0
-"""How many root mean squares, of a smooth change and of noise, must fit within a chip's margin."""
+"""Ratio of a chip's margin to the RMS of a smooth change, and of noise, that is still harmless."""
 
 _LEAST_ESTIMATE = 1e-9
 """Estimate, in grey levels, for an effect of the scene that changes nothing in the sample."""
 
 _UNDITHERED_FRACTION = 0.25
-"""Fraction of any mean square by which a file may enlarge it where no noise spreads its
-rounding."""
+"""Fraction by which a file may enlarge a mean square where no noise spreads its rounding."""
 
 _READ_FRACTION = 0.15  # largest distance from a chip's middle, in chips, at which it is read
 
 
 def observe(pixels: SampledPixels, observable: Observable) -> SampledObservable:
     if observable == "image":
-        found = observe_image(pixels)
+        observed = observe_image(pixels)
     else:
-        found = observe_profile(pixels) if observable == "profile" else observe_signal(pixels)
+        observed = observe_profile(pixels) if observable == "profile" else observe_signal(pixels)
     if pixels.file is not None:
-        found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_fraction
+        observed.uncertainty = _UNDITHERED_FRACTION * pixels.file.undithered_fraction
         doubt = pixels.file.undithered_square()
-        rims = (
-            pixels.rims.fraction
-        )  # of blocks that may round otherwise where no noise spreads them
+        rims = pixels.rims.fraction  # without noise, these blocks may round differently
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
         at_rims = pixels.file.undithered_fraction * pixels.file.growth_at_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
-        found.add_doubt(pixels.names, doubt)
-    return found
+        observed.add_doubt(pixels.names, doubt)
+    return observed
 
 
 def decision_margins(pixels: SampledPixels, signal: SampledObservable) -> tuple[float, float]:
@@ -155,44 +154,46 @@ def decision_margins(pixels: SampledPixels, signal: SampledObservable) -> tuple[
     the signal crosses it, noise larger than the step between columns makes false runs.
     """
     scene, sample = pixels.scene, pixels.sample
-    seen = signal.complete / np.sqrt(sample.weights)
-    low, high = float(seen.min()), float(seen.max())
+    signal_values = signal.complete / np.sqrt(sample.weights)
+    low, high = float(signal_values.min()), float(signal_values.max())
     camera, frequency = scene.camera, scene.transmitter.switching_frequency
     middle = scene.model.start_time + sample.columns * camera.readout_time
     phase = (middle + camera.exposure_time / 2.0) * frequency % 1.0
-    chips = seen[np.abs(phase - 0.5) < _READ_FRACTION]
+    chips = signal_values[np.abs(phase - 0.5) < _READ_FRACTION]
     if high - low < 1.0 or not len(chips):
         return 0.0, 0.0
-    scaled = ((seen - low) * (WHITE / (high - low))).astype(np.uint8)
-    found, _ = cv2.threshold(scaled[None, :], 0, 255, cv2.THRESH_OTSU)
-    threshold = low + (found + 0.5) * (high - low) / WHITE
-    across = max(camera.exposure_time / camera.readout_time, 1.0)
-    return float(np.abs(chips - threshold).min()), (high - low) / across
+    scaled = ((signal_values - low) * (WHITE / (high - low))).astype(np.uint8)
+    level, _ = cv2.threshold(scaled[None, :], 0, 255, cv2.THRESH_OTSU)
+    threshold = low + (level + 0.5) * (high - low) / WHITE
+    columns = max(camera.exposure_time / camera.readout_time, 1.0)
+    return float(np.abs(chips - threshold).min()), (high - low) / columns
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Estimates:
     """The change without each effect of a scene, in levels of the stretched profile."""
 
-    sizes: Mapping[str, float]  # As in the sample
-    limits: Mapping[str, float]  # With what the sample may have missed
+    sizes: Mapping[str, float]  # Estimates from the sample
+    limits: Mapping[str, float]  # Upper bounds, with what the sample may have missed
 
-    seen: SampledObservable | None
-    """The sampled observable; None where no bound is known, so that nothing may be left out."""
+    observed: SampledObservable | None
+    """The sampled observable; None if no bound is known, so that nothing may be left out."""
 
     stretch: float  # Levels of the stretched profile per grey level
     factors: Mapping[str, float]  # Weight of an effect's change, at least 1
     unknown: str = ""  # Why no bound is known; every limit is then infinite
-    # With the effects that are switched off; None where none is
+    # The estimates with effects that are switched off; None if none is
     complete: "Estimates | None" = None
 
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
         """Return bounds of the change, in levels, when each set of effects is left out."""
-        if self.seen is None:
+        if self.observed is None:
             return [math.inf if left_out else 0.0 for left_out in sets]
-        most = np.sqrt(self.seen.largest_squares(sets)).tolist()
-        factors = [max((self.factors[name] for name in one), default=1.0) for one in sets]
-        return [self.stretch * one * own for one, own in zip(factors, most, strict=True)]
+        changes = np.sqrt(self.observed.largest_squares(sets)).tolist()
+        factors = [max((self.factors[name] for name in left_out), default=1.0) for left_out in sets]
+        return [
+            self.stretch * left_out * own for left_out, own in zip(factors, changes, strict=True)
+        ]
 
     def error_without(self, effects: frozenset[str]) -> float:
         """Return a bound of the change without some effects, those switched off as well."""
@@ -201,30 +202,33 @@ class Estimates:
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
-    """Estimate the change without each effect, where the user has switched some on or off.
+    """Estimate the change without each effect; the settings may switch some on or off.
 
-    A light that is no code has no decision, which is refused.
+    The decision is refused for a light that is no code.
     """
     if settings.observable == "decision":
         check_code(view.scene.transmitter, instead="choose the signal, the profile or the image")
     try:
-        found = _estimate_from_sample(view, settings.observable, EFFECTS)
+        estimates = _estimate_from_sample(view, settings.observable, EFFECTS)
     except ProjectionError:  # the simulation of this lens fails too
         unknown = {"distortion": math.inf}
         why = "the lens cannot be simulated"
         return Estimates(unknown, unknown, None, WHITE / view.swing, {}, why)
     force = settings.force
-    if any(not on and name in found.sizes for name, on in force.items()):
-        kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
-        own = _estimate_from_sample(view, settings.observable, kept)
-        sizes, limits = {**found.sizes, **own.sizes}, {**found.limits, **own.limits}
-        found = replace(own, sizes=sizes, limits=limits, complete=found)
+    if any(not is_on and name in estimates.sizes for name, is_on in force.items()):
+        effects = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
+        without_off = _estimate_from_sample(view, settings.observable, effects)
+        sizes, limits = (
+            {**estimates.sizes, **without_off.sizes},
+            {**estimates.limits, **without_off.limits},
+        )
+        estimates = replace(without_off, sizes=sizes, limits=limits, complete=estimates)
     if view.swing > FLAT_SPAN:
-        return found
-    # A change is either far above the tolerance or absent from the sample, which then says nothing.
-    limits = dict.fromkeys(found.sizes, math.inf)
+        return estimates
+    # A change is then either far above the tolerance or absent from the sample.
+    limits = dict.fromkeys(estimates.sizes, math.inf)
     why = "the stripes span less than a grey level"
-    return replace(found, seen=None, limits=limits, unknown=why, complete=None)
+    return replace(estimates, observed=None, limits=limits, unknown=why, complete=None)
 
 
 def _estimate_from_sample(
@@ -234,20 +238,24 @@ def _estimate_from_sample(
     of_signal = observable in ("signal", "decision")
     swing = signal_swing(pixels) if of_signal else view.swing
     stretch, factors = WHITE / swing, dict.fromkeys(pixels.names, 1.0)
-    seen = observe(pixels, "signal" if of_signal else observable)
+    observed = observe(pixels, "signal" if of_signal else observable)
     if observable == "decision":
-        margin, step = (max(found, 1e-6) for found in decision_margins(pixels, seen))
+        margin, step = (max(distance, 1e-6) for distance in decision_margins(pixels, observed))
         stretch = _PEAK / margin
         for effect in (*pixels.noises, *pixels.files):  # their changes differ from column to column
             factors[effect.name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
     sizes, limits = {}, {}
     names = [effect.name for effect in pixels.effects]
-    most = (
-        np.sqrt(seen.largest_squares_if_added(names, np.eye(len(names)))).tolist() if names else []
+    bounds = (
+        np.sqrt(observed.largest_squares_if_added(names, np.eye(len(names)))).tolist()
+        if names
+        else []
     )
-    for name, of_sample in zip(names, most, strict=True):
+    for name, bound in zip(names, bounds, strict=True):
         unit = stretch * factors[name]
-        allowance = 1.0 if name in seen.known else ALLOWANCE
-        sizes[name] = max(math.sqrt(seen.sampled_square(name)), _LEAST_ESTIMATE) * unit * allowance
-        limits[name] = max(of_sample * unit, sizes[name])
-    return Estimates(sizes, limits, seen, stretch, factors)
+        allowance = 1.0 if name in observed.bound_factors else ALLOWANCE
+        sizes[name] = (
+            max(math.sqrt(observed.sampled_square(name)), _LEAST_ESTIMATE) * unit * allowance
+        )
+        limits[name] = max(bound * unit, sizes[name])
+    return Estimates(sizes, limits, observed, stretch, factors)

@@ -34,7 +34,7 @@ _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
 """Approximate coefficients of an edge of one grey level in a block."""
 
 _NOISES: FloatArray = np.linspace(0.0, 16.0, 129) ** 2
-"""Standard deviations of noise, in grey levels, at which its value after the file is tabulated."""
+"""Standard deviations of noise, in grey levels, for which the noise after the file is tabulated."""
 
 _TINY = 1e-30
 
@@ -49,7 +49,7 @@ _ROUNDING_VARIANCE = 1.0 / 12.0  # mean square error of rounding to whole grey l
 
 @lru_cache(maxsize=4)
 def _tabulate_noise_read_back(steps: bytes) -> FloatArray:
-    """Tabulate the standard deviation of noise after it was stored in the file."""
+    """Tabulate the standard deviation of noise after storage in the file."""
     step, q = np.split(np.frombuffer(steps), [8])
     noise = np.sqrt(_NOISES**2 + _ROUNDING_VARIANCE)[:, None]
     s = noise / step
@@ -62,8 +62,8 @@ def _tabulate_noise_read_back(steps: bytes) -> FloatArray:
 class FileChange:
     """How a file changes a sample's pixels, with all effects and without some.
 
-    ``steps``, (8, 8), are those to which it rounds. The pixels are the ``stack``, (sets, columns,
-    nodes), and ``spread`` is the RMS of their noise.
+    The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels, and
+    ``spread`` is the RMS of their noise.
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class FileChange:
         self.block_rows = max(rims.rows / 8.0, 1.0)
         self._rims = rims.fraction
         self._filled = math.sqrt(rims.rows / (8.0 * rims.blocks))
-        self._cut = rims.cut / rims.rows**2
+        self._cut = rims.cut_variance / rims.rows**2
         self._inside = (
             self._blocks_between_rims(stack) if len(self._blocks) else stack[:, None, None]
         )
@@ -106,10 +106,10 @@ class FileChange:
         """Return the coefficients of vertical frequency 0, in steps: (sets, blocks, 8, nodes)."""
         if not len(self._blocks):
             return np.zeros((len(blocks), 1, 8, 1))
-        found = np.matmul(_transform() * math.sqrt(8.0), blocks)
-        found[:, :, 0] -= 1024.0
-        found /= self._step
-        return np.asarray(found)
+        coefficients = np.matmul(_transform() * math.sqrt(8.0), blocks)
+        coefficients[:, :, 0] -= 1024.0
+        coefficients /= self._step
+        return np.asarray(coefficients)
 
     def read_back_means(self, values: FloatArray, spread: FloatArray) -> FloatArray:
         """Replace pixels' mean values, (sets, columns, nodes), by those after the file.
@@ -120,12 +120,12 @@ class FileChange:
             return values
         x = self._coefficients(self._blocks_between_rims(values))
         middle = x.mean(axis=3, keepdims=True)
-        varied = np.square(x - middle).mean(axis=3, keepdims=True)
+        variance = np.square(x - middle).mean(axis=3, keepdims=True)
         noise = (spread * spread + _ROUNDING_VARIANCE)[:, None, None, None]
-        wide = np.sqrt(noise / self._step**2 + varied)
-        shift = rounding_mean(middle, wide) * (self._step / math.sqrt(8.0))
-        back = np.matmul(_transform().T, shift)
-        values[:, self._blocks.ravel()] += back.reshape(len(values), -1, 1)
+        spreads = np.sqrt(noise / self._step**2 + variance)
+        shift = rounding_mean(middle, spreads) * (self._step / math.sqrt(8.0))
+        change = np.matmul(_transform().T, shift)
+        values[:, self._blocks.ravel()] += change.reshape(len(values), -1, 1)
         return values
 
     @cached_property
@@ -153,36 +153,36 @@ class FileChange:
         """What rounding adds to the mean square of a change, for each of the sets.
 
         A change by a fraction of a level rounds some pixels to another level, which changes all
-        coefficients as noise does. Given are the addition to the pixels; the addition to a column's
-        mean, of the part that differs between blocks; and the further addition to the pixels where
-        other coefficients lie a little beside the sampled ones.
+        coefficients as noise does. The three arrays are the addition to the pixels; the addition to
+        a column's mean by what differs between blocks; and the largest further addition to the
+        pixels if other coefficients differ a little from the sampled ones.
         """
         moved = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
         flips = np.sqrt(rounding_growth(moved).mean(axis=1))
         size = np.sqrt((moved**2).mean(axis=1))
-        read = self._x + rounding_mean(self._x, self._s)
-        shift = read - read[0]
+        read_back = self._x + rounding_mean(self._x, self._s)
+        shift = read_back - read_back[0]
         by_noise = rounding_growth_by_noise(flips[:, None, None] / self._step)[:, None]
         of_shift = rounding_growth(shift)
-        apart = self._square_in_pixels(
+        varying = self._square_in_pixels(
             np.maximum(of_shift, by_noise * self._density_at_boundaries(_LEAST_SPREAD))
         )
-        more: FloatArray = np.zeros(len(apart))
+        extra: FloatArray = np.zeros(len(varying))
         if float(self._s.min()) < SHARP_NOISE:
-            more = (
+            extra = (
                 self._square_in_pixels(
                     np.maximum(of_shift, by_noise * self._density_at_boundaries(SHARP_NOISE))
                 )
-                - apart
+                - varying
             )
-        along = self._square_in_pixels(shift**2 - (self._x - self._x[0]) ** 2) + apart
+        along = self._square_in_pixels(shift**2 - (self._x - self._x[0]) ** 2) + varying
         q = self._others
         across = rounding_growth_by_noise(flips[:, None] / q) @ (
             q**2 * density_at_boundaries(self._noise / q)
         )
         rims = self._growth_at_rims(np.hypot(size, flips) * self._filled, self._white)
         image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims
-        return image, apart / self.block_rows + self._cut * rims, more
+        return image, varying / self.block_rows + self._cut * rims, extra
 
     def _square_in_pixels(self, squares: FloatArray) -> FloatArray:
         """Return the mean square over the pixels of the squares of coefficients, shape (sets,)."""
@@ -192,9 +192,11 @@ class FileChange:
 
     def _density_at_boundaries(self, least: float) -> FloatArray:
         """Return the density of the coefficients at rounding boundaries, at most 1."""
-        away = np.abs(self._x[0] - np.rint(self._x[0]))
+        distance = np.abs(self._x[0] - np.rint(self._x[0]))
         spread = np.maximum(self._s, least)
-        density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
+        density = np.exp(-0.5 * ((0.5 - distance) / spread) ** 2) / (
+            math.sqrt(2.0 * math.pi) * spread
+        )
         return np.asarray(np.minimum(density, 1.0))
 
     def _growth_at_rims(self, size: FloatArray, spectrum: FloatArray) -> FloatArray:
@@ -204,8 +206,7 @@ class FileChange:
     def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
         """Return the relative amplitude of each horizontal frequency in a row of the panel.
 
-        Blocks at a rim along the rows have the frequencies of the stripes; any other rim adds its
-        own.
+        Blocks at a horizontal rim have the frequencies of the stripes; any other rim adds its own.
         """
         values = self._x[0] * self._step
         values[:, 0] += 1024.0 - 8.0 * dark
@@ -216,22 +217,22 @@ class FileChange:
 
     @property
     def undithered_fraction(self) -> float:
-        """The part, 0 to 1, of the rounding's sawtooth that noise leaves: mean over the steps."""
+        """Mean over the steps of the fraction of the rounding's sawtooth that noise leaves."""
         return float(np.exp(-DAMPING * self._s**2).mean())
 
     def undithered_square(self) -> float:
-        """Return the mean square that a sample may miss: all blocks may round alike.
+        """Return the mean square that a sample may miss because all blocks may round alike.
 
         Where noise does not spread a block's mean over the steps, the smallest change may round
-        many blocks of an even picture to other values at once. Half of them are counted.
+        many blocks of a uniform picture to other values at once. Half of them are counted.
         """
         sharp = self._step[:2] ** 2 * np.exp(-DAMPING * self._s[:2] ** 2)
         return float(sharp.sum()) / 2.0 / 64.0
 
     def growth_at_rims(self, fractions: FloatArray, squares: FloatArray) -> FloatArray:
-        """Return the growth by rounding of changes in some fractions of the blocks.
+        """Return how much rounding adds to changes in given fractions of the blocks.
 
-        ``squares`` are the changes' mean squares over all of the picture.
+        ``squares`` are the changes' mean squares over the whole picture.
         """
         sizes = np.sqrt(squares / np.maximum(fractions, _TINY))
         return fractions * self._growth_at_rims(sizes, self._along)
@@ -244,25 +245,25 @@ class FileChange:
         """Return the standard deviation of a pixel's noise after the file."""
         return np.interp(spread, _NOISES, _tabulate_noise_read_back(self._all.tobytes()))
 
-    def noise_squares(self, own: FloatArray, left: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def noise_squares(self, own: FloatArray, rest: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the mean square of each noise after the file, in pixels and in column means.
 
-        Each noise is taken as what changes when it alone is removed; ``left`` is then the rest.
+        Each noise counts as the change when it alone is removed, which leaves the noise ``rest``.
         """
-        rest = np.sqrt(left**2 + _ROUNDING_VARIANCE)
+        rest = np.sqrt(rest**2 + _ROUNDING_VARIANCE)
         own = np.sqrt(own**2 + rounding_growth_by_noise(own))
         step, q = self._step[:, 0], self._others
         spreads = np.append(rest, np.hypot(own[:1], rest[:1]))[:, None]
         x = self._x[0].mean(axis=2)
-        varied = variance_after_rounding(x, (spreads / step)[:, None]).mean(axis=1)
-        apart = (own[:, None] / step) ** 2 + rounding_growth_by_noise(own[:, None] / step)
-        along = np.minimum(varied[:-1] + varied[-1], apart) @ step**2 / 64.0
-        varied = square_of_rounded_noise(spreads / q)
-        # Coefficients of other vertical frequencies lie about 0, or anywhere if the rows differ;
-        # the truth is between these.
+        variances = variance_after_rounding(x, (spreads / step)[:, None]).mean(axis=1)
+        most = (own[:, None] / step) ** 2 + rounding_growth_by_noise(own[:, None] / step)
+        along = np.minimum(variances[:-1] + variances[-1], most) @ step**2 / 64.0
+        variances = square_of_rounded_noise(spreads / q)
+        # Coefficients of other vertical frequencies lie near 0, or anywhere if the rows differ; the
+        # geometric mean is between the two.
         near = np.sqrt(density_at_boundaries(self._noise / q))
-        apart = near * ((own[:, None] / q) ** 2 + rounding_growth_by_noise(own[:, None] / q))
-        across = np.minimum(varied[:-1] + varied[-1], apart) @ q**2 / 64.0
+        most = near * ((own[:, None] / q) ** 2 + rounding_growth_by_noise(own[:, None] / q))
+        across = np.minimum(variances[:-1] + variances[-1], most) @ q**2 / 64.0
         rims = self._growth_at_rims(own, self._white)
         part = self._rims * float(self._density_at_rims.mean())  # noise is not rounded away there
         image = (1.0 - part) * (along + across) + part * own**2 + self._rims * rims

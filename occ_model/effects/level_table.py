@@ -34,7 +34,7 @@ class LevelTable:
         return below, fraction
 
     def interpolate_at(self, table: FloatArray, places: Places) -> FloatArray:
-        """Interpolate one table at places of values, shape as these."""
+        """Interpolate one table at the places of values; the result has the values' shape."""
         below, fraction = places
         return np.asarray(table.take(below) + fraction * _differences(table).take(below))
 
@@ -56,15 +56,15 @@ class LevelTable:
         return np.asarray(slope)
 
     def divide_weights(self, weights: FloatArray, places: Places) -> FloatArray:
-        """Divide each weight among the two levels beside its place.
+        """Divide each weight between the two levels next to its place.
 
         The product of a table with the result is the weighted sum of the interpolated values.
         """
         below, fraction = places
         above = (weights * fraction).ravel()
-        found = np.asarray(np.bincount(below.ravel(), weights.ravel() - above, _LEVELS), float)
-        found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
-        return found
+        sums = np.asarray(np.bincount(below.ravel(), weights.ravel() - above, _LEVELS), float)
+        sums[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
+        return sums
 
 
 def _differences(tables: FloatArray) -> FloatArray:

@@ -87,13 +87,13 @@ class Flicker(LightEffect):
 
 
 def depth_in_exposure(scene: Scene) -> float:
-    """Return the depth of the flicker that is left after averaging over an exposure."""
+    """Return the depth of the flicker after averaging over an exposure."""
     return flicker_of(scene).depth_in(Fraction(scene.camera.exposure_time))
 
 
 @lru_cache(maxsize=4)
 def ambient_fractions(scene: Scene) -> FloatArray:
     """Return the mean external illuminance in each column's exposure, as a multiple of E_v."""
-    found = _means(scene, flicker_of(scene))
-    found.flags.writeable = False
-    return found
+    fractions = _means(scene, flicker_of(scene))
+    fractions.flags.writeable = False
+    return fractions

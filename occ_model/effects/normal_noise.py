@@ -20,12 +20,12 @@ _PER_DEVIATION = 256
 
 @lru_cache(maxsize=1)
 def _tail_tables() -> tuple[FloatArray, FloatArray]:
-    """Tabulate the probability Q(u) of more than u, and phi(u) - u Q(u), from -_RANGE to _RANGE."""
+    """Tabulate the tail probability Q(u) and phi(u) - u Q(u) for u from -_RANGE to _RANGE."""
     u = np.arange(-_RANGE * _PER_DEVIATION, _RANGE * _PER_DEVIATION + 1.0) / _PER_DEVIATION
-    beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
-    lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
-    lost[-1] = 0.0
-    return beyond, lost
+    tail = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
+    excess = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * tail
+    excess[-1] = 0.0
+    return tail, excess
 
 
 def _table_index(u: FloatArray) -> np.ndarray:
@@ -46,18 +46,18 @@ def mean_after_clipping(levels: FloatArray, spread: FloatArray, white: float) ->
     Clipping a normal variable u standard deviations from its mean moves the mean by phi(u) - u Q(u)
     standard deviations.
     """
-    lost = _tail_tables()[1]
-    least = np.maximum(spread, 1e-9)
-    above = lost.take(_table_index(levels / least)) - lost.take(
-        _table_index((white - levels) / least)
+    excess = _tail_tables()[1]
+    spreads = np.maximum(spread, 1e-9)
+    shift = excess.take(_table_index(levels / spreads)) - excess.take(
+        _table_index((white - levels) / spreads)
     )
-    return np.asarray(levels + least * above)
+    return np.asarray(levels + spreads * shift)
 
 
 def unclipped_fraction(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
     """Return the fraction of noisy pixels that are clipped neither at black nor at white."""
-    least = np.maximum(spread, 1e-9)
-    return normal_fraction(levels / least) - normal_fraction((levels - white) / least)
+    spreads = np.maximum(spread, 1e-9)
+    return normal_fraction(levels / spreads) - normal_fraction((levels - white) / spreads)
 
 
 _HARMONICS = 6
@@ -67,31 +67,31 @@ DAMPING = 2.0 * math.pi**2
 it."""
 
 _NEGLIGIBLE_EXPONENT = 9.0  # damping exponent above which a harmonic is neglected
-SHARP_NOISE = 0.08  # noise in steps below which nearly all values round as if there were none
+SHARP_NOISE = 0.08  # noise in steps below which nearly all values round as without noise
 _FINE_NOISE = 2.0  # noise in steps above which rounding adds the variance of a uniform error
-_TINY_NOISE = 1e-9  # noise in steps that stands for none
-_WIDE_NOISE = 0.8  # noise in steps above which any mean has the same variance after rounding
+_TINY_NOISE = 1e-9  # noise in steps in place of none, to divide by
+_WIDE_NOISE = 0.8  # noise in steps above which the variance after rounding is the same for any mean
 
 
 def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
-    """Return the mean square error of rounding, in steps."""
-    found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
-    for n, angle, damped in _harmonics(x, s):
-        found += np.cos(angle) * (damped / (math.pi * n) ** 2)
+    """Return the mean square error of rounding, in squared steps."""
+    square = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
+    for n, angle, damping in _harmonics(x, s):
+        square += np.cos(angle) * (damping / (math.pi * n) ** 2)
     sharp = s < SHARP_NOISE  # there six harmonics are too few
-    return np.where(sharp, (x - np.rint(x)) ** 2 + s * s, found) if sharp.any() else found
+    return np.where(sharp, (x - np.rint(x)) ** 2 + s * s, square) if sharp.any() else square
 
 
 def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean of round(x) - x, in steps."""
-    found = np.rint(x) - x
+    mean = np.rint(x) - x
     sharp = s < SHARP_NOISE
     if sharp.all():
-        return np.asarray(np.broadcast_to(found, np.broadcast_shapes(x.shape, s.shape)))
-    damped = np.zeros(np.broadcast_shapes(x.shape, s.shape))
-    for n, angle, fraction in _harmonics(x, s):
-        damped += np.sin(angle) * (fraction / (math.pi * n))
-    return np.where(sharp, found, damped) if sharp.any() else damped
+        return np.asarray(np.broadcast_to(mean, np.broadcast_shapes(x.shape, s.shape)))
+    damped_mean = np.zeros(np.broadcast_shapes(x.shape, s.shape))
+    for n, angle, damping in _harmonics(x, s):
+        damped_mean += np.sin(angle) * (damping / (math.pi * n))
+    return np.where(sharp, mean, damped_mean) if sharp.any() else damped_mean
 
 
 def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixels]]:
@@ -106,7 +106,7 @@ def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixe
 
 
 def rounding_growth(change: FloatArray) -> FloatArray:
-    """Return how much the mean square of a change grows when both of its values are rounded."""
+    """Return how much the mean square of a change grows by rounding the values it lies between."""
     fraction = change - np.floor(change)  # many times faster than ``%``
     return fraction * (1.0 - fraction)
 
@@ -123,15 +123,15 @@ def rounding_growth_by_noise(s: FloatArray) -> FloatArray:
 
 
 def _compute_growth_by_noise(s: FloatArray) -> FloatArray:
-    damped = np.exp(-DAMPING * s * s)
-    found = 1.0 / 6.0 - (damped + damped**4 / 4.0) / math.pi**2
-    return np.where(s < 0.3, math.sqrt(2.0 / math.pi) * s - s * s, found)
+    damping = np.exp(-DAMPING * s * s)
+    growth = 1.0 / 6.0 - (damping + damping**4 / 4.0) / math.pi**2
+    return np.where(s < 0.3, math.sqrt(2.0 / math.pi) * s - s * s, growth)
 
 
 def density_at_boundaries(s: FloatArray) -> FloatArray:
-    """Return the density of noise about 0 at rounding boundaries, at most 1.
+    """Return the density of noise of mean 0 at the rounding boundaries, at most 1.
 
-    Values that are spread evenly over the steps have the density 1.
+    Values that are uniform over the steps have the density 1.
     """
     return np.interp(s, *_tabulate(_compute_boundary_density))
 
@@ -144,7 +144,7 @@ def _compute_boundary_density(s: FloatArray) -> FloatArray:
 
 
 def square_of_rounded_noise(s: FloatArray) -> FloatArray:
-    """Return the mean square of noise about 0 after rounding, in steps."""
+    """Return the mean square of noise of mean 0 after rounding, in squared steps."""
     return np.where(
         s > _FINE_NOISE, s * s + 1.0 / 12.0, np.interp(s, *_tabulate(_compute_rounded_square))
     )
@@ -152,15 +152,15 @@ def square_of_rounded_noise(s: FloatArray) -> FloatArray:
 
 def _compute_rounded_square(s: FloatArray) -> FloatArray:
     step = np.arange(1.0, 17.0)
-    passed = 1.0 - normal_fraction((step - 0.5)[:, None] / np.maximum(s, _TINY_NOISE))
-    return np.asarray(2.0 * ((2.0 * step - 1.0)[:, None] * passed).sum(axis=0))
+    tail = 1.0 - normal_fraction((step - 0.5)[:, None] / np.maximum(s, _TINY_NOISE))
+    return np.asarray(2.0 * ((2.0 * step - 1.0)[:, None] * tail).sum(axis=0))
 
 
 def variance_after_rounding(x: FloatArray, s: FloatArray) -> FloatArray:
-    """Return the variance of values of mean x and noise s after rounding, in steps."""
-    away = x - np.rint(x)
+    """Return the variance of values of mean x and noise s after rounding, in squared steps."""
+    offset = x - np.rint(x)
     step = np.array([1.0, 2.0, 3.0]).reshape(-1, *(1,) * max(x.ndim, s.ndim))
-    above, below = (normal_fraction((sign * away - step + 0.5) / s) for sign in (1.0, -1.0))
+    above, below = (normal_fraction((sign * offset - step + 0.5) / s) for sign in (1.0, -1.0))
     mean = (above - below).sum(axis=0)
     square = ((2.0 * step - 1.0) * (above + below)).sum(axis=0)
     return np.where(s > _WIDE_NOISE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))

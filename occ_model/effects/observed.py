@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 LIMIT_ALLOWANCE = 1.3
-"""Factor from the change in the sample to its upper bound, so that a plan's error stays below."""
+"""Factor from the change in the sample to the upper bound of the true change."""
 
 _SURE_DEVIATIONS = 3.5
 """Standard deviations by which the RMS of a finite number of noise values may exceed its mean."""
@@ -17,8 +17,8 @@ _SURE_DEVIATIONS = 3.5
 class SampledObservable:
     """The observable of a sample, and its change without some of the effects.
 
-    Changes that are the same in every picture add with their signs. Those by noise and by a file's
-    rounding are independent, so that their mean squares add.
+    Changes that are the same in every picture add with their signs. Changes by noise and by a
+    file's rounding are independent, so that their mean squares add.
     """
 
     def __init__(
@@ -35,13 +35,13 @@ class SampledObservable:
         self._names = names
         self._observe = observe
         self._place = {name: at for at, name in enumerate(changing)}
-        self.alone: dict[str, float] = {}
+        self.independent: dict[str, float] = {}
         """Mean square of the independent part of each effect's change."""
         self.doubt: dict[str, float] = {}
-        """Mean square of the change by each effect that the sample may have missed."""
-        self.known: dict[str, float] = {}
-        """Factor from the root of ``alone`` to its upper bound, for changes of a known law."""
-        self.unsure = 0.0  # relative amount by which any mean square may be larger
+        """Mean square of each effect's change that the sample may have missed."""
+        self.bound_factors: dict[str, float] = {}
+        """Factor from the root of ``independent`` to its upper bound, for noise of a known law."""
+        self.uncertainty = 0.0  # relative amount by which any mean square may be larger
         values = observe([names, *(names - {name} for name in changing)])
         self.complete = values[0]
         self._moved = moved = values[1:] - values[0]
@@ -52,11 +52,13 @@ class SampledObservable:
 
         The RMS of n normal numbers has a relative standard deviation of 1 / sqrt(2 n).
         """
-        self.alone.update(squares)
-        self.known.update(dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values)))
+        self.independent.update(squares)
+        self.bound_factors.update(
+            dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values))
+        )
 
     def add_doubt(self, names: Iterable[str], square: float) -> None:
-        """Add a mean square that the sample may have missed, for each of some effects."""
+        """Add a mean square that the sample may have missed to each of some effects."""
         for name in names:
             self.doubt[name] = self.doubt.get(name, 0.0) + square
 
@@ -64,7 +66,7 @@ class SampledObservable:
         """Return the mean square of the sample's change without an effect."""
         place = self._place.get(name)
         square = 0.0 if place is None else float(self._products[place, place])
-        return max(square + self.alone.get(name, 0.0), 0.0)
+        return max(square + self.independent.get(name, 0.0), 0.0)
 
     def sampling_error(self, name: str, values: int) -> float:
         """Return the standard error of :meth:`sampled_square` as a mean over ``values``."""
@@ -87,9 +89,9 @@ class SampledObservable:
         return self._add_allowances(names, members, squares)
 
     def largest_squares_if_added(self, names: Sequence[str], members: FloatArray) -> FloatArray:
-        """Approximate :meth:`largest_squares` for many sets, as if changes added.
+        """Approximate :meth:`largest_squares` for many sets, assuming that changes add.
 
-        ``members``: 1 where a set has an effect, shape (sets, effects).
+        ``members`` is 1 where a set has an effect, shape (sets, effects).
         """
         moving = [at for at, name in enumerate(names) if name in self._place]
         places = [self._place[names[at]] for at in moving]
@@ -100,12 +102,14 @@ class SampledObservable:
     def _add_allowances(
         self, names: Sequence[str], members: FloatArray, squares: FloatArray
     ) -> FloatArray:
-        """Add the independent and the doubtful changes to mean squares, with the allowances."""
-        alone = np.array([self.alone.get(name, 0.0) for name in names])
-        known = np.array([self.known.get(name, 0.0) for name in names])
+        """Add the independent and the possibly missed changes to mean squares, with allowances."""
+        independent = np.array([self.independent.get(name, 0.0) for name in names])
+        factors = np.array([self.bound_factors.get(name, 0.0) for name in names])
         doubt = np.array([self.doubt.get(name, 0.0) for name in names])
         # A sum along rows is the same for one set and for many, which a matrix product need not be.
-        sure = squares + (members * np.where(known, 0.0, alone)).sum(axis=1)
-        most = np.maximum(sure, 0.0) * (1.0 + self.unsure)
-        most += (members * doubt).max(axis=1, initial=0.0)
-        return np.asarray(most * LIMIT_ALLOWANCE**2 + (members * alone * known**2).sum(axis=1))
+        sampled = squares + (members * np.where(factors, 0.0, independent)).sum(axis=1)
+        bounds = np.maximum(sampled, 0.0) * (1.0 + self.uncertainty)
+        bounds += (members * doubt).max(axis=1, initial=0.0)
+        return np.asarray(
+            bounds * LIMIT_ALLOWANCE**2 + (members * independent * factors**2).sum(axis=1)
+        )

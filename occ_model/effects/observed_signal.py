@@ -22,16 +22,15 @@ from occ_model.effects.smoothed_curves import (
 )
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
-"""Fraction of a moving rim's pixels of which the sample cannot tell whether they are enhanced: in
-many columns, and in few."""
+"""Fraction of a moving rim's pixels that may or may not be enhanced: in many columns, in few."""
 
 _ROUNDING_MARGIN = 0.02
-"""Distance from the middle between two grey levels within which rounding cannot be predicted."""
+"""Distance, in grey levels, from a rounding boundary within which rounding is unpredictable."""
 
 _LARGE_STEP = 32.0
-"""Step of the enhancement, between neighbouring levels, above which a single column matters."""
+"""Step of the enhancement between neighbouring levels above which a single column matters."""
 
-_MOST_GAIN = 8.0  # largest gain of contrast by an enhancement that noise smooths
+_MOST_GAIN = 8.0  # largest contrast gain of an enhancement that noise smooths
 
 _LEVELS = np.arange(256.0)
 
@@ -40,8 +39,8 @@ _CLIPPED_NOISE = 8.0  # noise in grey levels above which clipping matters
 
 def signal_swing(pixels: SampledPixels) -> float:
     """Return the largest minus the smallest value of the enhanced bare profile, at least 1."""
-    seen = saturate(pixels.view.values)
-    enhanced = Enhancement(seen, pixels.scene.model.enhancement)(seen)
+    profile = saturate(pixels.view.values)
+    enhanced = Enhancement(profile, pixels.scene.model.enhancement)(profile)
     return max(float(enhanced.max()) - float(enhanced.min()), FLAT_SPAN)
 
 
@@ -51,22 +50,22 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
     weights = np.sqrt(sample.weights)
     curves = SmoothedCurves(pixels)
 
-    def seen(sets: Sequence[Names]) -> FloatArray:
+    def compute_signals(sets: Sequence[Names]) -> FloatArray:
         values = pixels.values_read_back(sets)
-        found, inside = curves.enhance(sets, values), pixels.panel_mask(sets)
-        if inside is not None:  # pixels beside the panel are not enhanced
-            for included, own, of_own, on in zip(sets, values, found, inside, strict=True):
-                if not on.all():
-                    of_own[~on] = _mean_rounded(pixels, included, own[~on])
-        return pixels.mean_of_rows(found) * weights
+        signals, masks = curves.enhance(sets, values), pixels.panel_mask(sets)
+        if masks is not None:  # pixels beside the panel are not enhanced
+            for included, own, signal, mask in zip(sets, values, signals, masks, strict=True):
+                if not mask.all():
+                    signal[~mask] = _mean_after_rounding(pixels, included, own[~mask])
+        return pixels.mean_of_rows(signals) * weights
 
-    found = SampledObservable(pixels.names, seen, sorted(pixels.names))
+    observed = SampledObservable(pixels.names, compute_signals, sorted(pixels.names))
     sampling = SignalSampling(pixels, curves)
-    found.alone.update(sampling.effect_squares())
-    add_unsampled(pixels, found, curves)
+    observed.independent.update(sampling.effect_squares())
+    add_unsampled(pixels, observed, curves)
     fluctuations = sampling.fluctuations()
-    found.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
-    region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
+    observed.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
+    region, contrast = pixels.view.region, float(np.ptp(observed.complete / weights))
     jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
@@ -75,16 +74,16 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
     doubt += cut_block_square(pixels) * gain**2
     for name in pixels.sample.outline:  # a pixel of a rim is either enhanced or not
         own = pixels.rims.count_moved_rims(name) * (part * jump / region.rows) ** 2
-        found.doubt[name] = doubt + own + pixels.rims.upright_rim_error(name) * jump**2
+        observed.doubt[name] = doubt + own + pixels.rims.upright_rim_error(name) * jump**2
     for name, square in fluctuations.items():
-        found.add_doubt([name], square)
-    _doubt_sharp_steps(pixels, found)
-    _doubt_large_steps(pixels, found)
-    _doubt_a_cut_file(pixels, found)
-    return found
+        observed.add_doubt([name], square)
+    _doubt_sharp_steps(pixels, observed)
+    _doubt_large_steps(pixels, observed)
+    _doubt_clipped_noise(pixels, observed)
+    return observed
 
 
-def _mean_rounded(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
+def _mean_after_rounding(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
     """Return the mean of pixels that are rounded but not enhanced."""
     spread = pixels.spread(included)
     if float(spread.max()) < LEAST_SMOOTHING_NOISE:
@@ -93,94 +92,94 @@ def _mean_rounded(pixels: SampledPixels, included: Names, values: FloatArray) ->
     return pixels.table.interpolate(mean_after_clipping(pixels.levels, spread, WHITE), values)
 
 
-def _doubt_sharp_steps(pixels: SampledPixels, found: SampledObservable) -> None:
+def _doubt_sharp_steps(pixels: SampledPixels, observed: SampledObservable) -> None:
     """Add doubt about rounding where no noise spreads the pixels over the enhancement's steps.
 
-    A plateau of values midway between two levels may round to either one as a whole. In a file any
-    value within its own error may, since that error is the same in all blocks of equal rows.
+    All pixels of one value near a rounding boundary may round to either level. In a file this holds
+    for any value closer to it than the file's error, which is the same in all blocks of equal rows.
     """
-    whole = np.clip(pixels.whole, 0.0, WHITE)
-    sharp = pixels.table.interpolate(pixels.spread(pixels.names), whole) < LEAST_SMOOTHING_NOISE
+    values = np.clip(pixels.complete_values, 0.0, WHITE)
+    sharp = pixels.table.interpolate(pixels.spread(pixels.names), values) < LEAST_SMOOTHING_NOISE
     if not sharp.any():
         return
     enhancement = pixels.columns.enhancement(pixels.names)
     if pixels.file is None:
         curve = enhancement.curve.astype(np.float64)
-        below = np.minimum(whole, WHITE - 1.0).astype(np.int64)
-        near = np.abs(whole - below - 0.5) < _ROUNDING_MARGIN
-        reached = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
+        below = np.minimum(values, WHITE - 1.0).astype(np.int64)
+        near = np.abs(values - below - 0.5) < _ROUNDING_MARGIN
+        step = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
     else:
-        error = np.full(whole.size, math.sqrt(pixels.file.own_change))
-        reached = enhancement.moments(whole.ravel(), error)[1].reshape(whole.shape)
-    square = pixels.mean_of_rows(np.where(sharp, reached, 0.0) ** 2)
-    found.add_doubt(pixels.names, float((square * pixels.sample.weights).sum()))
+        error = np.full(values.size, math.sqrt(pixels.file.own_change))
+        step = enhancement.moments(values.ravel(), error)[1].reshape(values.shape)
+    square = pixels.mean_of_rows(np.where(sharp, step, 0.0) ** 2)
+    observed.add_doubt(pixels.names, float((square * pixels.sample.weights).sum()))
 
 
-def _doubt_large_steps(pixels: SampledPixels, found: SampledObservable) -> None:
-    """Add doubt about columns beside the sample that are near a large step of the enhancement.
+def _doubt_large_steps(pixels: SampledPixels, observed: SampledObservable) -> None:
+    """Add doubt about columns outside the sample that are near a large step of the enhancement.
 
     An equalization makes a large step where many columns have the same value. The changes there are
-    summed over all columns of the profile, less those for which the sample's columns stand.
+    summed over all columns of the profile, minus those that the sample's columns represent.
     """
-    missed, region = pixels.unsampled, pixels.view.region
-    if missed is None:
+    weights, region = pixels.unsampled, pixels.view.region
+    if weights is None:
         return
     enhancement = pixels.columns.enhancement(pixels.names)
     steps = np.diff(enhancement.curve.astype(np.float64))
     large = np.flatnonzero(steps > _LARGE_STEP)
     if not len(large):
         return
-    profile = _seen_profile(pixels)
+    profile = _dimmed_profile(pixels)
     middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
     noise = pixels.noise_at(pixels.names, profile)  # a saturated pixel has none
-    squares = pixels.mean_of_rows((pixels.stack[1:] - pixels.whole) ** 2)
+    squares = pixels.mean_of_rows((pixels.stack[1:] - pixels.complete_values) ** 2)
     moved = np.sqrt(squares.max(axis=1)).tolist()
     reach = max(2.0 * float(noise.max()), *moved, _ROUNDING_MARGIN)
     close = (np.abs(profile - middles) < reach).any(axis=0)
-    profile, missed, noise = profile[close], missed[close], noise[close]
-    away = np.abs(profile - middles)
+    profile, weights, noise = profile[close], weights[close], noise[close]
+    distance = np.abs(profile - middles)
 
-    def doubt(name: str, reach: FloatArray | float, carried: FloatArray | float) -> None:
-        nearness = np.maximum(1.0 - away / reach, 0.0)
-        # A column of the sample stands for others as close to the step.
-        counted = np.where(missed < 0.0, nearness, nearness > 0.0)
-        squares = (steps[large][:, None] * counted * np.minimum(carried, 0.5)) ** 2
-        found.add_doubt([name], max(float((squares @ missed).sum()), 0.0))
+    def add_doubt(name: str, reach: FloatArray | float, fraction: FloatArray | float) -> None:
+        nearness = np.maximum(1.0 - distance / reach, 0.0)
+        # A column of the sample represents others that are as close to the step.
+        counts = np.where(weights < 0.0, nearness, nearness > 0.0)
+        squares = (steps[large][:, None] * counts * np.minimum(fraction, 0.5)) ** 2
+        observed.add_doubt([name], max(float((squares @ weights).sum()), 0.0))
 
     for effect in pixels.noises:
         own = pixels.noise_at(frozenset({effect.name}), profile) ** 2
         rest = noise**2 - own
         rest[own > rest] = 0.0  # without the larger noise, the rest may be left out too
         rest = np.maximum(rest, _ROUNDING_MARGIN**2)
-        by_chance = np.sqrt(own / (rest + own)) / 3.0 / region.rows
-        carried = np.sqrt((own / rest / 8.0) ** 2 + by_chance)
-        doubt(effect.name, np.maximum(2.0 * noise, _ROUNDING_MARGIN), carried)
+        chance = np.sqrt(own / (rest + own)) / 3.0 / region.rows
+        fraction = np.sqrt((own / rest / 8.0) ** 2 + chance)
+        add_doubt(effect.name, np.maximum(2.0 * noise, _ROUNDING_MARGIN), fraction)
     least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
     for name, own in zip(pixels.moving, moved, strict=True):
-        doubt(name, max(own, _ROUNDING_MARGIN), 0.4 * own / least)
+        add_doubt(name, max(own, _ROUNDING_MARGIN), 0.4 * own / least)
         if least.min() < LEAST_SMOOTHING_NOISE:  # each column then crosses a step as a whole
-            error = found.sampling_error(name, region.columns)
-            found.add_doubt([name], SURE_DEVIATIONS * error)
+            error = observed.sampling_error(name, region.columns)
+            observed.add_doubt([name], SURE_DEVIATIONS * error)
 
 
-def _seen_profile(pixels: SampledPixels) -> FloatArray:
-    """Return the panel's profile as dimmed by the lens."""
+def _dimmed_profile(pixels: SampledPixels) -> FloatArray:
+    """Return the panel's profile after dimming by the lens."""
     region, columns = pixels.view.region, pixels.sample.columns
     profile = pixels.profile(pixels.names)
-    seen = pixels.whole[:, pixels.sample.inner].mean(axis=1)
-    gain = seen / np.maximum(profile[columns - region.first_column], 1.0)
+    means = pixels.complete_values[:, pixels.sample.inner].mean(axis=1)
+    gain = means / np.maximum(profile[columns - region.first_column], 1.0)
     return profile * pixels.interpolate_columns(gain)
 
 
-def _doubt_a_cut_file(pixels: SampledPixels, found: SampledObservable) -> None:
-    """Add doubt about what a file does to clipped noise, which is not normal."""
+def _doubt_clipped_noise(pixels: SampledPixels, observed: SampledObservable) -> None:
+    """Add doubt about a file's change of clipped noise, which is not normally distributed."""
     if pixels.file is None:
         return
     spread = pixels.spread(pixels.names)
-    lost = np.where(
+    clipped_fraction = np.where(
         spread > _CLIPPED_NOISE, 1.0 - unclipped_fraction(pixels.levels, spread, WHITE), 0.0
     )
-    cut = pixels.mean_over_pixels(lost)
-    gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
-    doubt = cut * pixels.file.own_change * min(gain, _MOST_GAIN) ** 2 / 4.0
-    found.add_doubt((effect.name for effect in (*pixels.noises, *pixels.files)), doubt)
+    clipped = pixels.mean_over_pixels(clipped_fraction)
+    gain = float(np.ptp(observed.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
+    doubt = clipped * pixels.file.own_change * min(gain, _MOST_GAIN) ** 2 / 4.0
+    observed.add_doubt((effect.name for effect in (*pixels.noises, *pixels.files)), doubt)

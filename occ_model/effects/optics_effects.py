@@ -59,8 +59,8 @@ class Vignetting(OpticsEffect):
     """The light at a pixel falls as cos^n of its angle to the optical axis.
 
     n = 4 is the natural fall-off of a thin lens without distortion (W. J. Smith, *Modern Optical
-    Engineering*); lenses corrected for it have less. On the axis nothing is lost. The angle is
-    taken as that of a lens without distortion.
+    Engineering*); lenses corrected for it have less. On the axis nothing is lost. The angle is that
+    of a lens without distortion.
     """
 
     name = "vignetting"
@@ -86,7 +86,7 @@ class Vignetting(OpticsEffect):
 
 
 _LARGEST_SPREAD = 1e12
-"""Largest point spread in pixels; it already blurs any panel away."""
+"""Largest point spread in pixels, which blurs any panel beyond recognition."""
 
 
 class Defocus(OpticsEffect):

@@ -21,7 +21,7 @@ from occ_model.scene.scene import (
 from occ_model.scene.units import NONE
 
 _ROUNDING_FACTOR = 1.0 + 1e-9
-"""Allowance when errors are compared whose sums were rounded differently."""
+"""Allowance for comparing errors whose sums were rounded differently."""
 
 _CLEAR_RATIO = 1.3  # ratio of limit to estimate above which the reason states both
 
@@ -65,7 +65,7 @@ def plan(
     ------
     ParameterError
         The tolerance is negative or not a number, there is no such observable or effect, or the
-        decision is asked of a light that is no code.
+        observable is the decision and the light is no code.
     ProjectionError
         Part of the panel is behind the camera.
     """
@@ -78,18 +78,18 @@ def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
     return plan_of(paper_view_of(scene), settings)
 
 
-def name_effects_for_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
+def name_effects_for_signal(planned: Plan, scene: Scene) -> tuple[str, ...]:
     """Name the effects that a plan leaves out, although a plan for the signal includes them.
 
     Without them, a picture planned for its pixels may be decoded differently than in a study, which
     plans for the signal. Effects that the user has switched are the same in both plans.
     """
-    left_out = {d.effect for d in chosen.decisions if d.estimate and not (d.included or d.forced)}
-    if not left_out or chosen.observable == "signal" or chosen.tolerance == math.inf:
+    left_out = {d.effect for d in planned.decisions if d.estimate and not (d.included or d.forced)}
+    if not left_out or planned.observable == "signal" or planned.tolerance == math.inf:
         return ()
-    force = {d.effect: d.included for d in chosen.decisions if d.forced}
-    own = plan_with(scene, SimulationSettings(chosen.tolerance, "signal", force))
-    return tuple(d.label for d in own.decisions if d.included and d.effect in left_out)
+    force = {d.effect: d.included for d in planned.decisions if d.forced}
+    signal_plan = plan_with(scene, SimulationSettings(planned.tolerance, "signal", force))
+    return tuple(d.label for d in signal_plan.decisions if d.included and d.effect in left_out)
 
 
 def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
@@ -102,13 +102,13 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     by_hand = {d.effect for d in decisions if d.forced and d.estimate and not d.included}
     if settings.tolerance == math.inf:
         error = estimates.error_without(left_out)
-    all_out = estimates.error_without(left_out | by_hand) if by_hand else error
+    total_error = estimates.error_without(left_out | by_hand) if by_hand else error
     return Plan(
         tolerance=settings.tolerance,
         observable=settings.observable,
         decisions=decisions,
         left_out=error,
-        error=all_out,
+        error=total_error,
         stretch=estimates.stretch,
         saved=sets.complete_seconds - effect_set.seconds,
         effect_sets=sets.effect_sets,
@@ -177,13 +177,13 @@ def effect_sets_of(scene: Scene, settings: SimulationSettings) -> tuple[EffectSe
     The error of each is the smallest tolerance at which it is chosen; no two are equal.
     """
     sets = _sets_of(paper_view_of(scene), settings.check(NAMES))
-    found: list[EffectSet] = []
+    effect_sets: list[EffectSet] = []
     for effect_set, error in zip(sets.effect_sets, sets.errors_of(sets.effect_sets), strict=True):
-        if error < (found[-1].error if found else math.inf):
-            found.append(
+        if error < (effect_sets[-1].error if effect_sets else math.inf):
+            effect_sets.append(
                 EffectSet(effect_set.effects, effect_set.seconds, error * _ROUNDING_FACTOR)
             )
-    return tuple(found)
+    return tuple(effect_sets)
 
 
 def _sets_of(view: PaperView, settings: SimulationSettings) -> EffectSets:
@@ -206,7 +206,7 @@ def _decide(
     effect: Effect, estimates: Estimates, left_out: frozenset[str], settings: SimulationSettings
 ) -> Decision:
     name = effect.name
-    estimate, limit = (found.get(name, 0.0) for found in (estimates.sizes, estimates.limits))
+    estimate, limit = estimates.sizes.get(name, 0.0), estimates.limits.get(name, 0.0)
     by_hand = settings.force.get(name)
     included = bool(estimate) and name not in left_out if by_hand is None else by_hand
     unit = unit_of(settings.observable)
@@ -224,10 +224,10 @@ def _decide(
         why = size
         reason = f"{size}: {verdict}"
     else:
-        why = _comparison(estimate, limit, tolerance, included)
-        compared = "" if tolerance == math.inf else f", tolerance {tolerance:g}"
-        together = ", " + why if included and estimate <= tolerance else ""
-        reason = f"{size}{compared}{together}: {verdict}"
+        why = _compare_with_tolerance(estimate, limit, tolerance, included)
+        comparison = "" if tolerance == math.inf else f", tolerance {tolerance:g}"
+        addition = ", " + why if included and estimate <= tolerance else ""
+        reason = f"{size}{comparison}{addition}: {verdict}"
     return Decision(
         effect=name,
         label=effect.label,
@@ -242,7 +242,7 @@ def _decide(
     )
 
 
-def _comparison(estimate: float, limit: float, tolerance: float, included: bool) -> str:
+def _compare_with_tolerance(estimate: float, limit: float, tolerance: float, included: bool) -> str:
     if tolerance == math.inf:
         return "no tolerance is set"
     if not included:

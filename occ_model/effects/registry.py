@@ -1,4 +1,4 @@
-"""The list of all effects, in the order that light travels."""
+"""The list of all effects, in their order along the light's path."""
 
 from collections.abc import Collection
 from functools import lru_cache

@@ -26,7 +26,7 @@ class Rims:
         return -(-self._region.last_row // 8) - self._region.first_row // 8
 
     @property
-    def cut(self) -> float:
+    def cut_variance(self) -> float:
         """Variance of a column's sum over the panel's rows in cut blocks, relative to a pixel's.
 
         Over the rows of a whole block the rounding errors add to 0.
@@ -57,19 +57,19 @@ class Rims:
     def _cover_change(self, name: str) -> FloatArray | None:
         """Return how an effect changes the panel's fraction of each pixel; None if it does not."""
         covers, outline = self._sample.covers, self._sample.outline
-        whole, without = covers[outline], covers[outline - {name}]
-        if whole is without or whole is None or without is None:
+        complete, without = covers[outline], covers[outline - {name}]
+        if complete is without or complete is None or without is None:
             return None
-        return whole - without
+        return complete - without
 
     def count_moved_rims(self, name: str) -> float:
         """Return how many rims of a column, 0 to 2, an effect moves or softens on average."""
-        moved, sample = self._cover_change(name), self._sample
-        if moved is None:
+        change, sample = self._cover_change(name), self._sample
+        if change is None:
             return 0.0
-        is_seen = np.abs(moved) > _SEEN_FRACTION
+        is_visible = np.abs(change) > _SEEN_FRACTION
         middle = sample.inner.start + 2
-        above, below = is_seen[:, :middle].any(axis=1), is_seen[:, middle:].any(axis=1)
+        above, below = is_visible[:, :middle].any(axis=1), is_visible[:, middle:].any(axis=1)
         return float(((above * 1.0 + below) * sample.weights).sum())
 
     def upright_rim_error(self, name: str) -> float:
@@ -78,8 +78,8 @@ class Rims:
         Where an effect moves the rim across only some of a column's nodes, these give the fraction
         of its rows to within a third.
         """
-        moved = self._cover_change(name)
-        if moved is None:
+        change = self._cover_change(name)
+        if change is None:
             return 0.0
-        spans = np.ptp(moved[:, self._sample.inner], axis=1)
+        spans = np.ptp(change[:, self._sample.inner], axis=1)
         return float(spans**2 @ self._sample.weights) / 9.0

@@ -25,8 +25,8 @@ from occ_model.effects.cover import (
 )
 from occ_model.results.decoding import Region
 
-COLUMNS = 192  # most columns of a sample of a wide picture
-_ALL_COLUMNS = 288  # widest region of which all columns are sampled, since each can matter
+COLUMNS = 192  # largest number of columns in the sample of a wide picture
+_ALL_COLUMNS = 288  # width of a region up to which all columns are sampled, since each can matter
 _REACH = 3.5  # distance from a blurred rim, in standard deviations, that its nodes cover
 
 _GAUSS, _GAUSS_WEIGHTS = (
@@ -48,11 +48,11 @@ class PixelSample:
     """The pixels of a sample: rows in each of some columns."""
 
     columns: IndexArray
-    weights: FloatArray  # Fraction of the region's columns for which each stands; their sum is 1
-    rows: FloatArray  # In each column, shape (columns, nodes), as of all arrays below
+    weights: FloatArray  # Fraction of the region's columns that each represents; their sum is 1
+    rows: FloatArray  # In each column; shape (columns, nodes) as of all arrays below
 
     row_weights: FloatArray
-    """Fraction of the region's rows for which each stands; their sum is 1 in each column."""
+    """Fraction of the region's rows that each represents; their sum is 1 in each column."""
 
     covers: Mapping[frozenset[str], FloatArray | None]
     """The panel's fraction of each pixel's light, for each set of simulated effects on the outline.
@@ -64,8 +64,8 @@ class PixelSample:
     inner: slice  # The nodes between the panel's rims
 
     is_covered: bool
-    """Whether the panel covers the whole region under any of the effects, so that it shows no
-    rim."""
+    """Whether the panel covers the whole region with any of the effects, so that no rim is in
+    it."""
 
     @cached_property
     def blocks(self) -> IndexArray:
@@ -98,8 +98,8 @@ def choose_sample(
 ) -> PixelSample:
     """Sample the pixels of the observed region, which a ``level`` panel fills.
 
-    ``optics`` are those with each effect alone, ``plain`` those without any. With ``in_blocks``,
-    the columns are whole blocks of a file.
+    ``optics`` holds the optics with each effect alone, ``plain`` those without any. With
+    ``in_blocks``, the columns are whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
     blurs = {name: own.blur for name, own in optics.items() if own.blur > NEGLIGIBLE_BLUR}
@@ -120,8 +120,8 @@ def choose_sample(
     blur = max(blurs.values(), default=0.0)
     if (outlines[1:] or blur) and not few:
         columns, weights = _add_side_columns(columns, region, outlines, blur)
-    covered = _is_covered(region, outlines, blur)
-    if covered or (level and not (moved or blur)):
+    is_covered = _is_covered(region, outlines, blur)
+    if is_covered or (level and not (moved or blur)):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
@@ -148,7 +148,7 @@ def choose_sample(
         emission={name: gain for name, gain in gains.items() if optics[name].emission},
         transmission={name: gain for name, gain in gains.items() if optics[name].transmission},
         inner=slice(first, first + len(_GAUSS)),
-        is_covered=covered,
+        is_covered=is_covered,
     )
 
 
@@ -158,8 +158,8 @@ def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool
     low, high = region.first_row - reach, region.last_row + reach
     lines = np.linspace(region.first_column - reach, region.last_column + reach, _RIM_COLUMNS)
     for outline in outlines:
-        found = spans_of(outline, lines, 0)
-        if found.missed.any() or (found.first > low).any() or (found.last < high).any():
+        spans = spans_of(outline, lines, 0)
+        if spans.missed.any() or (spans.first > low).any() or (spans.last < high).any():
             return False
     return True
 
@@ -171,7 +171,7 @@ def _add_side_columns(
     row = np.linspace(region.first_row, region.last_row - 1, 9)
     spans = [spans_of(outline, row, 1) for outline in outlines]
     low, high = region.first_column - 0.5, region.last_column - 0.5
-    kept, parts = np.ones(len(columns), dtype=bool), []
+    is_kept, parts = np.ones(len(columns), dtype=bool), []
     for side in ("first", "last"):
         upright = [getattr(span, side + "_slope") < STEEP_SLOPE for span in spans]
         ends = [getattr(span, side)[own] for span, own in zip(spans, upright, strict=True)]
@@ -183,16 +183,18 @@ def _add_side_columns(
         right = min(max(float(places.max()) + reach, low), high)
         if not 0.0 < right - left < region.columns / 4.0:
             continue
-        kept &= (columns < left) | (columns > right)
+        is_kept &= (columns < left) | (columns > right)
         nodes = np.rint(left + (right - left) * _even_nodes(_SIDE_NODES)[0])
         parts.append((nodes, (right - left) / (high - low)))
     fractions = sum(fraction for _, fraction in parts)
-    left_over = int(np.count_nonzero(kept))
-    if not left_over:
+    remaining = int(np.count_nonzero(is_kept))
+    if not remaining:
         return columns, np.full(len(columns), 1.0 / len(columns))
-    weights = [np.full(left_over, (1.0 - fractions) / left_over)]
+    weights = [np.full(remaining, (1.0 - fractions) / remaining)]
     weights += [np.full(_SIDE_NODES, fraction / _SIDE_NODES) for _, fraction in parts]
-    return np.concatenate([columns[kept], *(nodes for nodes, _ in parts)]), np.concatenate(weights)
+    return np.concatenate([columns[is_kept], *(nodes for nodes, _ in parts)]), np.concatenate(
+        weights
+    )
 
 
 def _choose_rows(

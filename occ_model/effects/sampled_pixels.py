@@ -84,7 +84,7 @@ class SampledPixels:
         def make() -> PixelSample:
             plain = Optics(view.corners)
             optics = {effect.name: effect.apply(scene, plain) for effect in self.lenses}
-            level = view.sides is not None and view.is_seen
+            level = view.sides is not None and view.is_visible
             return choose_sample(view.region, level, optics, plain, bool(self.files))
 
         return MEMORY.recall(key, make, lambda made: made.arrays)
@@ -97,7 +97,7 @@ class SampledPixels:
         )
 
     @property
-    def whole(self) -> FloatArray:
+    def complete_values(self) -> FloatArray:
         """The pixels' mean values with all effects, shape (columns, nodes)."""
         return np.asarray(self.stack[0])
 
@@ -107,11 +107,11 @@ class SampledPixels:
 
     def values(self, sets: Sequence[Names]) -> FloatArray:
         """Return the pixels' mean values with some effects, shape (sets, columns, nodes)."""
-        asked = [included & self._moving for included in sets]
-        missing = [self._moving - included for included in asked]
+        wanted = [included & self._moving for included in sets]
+        missing = [self._moving - included for included in wanted]
         if all(len(names) <= 1 for names in missing):
             return self.stack[[self.stack_index(next(iter(names), "")) for names in missing]]
-        return self._compute_values(asked)
+        return self._compute_values(wanted)
 
     def _compute_values(self, sets: Sequence[Names]) -> FloatArray:
         sample, camera = self.sample, self.scene.camera
@@ -122,23 +122,23 @@ class SampledPixels:
             dark = luminance_of(surroundings_values(self.scene, light), camera)
             own = (luminance_of(panel, camera) - dark)[places][:, :, None]
             dark = dark[places][:, :, None]
-            for included, one, of_panel in zip(sets, values, own, strict=True):
+            for included, pixel_values, of_panel in zip(sets, values, own, strict=True):
                 cover = sample.covers[included & sample.outline]
-                one[:] = of_panel if cover is None else of_panel * cover
+                pixel_values[:] = of_panel if cover is None else of_panel * cover
                 for name, gain in sample.emission.items():
                     if name in included:
-                        one *= gain
+                        pixel_values *= gain
             values += dark
             values = pixel_value(np.maximum(values, 0.0, out=values), camera, fast_power)
         else:
             values[:] = panel[places][:, :, None]
-        for included, one in zip(sets, values, strict=True):
+        for included, pixel_values in zip(sets, values, strict=True):
             for name, dimmed in self._dimmed.items():
                 if name in included:
-                    one *= dimmed
+                    pixel_values *= dimmed
             for limit in self.limits:
                 if limit.name in included:
-                    one[:] = limit.apply(self.scene, one)
+                    pixel_values[:] = limit.apply(self.scene, pixel_values)
         return np.minimum(values, WHITE, out=values)
 
     @cached_property
@@ -170,27 +170,29 @@ class SampledPixels:
     def _cached_spread(self, included: Names) -> tuple[FloatArray, float]:
         key = included & self._noisy
         if key not in self._spread_of:
-            own = [variance for name, variance in self.variances.items() if name in key]
-            found = np.sqrt(sum(own, np.zeros(len(self.levels))))
-            self._spread_of[key] = found, float(found.min())
+            variances = [variance for name, variance in self.variances.items() if name in key]
+            spread = np.sqrt(sum(variances, np.zeros(len(self.levels))))
+            self._spread_of[key] = spread, float(spread.min())
         return self._spread_of[key]
 
     def noise_at(self, included: Names, values: FloatArray) -> FloatArray:
         """Return the noise's standard deviation at some values, with some effects.
 
-        Just below a full well, noise falls to nothing between two levels of the table.
+        Just below a full well, noise falls to zero between two levels of the table.
         """
-        found = self.table.interpolate(self.spread(included), values)
+        noise = self.table.interpolate(self.spread(included), values)
         full = saturation_value(self.scene)
-        ends = (values < full) & (values > full - self.table.step)
-        if ends.any():
-            own = (e for e in self.noises if e.name in included)
-            found[ends] = np.sqrt(sum(e.spread(self.scene, values[ends]) ** 2 for e in own))
-        return found
+        near_full = (values < full) & (values > full - self.table.step)
+        if near_full.any():
+            effects = (e for e in self.noises if e.name in included)
+            noise[near_full] = np.sqrt(
+                sum(e.spread(self.scene, values[near_full]) ** 2 for e in effects)
+            )
+        return noise
 
     @cached_property
     def _places(self) -> Places:
-        return self.table.place(self.whole)
+        return self.table.place(self.complete_values)
 
     def interpolate_at_pixels(self, table: FloatArray) -> FloatArray:
         """Interpolate a table at the pixels with all effects."""
@@ -226,7 +228,7 @@ class SampledPixels:
     def _noise_squares(self) -> dict[str, float]:
         if not self.variances:
             return {}
-        inner = self.whole[:, self.sample.inner]
+        inner = self.complete_values[:, self.sample.inner]
         means = self.table.interpolate(np.stack(list(self.variances.values())), inner).mean(
             axis=(1, 2)
         )
@@ -257,20 +259,19 @@ class SampledPixels:
 
     @cached_property
     def unsampled(self) -> FloatArray | None:
-        """The weight that each column of the region lacks in the sample; None if all are in it.
+        """Each column's weight in the region minus that in the sample; None if all are in it.
 
-        The mean over all columns is the mean over the sample plus the sum over columns with these
-        weights.
+        The mean over all columns is the sample's mean plus the sum over columns with these weights.
         """
         region, columns = self.view.region, self.sample.columns
         if len(columns) >= region.columns:
             return None
-        lacking = np.full(region.columns, 1.0 / region.columns)
-        np.subtract.at(lacking, columns - region.first_column, self.sample.weights)
+        weights = np.full(region.columns, 1.0 / region.columns)
+        np.subtract.at(weights, columns - region.first_column, self.sample.weights)
         inside = self.panel_mask([self.names])
         if inside is None:
-            return lacking
-        return np.where(self.interpolate_columns(self.mean_of_rows(inside[0])) > 0.0, lacking, 0.0)
+            return weights
+        return np.where(self.interpolate_columns(self.mean_of_rows(inside[0])) > 0.0, weights, 0.0)
 
     def interpolate_columns(self, sampled: FloatArray) -> FloatArray:
         """Interpolate values at the sample's columns over all columns of the region."""
@@ -287,24 +288,26 @@ class SampledPixels:
         power = 1.0 / self.scene.camera.gamma
         return None if gain is None else self.mean_of_rows(fast_power(gain, power))
 
-    def mean_of_rows(self, seen: FloatArray) -> FloatArray:
-        return np.asarray(np.einsum("...cn,cn->...c", seen, self.sample.row_weights))
+    def mean_of_rows(self, values: FloatArray) -> FloatArray:
+        return np.asarray(np.einsum("...cn,cn->...c", values, self.sample.row_weights))
 
-    def mean_of_columns(self, seen: FloatArray) -> float:
-        return float(seen @ self.sample.weights)
+    def mean_of_columns(self, values: FloatArray) -> float:
+        return float(values @ self.sample.weights)
 
     def values_read_back(self, sets: Sequence[Names]) -> FloatArray:
         """Return the pixels' mean values, after the file where a set has it."""
         values = self.values(sets)
-        filed = [at for at, one in enumerate(sets) if self.files and self.files[0].name in one]
-        if self.file is None or not filed:
+        with_file = [
+            at for at, included in enumerate(sets) if self.files and self.files[0].name in included
+        ]
+        if self.file is None or not with_file:
             return values
-        for at in filed:  # the file gets pixels of whole levels
+        for at in with_file:  # the file gets pixels of whole levels
             if self.least_noise(sets[at]) < _DITHERING_NOISE:  # a full pixel has no noise
                 spread = self.table.interpolate(self.spread(sets[at]), values[at])
                 values[at] += rounding_mean(values[at], spread)
-        noise = np.array([self.noise_rms(sets[at]) for at in filed])
-        values[filed] = self.file.read_back_means(values[filed], noise)
+        noise = np.array([self.noise_rms(sets[at]) for at in with_file])
+        values[with_file] = self.file.read_back_means(values[with_file], noise)
         return values
 
     def panel_mask(self, sets: Sequence[Names]) -> BoolArray | None:

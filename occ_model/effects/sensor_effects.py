@@ -51,10 +51,10 @@ class Jpeg(FileEffect):
         return quantization_steps(scene.camera.jpeg_quality)
 
     def rounding_of_means(self, scene: Scene) -> float:
-        """Return the error by the coefficients of vertical frequency 0: only they change the mean.
+        """Return the error by the coefficients of vertical frequency 0; no others change the mean.
 
-        Each has the standard deviation q / sqrt(12) for its step q, and the mean over a block's
-        eight rows an eighth of the root of their summed squares.
+        Each has the standard deviation q / sqrt(12) for its step q; that of the mean over a block's
+        eight rows is the root of the sum of their squares, divided by 8.
         """
         if not self.is_present(scene):
             return 0.0
@@ -82,7 +82,7 @@ class Jpeg(FileEffect):
 def quantization_steps(quality: int) -> FloatArray:
     """Return the quantization steps for a quality from 1 to 100, shape (8, 8).
 
-    They are scaled as in the Independent JPEG Group's library, which all common writers follow.
+    They are scaled as in the Independent JPEG Group's library, the usual convention.
     """
     percent = 5000 // quality if quality < 50 else 200 - 2 * quality
     scaled = (np.array(_LUMINANCE_STEPS) * percent + 50) // 100
@@ -135,9 +135,9 @@ class FixedPattern(NoiseEffect):
 class SensorNoise(NoiseEffect):
     """Shot noise, read noise and the converter's rounding.
 
-    A pixel with a mean of n electrons has the variance n + r^2 + q^2 / 12, by shot noise, read
-    noise r, and a converter of steps q (J. R. Janesick, *Photon Transfer*, 2007). The distribution
-    is taken as normal, as a Poisson distribution nearly is above some ten electrons.
+    A pixel with a mean of n electrons has the variance n + r^2 + q^2 / 12, with read noise r and
+    converter steps q (J. R. Janesick, *Photon Transfer*, 2007). The distribution is assumed normal,
+    as a Poisson distribution nearly is above about ten electrons.
     """
 
     name = "sensor-noise"
@@ -146,7 +146,7 @@ class SensorNoise(NoiseEffect):
     cost = Cost(pixels=0.4e-3)
 
     def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - light is always there
-        """Return True, since all light comes in photons."""
+        """Return True, since all light has shot noise."""
         return True
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:

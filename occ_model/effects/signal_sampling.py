@@ -1,4 +1,4 @@
-"""How far the mean of few enhanced pixels deviates without each effect, from a sample."""
+"""How far the mean of a few enhanced pixels changes without each effect, from a sample."""
 
 import math
 from functools import cached_property
@@ -27,7 +27,7 @@ class SignalSampling:
         noise = curves.noise(pixels.names - curves.files)
         self._spread = spread = noise.spread
         curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).moments_and_jumps(
-            noise.passed
+            noise.steps
         )
         self._even = pixels.table.slope(curve) ** 2
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
@@ -39,7 +39,7 @@ class SignalSampling:
         )
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
         self._pixel = pixels.mean_over_pixels(self._even + self._uneven) * one
-        # One pixel whose noise has another random value.
+        # One pixel with another random value of its noise.
         self._drawn = pixels.mean_over_pixels(self._even * spread**2) * one
         self._column_squares = {
             **self._noise_squares(),
@@ -49,8 +49,8 @@ class SignalSampling:
 
     def _panel_means(self, table: FloatArray) -> FloatArray:
         """Return each column's mean of a table over its pixels, counted as 0 beside the panel."""
-        found = self._pixels.interpolate_at_pixels(table)
-        return self._pixels.mean_of_rows(found if self._inside is None else found * self._inside)
+        values = self._pixels.interpolate_at_pixels(table)
+        return self._pixels.mean_of_rows(values if self._inside is None else values * self._inside)
 
     def effect_squares(self) -> dict[str, float]:
         """Return the mean square for each effect, over the columns."""
@@ -58,7 +58,7 @@ class SignalSampling:
         return {name: mean(squares) for name, squares in self._column_squares.items()}
 
     def fluctuations(self) -> dict[str, float]:
-        """Return how much each mean square may be exceeded in the columns of one picture.
+        """Return how far the mean square over one picture's columns may exceed each of these.
 
         The mean square of n numbers of variance v and fourth cumulant k has the standard deviation
         sqrt((2 v^2 + k) / n). Here k is that of a few pixels that cross large steps.
@@ -75,10 +75,10 @@ class SignalSampling:
 
     def _noise_squares(self) -> dict[str, FloatArray]:
         pixels, total = self._pixels, self._spread**2
-        found = {}
+        squares = {}
         for name, variance in pixels.variances.items():
-            read, of_means = pixels.noise_read_back.get(name, (0.0, 0.0))
-            own = np.maximum(np.sqrt(variance), math.sqrt(read))
+            square_read_back, of_means = pixels.noise_read_back.get(name, (0.0, 0.0))
+            own = np.maximum(np.sqrt(variance), math.sqrt(square_read_back))
             known = self._even * total if pixels.files else 0.0  # the file already rounds it
             most = np.maximum(self._deviation**2 - known, 0.0)
             part = self._even * np.tanh(4.8 * own) / 6.0 + self._uneven * 0.8 * own
@@ -90,8 +90,8 @@ class SignalSampling:
                 square = square + pixels.mean_of_rows(
                     pixels.interpolate_at_pixels(own**2) * ~self._inside
                 )
-            found[name] = self._square_of_mean(square, of_means) + self._drawn
-        return found
+            squares[name] = self._square_of_mean(square, of_means) + self._drawn
+        return squares
 
     def _file_squares(self) -> dict[str, FloatArray]:
         file = self._pixels.file
@@ -119,7 +119,7 @@ class SignalSampling:
     def _change_squares(self) -> dict[str, FloatArray]:
         """Return the mean squares for effects on the pixels' means."""
         pixels = self._pixels
-        changes = np.abs(pixels.stack[1:] - pixels.whole)
+        changes = np.abs(pixels.stack[1:] - pixels.complete_values)
         of_means: FloatArray = np.zeros(len(changes))
         by_file = np.zeros((len(changes), 1, 1))  # Acts like noise, also where it is large
         if pixels.file is not None:
@@ -133,9 +133,9 @@ class SignalSampling:
         )
         if self._inside is not None:
             even, uneven = np.where(self._inside, even, 1.0), uneven * self._inside
-        passed = np.maximum(changes, 0.8 * np.sqrt(by_file))
+        crossings = np.maximum(changes, 0.8 * np.sqrt(by_file))
         squares = pixels.mean_of_rows(
-            even * (changes * (1.0 - changes) + by_file) + uneven * passed
+            even * (changes * (1.0 - changes) + by_file) + uneven * crossings
         )
         return {
             name: self._square_of_mean(square, own)

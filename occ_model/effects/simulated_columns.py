@@ -43,16 +43,18 @@ class SimulatedColumns:
     def light_at(self, sets: Sequence[Names], columns: IndexArray) -> tuple[ColumnLight, list[int]]:
         """Return the distinct lights at some columns, (lights, columns), and each set's index."""
         keys = [included & self._of_light for included in sets]
-        known = list(dict.fromkeys(keys))
-        lights = [self.light(key) for key in known]
+        distinct = list(dict.fromkeys(keys))
+        lights = [self.light(key) for key in distinct]
         ambient = [
             light.ambient[columns]
             if len(light.ambient) > 1
             else np.repeat(light.ambient, len(columns))
             for light in lights
         ]
-        found = ColumnLight(np.stack([light.lit[columns] for light in lights]), np.stack(ambient))
-        return found, [known.index(key) for key in keys]
+        light_of_sets = ColumnLight(
+            np.stack([light.lit[columns] for light in lights]), np.stack(ambient)
+        )
+        return light_of_sets, [distinct.index(key) for key in keys]
 
     def profile(self, included: Names) -> FloatArray:
         key = included & self._of_value

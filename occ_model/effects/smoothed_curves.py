@@ -25,12 +25,12 @@ def unsampled_rim_square(pixels: SampledPixels, square: float) -> float:
     """
     if pixels.sample.is_covered:
         return 0.0
-    found = _UNSAMPLED_PIXELS * square
+    unsampled = _UNSAMPLED_PIXELS * square
     if pixels.file is not None:
         region = pixels.view.region
         blocks = min(64.0 / (region.rows * region.columns), pixels.rims.fraction)
-        found += pixels.file.growth_at_rim(blocks, found)
-    return found
+        unsampled += pixels.file.growth_at_rim(blocks, unsampled)
+    return unsampled
 
 
 def cut_block_square(pixels: SampledPixels) -> float:
@@ -44,15 +44,15 @@ def cut_block_square(pixels: SampledPixels) -> float:
         return 0.0
     upright = pixels.rims.fractions[1]
     added = file.growth_at_rim(upright, upright * pixels.contrast**2 / 8.0)
-    alike = file.undithered_fraction
-    return added * (alike + (1.0 - alike) / file.block_rows)
+    equal_fraction = file.undithered_fraction
+    return added * (equal_fraction + (1.0 - equal_fraction) / file.block_rows)
 
 
 LEAST_SMOOTHING_NOISE = 0.5
 """Noise in grey levels below which single steps of the enhancement remain visible in its mean."""
 
 _LEAST_TABULATED_NOISE = 1.5
-"""Noise, in steps of the table, above which interpolation in a smoothed curve is close."""
+"""Noise, in steps of the table, above which interpolating a smoothed curve is accurate."""
 
 
 class _CurveNoise(NamedTuple):
@@ -60,7 +60,7 @@ class _CurveNoise(NamedTuple):
 
     spread: FloatArray
     least: float
-    passed: LevelSteps
+    steps: LevelSteps
 
 
 class SmoothedCurves:
@@ -81,8 +81,8 @@ class SmoothedCurves:
             spread, file = self._pixels.spread(included), self._pixels.file
             if file is not None and self.files & included:
                 spread = file.spread(spread)
-            passed = LevelSteps.of(self._levels, spread)
-            self._noises[key] = _CurveNoise(spread, float(spread.min()), passed)
+            steps = LevelSteps.of(self._levels, spread)
+            self._noises[key] = _CurveNoise(spread, float(spread.min()), steps)
         return self._noises[key]
 
     def curve(self, included: Names) -> FloatArray:
@@ -90,36 +90,38 @@ class SmoothedCurves:
         key = included - self._lenses
         if key not in self._curves:
             enhancement = self._pixels.columns.enhancement(included)
-            self._curves[key] = enhancement.mean(self.noise(included).passed)
+            self._curves[key] = enhancement.mean(self.noise(included).steps)
         return self._curves[key]
 
     def enhance(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
         """Return the mean of the enhanced pixels for each mean value, shape as ``values``."""
         pixels = self._pixels
-        found = pixels.table.interpolate_each(np.stack([self.curve(one) for one in sets]), values)
+        means = pixels.table.interpolate_each(
+            np.stack([self.curve(included) for included in sets]), values
+        )
         tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
-        for included, own, of_own in zip(sets, values, found, strict=True):
+        for included, own, mean in zip(sets, values, means, strict=True):
             noise = self.noise(included)
             if noise.least < tabulated:
                 flat = np.clip(own, 0.0, WHITE)
-                filed = self.files & included
+                with_file = self.files & included
                 own_noise = (
                     pixels.table.interpolate(noise.spread, flat)
-                    if filed
+                    if with_file
                     else pixels.noise_at(included, flat)
                 )
                 sharp = own_noise < tabulated
                 if sharp.any():
                     steps = LevelSteps.of(flat[sharp], own_noise[sharp])
-                    of_own[sharp] = pixels.columns.enhancement(included).mean(steps)
-        return found
+                    mean[sharp] = pixels.columns.enhancement(included).mean(steps)
+        return means
 
 
 _MISSED_FRACTION = 0.1  # fraction of a change above which the sample counts as missing it
 
 
 def add_unsampled(
-    pixels: SampledPixels, found: SampledObservable, curves: SmoothedCurves | None = None
+    pixels: SampledPixels, observed: SampledObservable, curves: SmoothedCurves | None = None
 ) -> None:
     """Add to the mean square of each change the contribution of columns outside the sample.
 
@@ -127,13 +129,13 @@ def add_unsampled(
     appears only in the few others; so does a change of the noise if there is too little to spread
     the rounding. Computing all columns takes microseconds, apart from the enhancement's curves.
     """
-    lacking = pixels.unsampled
-    if lacking is None:
+    weights = pixels.unsampled
+    if weights is None:
         return
 
-    def add(name: str, seen: FloatArray) -> None:
-        missed = float((seen[1] - seen[0]) ** 2 @ lacking)
-        found.alone[name] = found.alone.get(name, 0.0) + max(missed, 0.0)
+    def add(name: str, values: FloatArray) -> None:
+        missed = float((values[1] - values[0]) ** 2 @ weights)
+        observed.independent[name] = observed.independent.get(name, 0.0) + max(missed, 0.0)
 
     for effect in (*pixels.lights, *pixels.limits, *pixels.lenses):
         profiles = _profiles(pixels, effect.name)
@@ -143,10 +145,10 @@ def add_unsampled(
         changed = profiles
         if curves is not None:  # first as if there were no noise
             pairs = zip(sets, profiles, strict=True)
-            levels = [pixels.columns.enhancement(one)(own) for one, own in pairs]
+            levels = [pixels.columns.enhancement(included)(own) for included, own in pairs]
             changed = np.array(levels, dtype=np.float64)
         squares = (changed[1] - changed[0]) ** 2
-        if squares @ lacking <= _MISSED_FRACTION * squares.mean():
+        if squares @ weights <= _MISSED_FRACTION * squares.mean():
             continue
         if curves is not None:
             changed = curves.enhance(sets, profiles)
@@ -161,10 +163,10 @@ def add_unsampled(
 def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:
     """Return the profile with and without an effect, None if the effect only moves rims.
 
-    Dimming is taken as its mean over the rows.
+    Dimming is averaged over the rows.
     """
-    whole, dimming = pixels.profile(pixels.names), pixels.dimming(name)
+    complete, dimming = pixels.profile(pixels.names), pixels.dimming(name)
     if dimming is None:
         is_rim = name in pixels.sample.outline
-        return None if is_rim else np.stack([whole, pixels.profile(pixels.names - {name})])
-    return np.stack([pixels.profile(pixels.names, pixels.interpolate_columns(dimming)), whole])
+        return None if is_rim else np.stack([complete, pixels.profile(pixels.names - {name})])
+    return np.stack([pixels.profile(pixels.names, pixels.interpolate_columns(dimming)), complete])

@@ -142,7 +142,7 @@ def _view_lamp(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None
     if lamp.shape == "disc":
         region = region_of(corners, camera.rows, camera.columns)
         view = dataclasses.replace(
-            view, corners=corners, sides=None, is_seen=region is not None,
+            view, corners=corners, sides=None, is_visible=region is not None,
             region=region or view.region,
         )  # fmt: skip
     return LampView(lamp, view)

@@ -77,7 +77,7 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
 def _span(view: PaperView) -> range:
     """Return the rows that the panel spans, to whole bands; the whole picture if none is seen."""
     rows = view.scene.camera.rows
-    first, last = (view.region.first_row, view.region.last_row) if view.is_seen else (0, rows)
+    first, last = (view.region.first_row, view.region.last_row) if view.is_visible else (0, rows)
     return range(first // BAND * BAND, min(-(-last // BAND) * BAND, rows // BAND * BAND))
 
 

@@ -47,16 +47,20 @@ def _run(options: argparse.Namespace) -> int:
         if text is not None:
             scene = scene.replace(**{name: quantity(name).parse(text)})
     knows_readout = options.lamp is None or options.readout is not None
+    of_scene = [] if options.lamp is not None else _scene_lines(scene, options.limit / 100.0)
     answer = bars_answer(scene, knows_readout=knows_readout, rows=rows)
-    for line in (answer.sentence, *(f"  {detail}" for detail in answer.details)):
+    for line in (answer.sentence, *(f"  {detail}" for detail in answer.details), *of_scene):
         print(line)
-    if options.lamp is not None:
-        return 0
-    advice = band_advice(scene, options.limit / 100.0)
-    for line in (*_depth_lines(scene, band_depth(scene)), *_advice_lines(scene, advice)):
-        print(line)
-    print("\n  ".join(eye_flicker(scene).sentences))
     return 0
+
+
+def _scene_lines(scene: Scene, limit: float) -> list[str]:
+    advice = band_advice(scene, limit)
+    return [
+        *_depth_lines(scene, band_depth(scene)),
+        *_advice_lines(scene, advice),
+        "\n  ".join(eye_flicker(scene).sentences),
+    ]
 
 
 _LAMPS = "240Hz 30%, mains 50Hz, or 60Hz 1/16 rows for a panel whose rows are lit in turn"

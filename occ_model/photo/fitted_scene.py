@@ -28,7 +28,7 @@ _DOUBTFUL_DEVIATION, _REFUSED_DEVIATION = 0.03, 0.1
 """Relative standard deviations of the readout time, or the frequency, above which a match is
 doubtful, and above which it is refused."""
 
-_DOUBTFUL_EXPOSURE_DEVIATION = 0.5
+DOUBTFUL_EXPOSURE_DEVIATION = 0.5
 """Relative standard deviation of the exposure time above which it is doubtful: two of them reach
 from it to nothing."""
 
@@ -84,11 +84,15 @@ def described(
     best = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
     fit = _within_pulse(best, min(runs_of(explanation.chips)))
     scene = _with_timing(scene, fit, explanation, estimate, region)
-    scene = with_levels(at_the_photo(scene, photo, region), fit)
+    scene = with_levels(
+        at_the_photo(scene, photo, region),
+        float(np.median(fit.low)),
+        float(np.median(fit.low + fit.swing)),
+    )
     uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
-    unsure = _doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
+    unsure = doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
     unknown = uncertainties["exposure_time"] / scene.camera.exposure_time
-    scene = _rounded(scene, uncertainties)
+    scene = round_estimates(scene, uncertainties)
     if was_read and is_single_pulse(explanation.chips):
         # The duty stated is that of whole chips, and so off by its change in the fit, too.
         least = min(runs_of(explanation.chips))  # of which no more can be missing
@@ -113,22 +117,22 @@ def described(
         reasons=(*better.doubts, *unsure),
         exposure_reasons=(
             *better.exposure_doubts,
-            *_doubts_by_fraction("exposure_time", unknown, _DOUBTFUL_EXPOSURE_DEVIATION),
-            *_doubts_by_enhancement(photo),
+            *doubts_by_fraction("exposure_time", unknown, DOUBTFUL_EXPOSURE_DEVIATION),
+            *doubts_by_enhancement(photo),
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
     )
 
 
-def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
+def doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
     fraction = deviation / value
-    if refusal := _doubts_by_fraction(estimate, fraction, _REFUSED_DEVIATION):
+    if refusal := doubts_by_fraction(estimate, fraction, _REFUSED_DEVIATION):
         raise MatchError(*refusal)
-    return _doubts_by_fraction(estimate, fraction, _DOUBTFUL_DEVIATION)
+    return doubts_by_fraction(estimate, fraction, _DOUBTFUL_DEVIATION)
 
 
-def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
+def doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
     """Return a sentence where a relative standard deviation is beyond its limit, else none."""
     if fraction <= limit:
         return []
@@ -137,7 +141,7 @@ def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
     return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
 
 
-def _doubts_by_enhancement(photo: Photo) -> list[str]:
+def doubts_by_enhancement(photo: Photo) -> list[str]:
     """Doubt what was fitted to equalized levels: the noise decides how they are spread."""
     if photo.enhancement != "equalization":
         return []
@@ -232,7 +236,7 @@ def _uncertainties(
     return {name: math.sqrt(max(variance, 0.0)) for name, variance in variances.items()}
 
 
-def _rounded(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
+def round_estimates(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
     """Round what was estimated to the digits that its uncertainty leaves, at least to one of it."""
 
     def rounded(name: str, declared: Quantity) -> float:

@@ -26,12 +26,15 @@ from occ_model.photo.fitted_scene import (
     readout_and_frequency,
 )
 from occ_model.photo.lamp_chips import in_chips, with_lamp
+from occ_model.photo.lamp_fit.match import match_lamp
 from occ_model.photo.photo_scene import with_notes
-from occ_model.photo.reading.load import Corners, Photo
+from occ_model.photo.reading.load import Corners, Photo, region_within
 from occ_model.photo.stripes.find import find_stripes
+from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ESTIMATES, Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT
@@ -104,32 +107,78 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         averaging, fit_gamma = "light", False
     report = _Progress(progress or (lambda _fraction: None))
     report(0.0)
-    stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
+    lamp = _match_as_lamp(photo, given, estimate, sent, region)
+    if lamp is not None and lamp.verdict == "sure":
+        report(1.0)
+        return lamp
+    how = _Settings(estimate, sent, averaging, fit_gamma, region)
+    try:
+        match = _match_chips(photo, given, scene, how, report)
+    except MatchError:
+        if lamp is None:
+            raise
+        match = lamp
+    report(1.0)
+    return match
+
+
+@dataclass(frozen=True, slots=True)
+class _Settings:
+    """How a photo is matched, as :func:`match_photo` is told."""
+
+    estimate: str
+    sent: str
+    averaging: str
+    fit_gamma: bool
+    region: Corners | Lamp | None
+
+
+def _match_chips(
+    photo: Photo, given: Scene, scene: Scene, how: _Settings, report: "_Progress"
+) -> Match:
+    """Match the chips of a scene, or those that are read; ``given``: before a lamp was in chips."""
+    stripes, scene = find_stripes(photo, how.region), with_notes(scene, photo)
     candidates = Candidates(
         stripes,
         scene,
-        _cameras(stripes, scene, averaging, fit_gamma, report.again),
-        fit_gamma,
-        estimate,
+        _cameras(stripes, scene, how.averaging, how.fit_gamma, report.again),
+        how.fit_gamma,
+        how.estimate,
         photo.exposure_time,
         report.again,
     )
     report(0.2)
-    blinks = sent == "read" or is_single_pulse(sent_chips(scene.transmitter))
+    blinks = how.sent == "read" or is_single_pulse(sent_chips(scene.transmitter))
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
-    hypotheses, unread = _hypotheses(candidates, sent, report)
+    hypotheses, unread = _hypotheses(candidates, how.sent, report)
     try:
         chosen = judge.choose(hypotheses)
     except MatchError as error:
         raise MatchError(*unread, *error.reasons) from None
-    case = _Case(photo, given, candidates, judge, hypotheses, sent, report)
+    case = _Case(photo, given, candidates, judge, hypotheses, how.sent, report)
     as_sent = next((one for one in hypotheses if not one.was_read), None)
-    noted = candidates.as_noted(chosen) if chosen is as_sent and sent == "auto" else None
+    noted = candidates.as_noted(chosen) if chosen is as_sent and how.sent == "auto" else None
     match = case.concluded(noted or chosen)
     if as_sent is not None and chosen.rate != 1.0 and case.may_be_as_sent(match):
         match = case.concluded(as_sent)
-    report(1.0)
     return match
+
+
+def _match_as_lamp(
+    photo: Photo, scene: Scene, estimate: str, sent: str, region: Corners | Lamp | None
+) -> Match | None:
+    """Match a lamp's stripes by their shape; None if a code is sent or they are not a lamp's."""
+    if sent == "read" or blinking_lamp(scene.transmitter) is None:
+        return None
+    whole = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
+    if region is None:
+        within = whole
+    else:
+        within = region.region if isinstance(region, Lamp) else region_within(photo, region)
+    try:
+        return match_lamp(photo, scene, within, estimate=estimate, is_duty_known=sent == "scene")
+    except MatchError:
+        return None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

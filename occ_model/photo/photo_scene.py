@@ -9,7 +9,6 @@ from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import undistort
 from occ_model.errors import MatchError, ParameterError
-from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -81,8 +80,8 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
     )
 
 
-def with_levels(scene: Scene, fit: StripeFit) -> Scene:
-    low, high = float(np.median(fit.low)), float(np.median(fit.low + fit.swing))
+def with_levels(scene: Scene, low: float, high: float) -> Scene:
+    """Let dark and lit columns have two grey levels."""
     levels = np.array([max(low, 0.0), max(high, low, 0.0)])
     dark, bright = luminance_of(levels, scene.camera).tolist()
     scene = with_allowed(scene, luminance=bright - dark)

@@ -26,9 +26,10 @@ from PySide6.QtWidgets import (
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 
-LAMP = {"light": "lamp", "lamp_frequency": 1e3, "duty": 0.54}
+LAMP: dict[str, ParameterValue] = {"light": "lamp", "lamp_frequency": 1e3, "duty": 0.54}
 """In fiftieths of its period, as it is fitted, it is 27 chips of 50 kHz."""
 
 

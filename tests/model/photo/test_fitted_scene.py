@@ -14,13 +14,13 @@ from occ_model.files.writing import write_image
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
-    _doubts_by_error,
     _doubts_by_note,
-    _rounded,
     _uncertainties,
     _within_pulse,
+    doubts_by_error,
     exposure_time,
     readout_and_frequency,
+    round_estimates,
 )
 from occ_model.photo.photo_scene import with_allowed, with_chips, with_levels
 from occ_model.results.match import ESTIMATES
@@ -77,14 +77,14 @@ def test_uncertainties_follow_from_the_fits_covariance(estimate: str) -> None:
 
 
 def test_a_readout_time_that_is_hardly_known_is_doubtful_or_refused() -> None:
-    assert _doubts_by_error("readout_time", 1.0, 0.03) == []
-    (why,) = _doubts_by_error("readout_time", 1.0, 0.0301)
+    assert doubts_by_error("readout_time", 1.0, 0.03) == []
+    (why,) = doubts_by_error("readout_time", 1.0, 0.0301)
     assert why.startswith("The readout time is known only to 3.01 %; at most 3.00 %")
-    assert _doubts_by_error("switching_frequency", 1.0, 0.1)
+    assert doubts_by_error("switching_frequency", 1.0, 0.1)
     with pytest.raises(
         occ.MatchError, match=r"switching frequency is known only to 11.0 %; at most 10.0 %"
     ):
-        _doubts_by_error("switching_frequency", 1.0, 0.11)
+        doubts_by_error("switching_frequency", 1.0, 0.11)
 
 
 def test_edges_at_the_right_chips_bound_the_error_of_the_step() -> None:
@@ -98,8 +98,8 @@ def test_edges_at_the_right_chips_bound_the_error_of_the_step() -> None:
 
 def test_no_value_is_rounded_to_a_wild_error() -> None:
     scene = occ.Scene().replace(exposure_time=15.04e-6)
-    assert _rounded(scene, {"exposure_time": 1340e-6}).camera.exposure_time == 15e-6
-    assert _rounded(scene, {"exposure_time": 2e-6}).camera.exposure_time == 15e-6
+    assert round_estimates(scene, {"exposure_time": 1340e-6}).camera.exposure_time == 15e-6
+    assert round_estimates(scene, {"exposure_time": 2e-6}).camera.exposure_time == 15e-6
 
 
 @pytest.mark.parametrize("turn", [0, 5])
@@ -115,8 +115,7 @@ def test_chips_of_a_packet_become_its_code_and_others_a_pattern(turn: int) -> No
 
 def test_the_light_of_a_scene_gives_the_photos_levels() -> None:
     scene = occ.Scene().replace(enhancement="none", vignetting_exponent=0.0)
-    fit = replace(fit_of(), low=np.full(COLUMNS, 60.0), swing=np.full(COLUMNS, 90.0))
-    lit = with_levels(scene, fit)
+    lit = with_levels(scene, 60.0, 150.0)
     filled = lit.replace(rows=60, panel_width=5.0, panel_height=5.0)
     profile = occ.render(filled, tolerance=math.inf).profile
     assert profile.max() == pytest.approx(150.0)

@@ -41,11 +41,12 @@ def test_the_lamps_picture_is_that_of_its_chips(pattern: str, more: dict[str, fl
     assert match.duty == pattern.count("1") / len(pattern)
     assert match.start_time == lamp.model.start_time
     assert match.uncertainties["lamp_frequency"] == 5.0 / len(pattern)
-    pictures = [occ.render(each, tolerance=0.0, seed=3).image for each in (chips, lamp)]
-    np.testing.assert_array_equal(*pictures)
-    profiles = [occ.column_profile(each) for each in (chips, lamp)]
+    picture, of_lamp = (occ.render(each, tolerance=0.0, seed=3).image for each in (chips, lamp))
+    np.testing.assert_array_equal(of_lamp, picture)
+    profile, profile_of_lamp = (occ.column_profile(each) for each in (chips, lamp))
     # The duty of most pulses is no binary fraction.
-    np.testing.assert_allclose(*profiles, rtol=0.0, atol=0.0 if pattern == "10" else 1e-11)
+    most = 0.0 if pattern == "10" else 1e-11
+    np.testing.assert_allclose(profile_of_lamp, profile, rtol=0.0, atol=most)
 
 
 def test_a_lamp_keeps_the_code_that_its_scene_would_send() -> None:

@@ -1,0 +1,179 @@
+"""What tells a lamp's stripes from other regular things, measured on a fit.
+
+Limits were set on photographs of lamps and of other regular things; see `Cues`.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.lamp_fit.fit import LampFit
+from occ_model.photo.lamp_fit.model import COUNT
+from occ_model.photo.lamp_fit.readings import readings_of
+
+_CHANCE_SCATTER = 0.3 / 4.13  # of edges at random places, as a fraction of the period
+
+
+@dataclass(frozen=True, slots=True)
+class Cues:
+    """Measures of how well stripes are a lamp's.
+
+    Parameters
+    ----------
+    floor, floor_expected
+        Light between the stripes that no duty and exposure explain, as a fraction of their height,
+        and the light that the nearest explanation has.
+    blur, ramp, period
+        In columns.
+    edges
+        How many edges are in view.
+    scatter, scatter_noise
+        Deviation of the edges from even spacing in columns, and what of it the noise makes.
+    drift, drift_error
+        Shift of the stripes from the first row to the last, in columns, and its deviation.
+    rows_scatter
+        Deviation of the stripes between bands of rows from a straight shift, in columns.
+    misfit
+        Root mean square of the residual that repeats with the period, as a fraction of the swing.
+    dips
+        Times that the envelope falls and rises again.
+    gamma
+        Of the tone curve.
+    narrowest
+        Length of the shorter of a stripe and the gap between two, in columns.
+    """
+
+    floor: float
+    floor_expected: float
+    blur: float
+    ramp: float
+    period: float
+    edges: int
+    scatter: float
+    scatter_noise: float
+    drift: float
+    drift_error: float
+    rows_scatter: float
+    misfit: float
+    dips: int
+    gamma: float
+    narrowest: float
+
+    @property
+    def bits(self) -> float:
+        """Evidence of the even spacing, in bits: of three edges it is none."""
+        limit = max(self.scatter, 1e-3)
+        gain = math.log2(_CHANCE_SCATTER * self.period / limit)
+        return (self.edges - 3) * max(gain, 0.0)
+
+
+def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
+    """Measure the cues of a fit; ``rows``: profiles of bands of rows, shape (bands, columns)."""
+    wave = fit.wave
+    ramp = wave.ramp_columns / wave.period
+    floors = np.array([one.floor for one in readings_of(wave.width, ramp)])
+    nearest = float(floors[np.argmin(np.abs(floors - fit.floor))])
+    shifts, noises = _edge_shifts(fit)
+    scatter, noise = _spread(shifts, noises)
+    drift, error, apart = _rows_shift(fit, rows)
+    return Cues(
+        floor=abs(fit.floor - nearest),
+        floor_expected=nearest,
+        blur=wave.blur,
+        ramp=wave.ramp_columns,
+        period=wave.period,
+        edges=len(shifts),
+        scatter=scatter,
+        scatter_noise=noise,
+        drift=drift,
+        drift_error=error,
+        rows_scatter=apart,
+        misfit=_periodic_misfit(fit),
+        dips=_dips(fit),
+        gamma=fit.gamma,
+        narrowest=min(wave.width, 1.0 - wave.width) * wave.period,
+    )
+
+
+def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
+    """Return how far each edge is from its place in the model, and the deviation, in columns."""
+    wave, columns = fit.wave, fit.profile.columns
+    steep = fit.model.slopes(fit.values)[1][:, 1]  # over the place
+    half = 0.5 * wave.width * wave.period
+    first = math.ceil((columns[0] - wave.place) / wave.period - 0.5)
+    last = math.floor((columns[-1] - wave.place) / wave.period + 0.5)
+    middles = wave.place + wave.period * np.arange(first, last + 1)
+    reach = min(half, 0.5 * wave.period - half)
+    weight = np.where(fit.profile.clipped, 0.0, 1.0 / fit.noise**2)
+    shifts, noises = [], []
+    for edge in np.sort(np.concatenate([middles - half, middles + half])):
+        near = np.abs(columns - edge) <= max(reach, 1.0)
+        if not columns[0] <= edge <= columns[-1]:
+            continue
+        force = float((weight * steep**2)[near].sum())
+        if force > 0.0:
+            shifts.append(float((weight * steep * fit.residual)[near].sum()) / force)
+            noises.append(1.0 / math.sqrt(force))
+    return np.array(shifts), np.array(noises)
+
+
+def _spread(shifts: FloatArray, noises: FloatArray) -> tuple[float, float]:
+    if len(shifts) < 2:
+        return 0.0, 0.0
+    # Faint edges say little, so that each counts by how well it is known.
+    weight = 1.0 / noises**2
+    total = float(weight.sum())
+    freedom = max(1.0 - 3.0 / len(shifts), 1.0 / len(shifts))  # period, place and width are fitted
+    scatter = math.sqrt(float(weight @ shifts**2) / total / freedom)
+    return scatter, math.sqrt(len(shifts) / total)
+
+
+def _rows_shift(fit: LampFit, rows: FloatArray) -> tuple[float, float, float]:
+    """Return the drift of the stripes over the rows, its deviation, and the scatter about it."""
+    bands = len(rows)
+    if bands < 2:
+        return 0.0, 0.0, 0.0
+    levels, slopes = fit.model.slopes(fit.values)
+    envelope = slopes[:, COUNT:]
+    parts = np.column_stack([slopes[:, 1], levels, envelope])
+    weight = np.where(fit.profile.clipped, 0.0, 1.0)
+    shifts = []
+    for row in rows:
+        own = row - levels
+        system = parts * weight[:, None]
+        products = system.T @ system
+        products[np.diag_indices_from(products)] *= 1.0 + 1e-6
+        products[np.diag_indices_from(products)] += 1e-12
+        shifts.append(float(np.linalg.solve(products, system.T @ (own * weight))[0]))
+    place = np.linspace(-0.5, 0.5, bands)
+    off = np.array(shifts)
+    slope = float(place @ off) / float(place @ place)
+    rest = off - off.mean() - slope * place
+    scatter = math.sqrt(float(rest @ rest) / max(bands - 2, 1))
+    return slope, scatter / math.sqrt(float(place @ place)), scatter
+
+
+def _periodic_misfit(fit: LampFit) -> float:
+    wave, columns = fit.wave, fit.profile.columns
+    count = int(min(max(wave.period, 3), 24))
+    bins = np.floor((columns - wave.place) / wave.period % 1.0 * count).astype(int)
+    counts = np.maximum(np.bincount(bins, minlength=count), 1)
+    means = np.bincount(bins, weights=fit.residual, minlength=count) / counts
+    # What noise alone leaves in such a mean is taken off.
+    left = float(np.mean(means**2)) - float(np.mean(fit.noise**2)) * count / len(columns)
+    return math.sqrt(max(left, 0.0)) / max(fit.profile.swing, 1e-6)
+
+
+def _dips(fit: LampFit) -> int:
+    log = fit.model.envelope @ fit.values[COUNT:]
+    turns, last, direction = 0, float(log[0]), 0
+    for value in log:
+        if abs(value - last) > 0.25:
+            now = 1 if value > last else -1
+            turns += int(direction < 0 < now)
+            direction, last = now, float(value)
+        elif (value - last) * direction > 0:
+            last = float(value)
+    return turns

@@ -1,0 +1,244 @@
+"""Fit the model of a lamp's stripes to a profile, from several starts."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.lamp_fit.model import (
+    AMBIENT,
+    BLUR,
+    COUNT,
+    ENDS,
+    FLOOR,
+    GAMMA,
+    MOST_STEPS,
+    PERIOD,
+    PLACE,
+    RAMP,
+    TOE,
+    Levels,
+    envelope_basis,
+)
+from occ_model.photo.lamp_fit.profile import LampProfile
+from occ_model.photo.lamp_fit.wave import Wave
+
+_MULTIPLES = (1.0, 2.0, 3.0, 0.5)
+_SAME_PERIOD = 0.08  # relative difference up to which two starts are one
+_STIFFNESSES = (0.15, 0.6, 2.5)  # deviations of the envelope's bends; hot spots need the last
+_MOST_KNOTS = 30
+_ROUNDING = 0.15 / 255.0  # noise that no profile is below
+
+_FITTED_STARTS = 3  # of the best, which are fitted to the end
+_ROUNDS = 3  # of noise, each with a fit
+_STEPS, _FIRST_STEPS = 25, 8
+_LEAST_GAIN = 0.02
+_MOST_TRIES = 7
+_MOST_CORRELATION = 0.8
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampFit:
+    """The model's best parameters for a profile."""
+
+    profile: LampProfile
+    model: Levels
+    values: FloatArray
+    covariance: FloatArray
+    noise: FloatArray  # Shape (columns,): standard deviation of each value
+    score: float  # Logarithm of the evidence, up to a constant
+    correlation: float  # Of neighbouring residuals
+
+    @property
+    def wave(self) -> Wave:
+        return self.model.wave(self.values)
+
+    @property
+    def floor(self) -> float:
+        return self.model.floor(self.values)
+
+    @property
+    def ambient(self) -> float:
+        return float(self.values[AMBIENT])
+
+    @property
+    def gamma(self) -> float:
+        return math.exp(self.values[GAMMA])
+
+    @property
+    def levels(self) -> FloatArray:
+        return self.model.levels(self.values)
+
+    @property
+    def ends(self) -> tuple[FloatArray, FloatArray]:
+        """Levels of dark and of lit columns, by the envelope."""
+        return self.model.ends(self.values)
+
+    @property
+    def residual(self) -> FloatArray:
+        """The profile minus the model, in fractions of white; 0 where a column is clipped."""
+        off = self.profile.values - self.levels
+        return np.where(self.profile.clipped & (off < 0.0), 0.0, off)
+
+
+def fit_lamp(
+    profile: LampProfile, periods: Sequence[float], *, is_linear: bool = False
+) -> list[LampFit]:
+    """Return fits of a profile, the most likely first, from some periods and multiples of them."""
+    starts: list[float] = []
+    longest = len(profile.values) / 1.2
+    for period in periods:
+        for multiple in _MULTIPLES:
+            tried = multiple * period
+            if 3.0 <= tried <= longest and all(
+                abs(tried / other - 1.0) > _SAME_PERIOD for other in starts
+            ):
+                starts.append(tried)
+    middle = _STIFFNESSES[1]
+    rough = [_fit(profile, period, middle, is_linear, 1, _FIRST_STEPS) for period in starts]
+    rough.sort(key=lambda fit: -fit.score)
+    found = rough[_FITTED_STARTS:]
+    for place, start in enumerate(rough[:_FITTED_STARTS]):
+        for stiffness in (middle,) if place else _STIFFNESSES:
+            found.append(_fit(profile, start.wave.period, stiffness, is_linear, _ROUNDS, _STEPS))
+    return sorted(found, key=lambda fit: -fit.score)
+
+
+def _fit(
+    profile: LampProfile,
+    period: float,
+    stiffness: float,
+    is_linear: bool,
+    rounds: int,
+    steps: int,
+) -> LampFit:
+    count = len(profile.values)
+    knots = int(min(max(round(count / (0.9 * period)), 2), _MOST_KNOTS))
+    basis = envelope_basis(count, knots)
+    size = basis.shape[1]
+    tau = stiffness * min(1.0, (6.0 / knots) ** 1.5)
+    bending = np.diff(np.eye(size), 2, axis=0) / tau
+    model = Levels(profile.columns, basis, bending, is_linear)
+    values = _start(profile, model, period)
+    parts = 0.03, 0.02  # of the level and of the swing
+    for _ in range(rounds):
+        noise = _noise(profile, model.levels(values), parts)
+        values = _minimize(profile, model, values, noise, steps)
+        parts = _noise_parts(profile, model.levels(values), noise, len(values))
+    noise = _noise(profile, model.levels(values), parts)
+    return _described(LampFit(profile, model, values, np.empty(0), noise, 0.0, 0.0))
+
+
+def _start(profile: LampProfile, model: Levels, period: float) -> FloatArray:
+    columns, level = profile.columns, profile.values
+    light = np.clip(level, 1e-4, 1.0) ** (1.0 if model.is_linear else 2.2)
+    turn = np.exp(-2j * math.pi * columns / period)
+    place = -np.angle((level - level.mean()) @ turn) / (2.0 * math.pi) * period % period
+    reach = max(3, int(period)) | 1
+    padded = np.pad(light, reach, mode="edge")
+    brightest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
+    bends = 0.05 * np.diff(np.eye(model.envelope.shape[1]), 2, axis=0)
+    brightness = np.linalg.lstsq(
+        np.vstack([model.envelope, bends]),
+        np.concatenate([np.log(brightest), np.zeros(len(bends))]),
+        rcond=None,
+    )[0]
+    own = np.zeros(COUNT)
+    own[PERIOD], own[PLACE], own[RAMP] = math.log(period), place, -0.4
+    for each in (BLUR, GAMMA, TOE):
+        own[each] = model.priors[each][0]
+    own[FLOOR], own[AMBIENT] = 0.4, 1e-4
+    return np.concatenate([own, brightness])
+
+
+def _noise(profile: LampProfile, levels: FloatArray, parts: tuple[float, float]) -> FloatArray:
+    of_level, of_swing = parts
+    variance = profile.variances + (of_level * levels) ** 2 + (of_swing * profile.swing) ** 2
+    return np.sqrt(variance + _ROUNDING**2)
+
+
+def _noise_parts(
+    profile: LampProfile, levels: FloatArray, noise: FloatArray, parameters: int
+) -> tuple[float, float]:
+    """Return the noise in proportion to the level, and to the swing, that residuals have."""
+    from scipy.optimize import nnls  # slow to import, and needed only for photos
+
+    off = _off(profile, levels)
+    count = len(off)
+    weight = 1.0 / noise**2
+    excess = np.square(off) * count / max(count - parameters + 4, 0.5 * count) - profile.variances
+    parts = np.stack([levels**2, np.full(count, profile.swing**2)], axis=1)
+    found, _ = nnls(parts * weight[:, None], np.maximum(excess, 0.0) * weight)
+    return max(math.sqrt(found[0]), 0.002), max(math.sqrt(found[1]), 0.002)
+
+
+def _off(profile: LampProfile, levels: FloatArray) -> FloatArray:
+    """Return the model minus the profile; a clipped column may be brighter than it says."""
+    off = levels - profile.values
+    return np.where(profile.clipped, np.minimum(off, 0.0), off)
+
+
+def _minimize(
+    profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray, steps: int
+) -> FloatArray:
+    """Minimize the misfit and what contradicts the priors (Levenberg and Marquardt)."""
+    most = np.concatenate([MOST_STEPS, np.ones(len(values) - COUNT)])
+    most[PLACE] *= math.exp(values[PERIOD])
+
+    def misfit(at: FloatArray) -> float:
+        off = _off(profile, model.levels(at)) / noise
+        beliefs = model.beliefs(at)[0]
+        return float(off @ off + beliefs @ beliefs)
+
+    here, damping = misfit(values), 1e-2
+    for _ in range(steps):
+        products, gradient = _equations(profile, model, values, noise)
+        gain = 0.0
+        for _ in range(_MOST_TRIES):
+            damped = products + np.diag(damping * np.diag(products) + 1e-9)
+            step = np.clip(-np.linalg.solve(damped, gradient), -most, most)
+            there = values + step
+            for place, end in ENDS.items():
+                there[place] = min(max(there[place], -end), end)
+            there[BLUR] = min(max(there[BLUR], -3.0), 2.0)
+            gain = here - (new := misfit(there))
+            if gain > 0.0:
+                values, here, damping = there, new, max(0.2 * damping, 1e-7)
+                break
+            damping *= 5.0
+        if gain < _LEAST_GAIN:
+            break
+    return values
+
+
+def _equations(
+    profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the products of the slopes, and the gradient."""
+    levels, slopes = model.slopes(values)
+    off = _off(profile, levels) / noise
+    slopes = slopes / noise[:, None]
+    slopes[profile.clipped & (off == 0.0)] = 0.0
+    beliefs, of_beliefs = model.beliefs(values)
+    products = slopes.T @ slopes + of_beliefs.T @ of_beliefs
+    return products, slopes.T @ off + of_beliefs.T @ beliefs
+
+
+def _described(fit: LampFit) -> LampFit:
+    """Return a fit with its covariance and evidence (Laplace's approximation)."""
+    profile, model, values = fit.profile, fit.model, fit.values
+    products, _ = _equations(profile, model, values, fit.noise)
+    off = _off(profile, fit.levels) / fit.noise
+    square = float(off @ off)
+    near = float(off[1:] @ off[:-1]) / max(square, 1e-300)
+    near = min(max(near, 0.0), _MOST_CORRELATION)
+    inflation = (1.0 + near) / (1.0 - near)
+    beliefs = model.beliefs(values)[0]
+    likelihood = -0.5 * square - float(np.log(fit.noise).sum())
+    stiff = np.linalg.slogdet(model.bending.T @ model.bending + 1e-3 * np.eye(len(values) - COUNT))
+    score = likelihood / inflation - 0.5 * float(beliefs @ beliefs)
+    score += 0.5 * float(stiff[1] - np.linalg.slogdet(products)[1])
+    covariance = np.asarray(inflation * np.linalg.pinv(products), dtype=np.float64)
+    return replace(fit, covariance=covariance, score=score, correlation=near)

@@ -1,0 +1,182 @@
+"""Match the stripes of a lamp in a photo: its frequency or the readout time, duty and exposure."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from occ_model.camera.photometry import WHITE
+from occ_model.errors import MatchError, ParameterError
+from occ_model.photo.fitted_scene import (
+    DOUBTFUL_EXPOSURE_DEVIATION,
+    doubts_by_enhancement,
+    doubts_by_error,
+    doubts_by_fraction,
+    round_estimates,
+)
+from occ_model.photo.lamp_fit.place import find_place
+from occ_model.photo.lamp_fit.profile import LampProfile
+from occ_model.photo.lamp_fit.read_lamp import LampReading, read_lamp
+from occ_model.photo.lamp_fit.readings import StripeReading, readings_of
+from occ_model.photo.lamp_fit.verdict import floor_limit
+from occ_model.photo.photo_scene import at_the_photo, with_levels, with_notes
+from occ_model.photo.reading.load import Photo
+from occ_model.results.decoding import Region
+from occ_model.results.match import Match, Stripes
+from occ_model.scene.light_words import blinking_lamp
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT, SECOND
+
+_SATURATED = 0.996  # fraction of white above which a sample is saturated
+_CHIPS = "10"  # those of a cycle, which counts as two
+
+
+def match_lamp(
+    photo: Photo, scene: Scene, region: Region, *, estimate: str, is_duty_known: bool
+) -> Match:
+    """Match the brightest lamp within a region of a photo.
+
+    Parameters
+    ----------
+    scene
+        Sends a blinking lamp's light; its frequency or readout time is known.
+    estimate
+        ``"readout_time"`` or ``"switching_frequency"``, which stands for the lamp's frequency.
+    is_duty_known
+        Whether the scene's duty is the lamp's; else it is read from the stripes.
+
+    Raises
+    ------
+    MatchError
+        There are no stripes, or none of a lamp.
+    """
+    place = find_place(photo, region)
+    if place is None:
+        raise MatchError("No lamp is found: nothing in the photo is brighter than the rest.")
+    reading = read_lamp(place, is_linear=photo.is_linear)
+    lamp = blinking_lamp(scene.transmitter)
+    if lamp is None:
+        raise MatchError("The scene sends no lamp's light.")
+    period = reading.period
+    readout = scene.camera.readout_time
+    if estimate == "readout_time":
+        readout, frequency = 1.0 / (lamp.frequency * period), lamp.frequency
+    else:
+        frequency = 1.0 / (readout * period)
+    chosen, others = _choose(
+        reading, lamp.duty if is_duty_known else None, photo.exposure_time, frequency
+    )
+    first = reading.column + place.region.first_column
+    start = (0.5 * chosen.duty - 0.5 * chosen.exposure - first / period) % 1.0 / frequency
+    errors = _uncertainties(reading, chosen, estimate, readout, frequency, is_duty_known)
+    low, high = (WHITE * each for each in reading.ends)
+    try:
+        scene = with_notes(scene, photo).replace(
+            light="lamp", lamp_frequency=frequency, duty=chosen.duty, depth=1.0,
+            readout_time=readout, exposure_time=chosen.exposure / frequency, start_time=start,
+            averaging="light", enhancement="none",
+        )  # fmt: skip
+    except ParameterError as error:
+        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+    scene = at_the_photo(scene, photo, place.region)
+    scene = with_levels(scene, float(np.median(low)), float(np.median(high)))
+    name = "readout_time" if estimate == "readout_time" else "lamp_frequency"
+    unsure = doubts_by_error(name, float(scene.value(name)), errors[name])
+    unknown = errors["exposure_time"] / scene.camera.exposure_time
+    scene = round_estimates(scene, errors)
+    whole = LampProfile.of(place.pixels, place.shown)
+    stripes = Stripes(
+        place.region, WHITE * whole.values, low, high, period, reading.period_error * reading.step,
+        float((place.pixels[place.shown] >= _SATURATED).mean()),
+    )  # fmt: skip
+    model = WHITE * reading.levels
+    flat = (model - low) / (high - low)
+    camera = scene.camera
+    return Match(
+        scene=scene,
+        stripes=stripes,
+        readout_time=camera.readout_time,
+        switching_frequency=len(_CHIPS) * scene.transmitter.lamp_frequency,
+        exposure_time=camera.exposure_time,
+        start_time=scene.model.start_time,
+        gamma=camera.gamma,
+        uncertainties=errors,
+        pattern=_CHIPS,
+        pattern_was_read=not is_duty_known,
+        profile=model,
+        correlation=float(np.corrcoef(stripes.flattened, flat)[0, 1]),
+        other_exposures=tuple(sorted(each.exposure / frequency for each in others)),
+        reasons=(*reading.reasons(has_note=photo.exposure_time is not None), *unsure),
+        exposure_reasons=(
+            *doubts_by_fraction("exposure_time", unknown, DOUBTFUL_EXPOSURE_DEVIATION),
+            *doubts_by_enhancement(photo),
+            *_doubts_by_readings(chosen, others, frequency),
+        ),
+    )  # fmt: skip
+
+
+def _choose(
+    reading: LampReading, duty: float | None, noted: float | None, frequency: float
+) -> tuple[StripeReading, tuple[StripeReading, ...]]:
+    """Return the duty and exposure that the floor, and what is known, leave, and the others.
+
+    Where a duty is known or an exposure is noted there are no others.
+    """
+    floor, most = reading.fit.floor, floor_limit(reading.cues)
+    possible = [
+        each for each in readings_of(reading.width, reading.ramp) if abs(each.floor - floor) <= most
+    ] or list(readings_of(reading.width, reading.ramp)[:2])
+    if duty is not None:
+        nearest = min(possible, key=lambda each: abs(each.duty - duty))
+        return replace(nearest, duty=duty), ()
+    if noted is not None:
+        wanted = noted * frequency
+        return min(possible, key=lambda each: abs(math.log(each.exposure / wanted))), ()
+    first, *others = possible
+    return first, tuple(others)
+
+
+def _doubts_by_readings(
+    chosen: StripeReading, others: tuple[StripeReading, ...], frequency: float
+) -> list[str]:
+    if not others:
+        return []
+    words = [
+        f"a duty of {PERCENT.format(each.duty, 3)} exposed for "
+        f"{SECOND.format(each.exposure / frequency, 3)}"
+        for each in (chosen, *others[:2])
+    ]
+    return [
+        f"{' or '.join(words).capitalize()}: these make the same stripes, and the photo notes no "
+        "exposure time. If the duty is known, state that the scene's light is sent."
+    ]
+
+
+def _uncertainties(
+    reading: LampReading,
+    chosen: StripeReading,
+    estimate: str,
+    readout: float,
+    frequency: float,
+    is_duty_known: bool,
+) -> dict[str, float]:
+    """Return the standard deviations of the estimates, in SI units."""
+    relative = reading.period_error / reading.fit.wave.period
+    whole = chosen.exposure % 1.0
+    of_ramp = min(abs(whole - reading.ramp), abs(1.0 - whole - reading.ramp))
+    of_width = min(abs(whole - reading.width), abs(1.0 - whole - reading.width))
+    of_duty, of_exposure = reading.width_error, reading.ramp_error
+    if of_width < of_ramp:
+        of_duty, of_exposure = of_exposure, of_duty
+    of_place = reading.place_error * reading.step * readout
+    found = {
+        "exposure_time": of_exposure / frequency,
+        "start_time": math.hypot(of_place, 0.5 * math.hypot(of_duty, of_exposure) / frequency),
+    }
+    if estimate == "readout_time":
+        found["readout_time"] = relative * readout
+    else:
+        found["lamp_frequency"] = relative * frequency
+    if not is_duty_known:
+        found["duty"] = of_duty
+    return found

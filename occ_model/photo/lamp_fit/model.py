@@ -1,0 +1,121 @@
+"""The levels of a lamp's columns by its wave, envelope, floor and the camera's tone curve."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.lamp_fit.tone import Tone
+from occ_model.photo.lamp_fit.wave import Wave
+
+PERIOD, PLACE, WIDTH, RAMP, BLUR, FLOOR, AMBIENT, GAMMA, TOE, BEND = range(10)
+"""Places of the parameters: logarithms of the period, blur, gamma and toe, logits of width and
+ramp, and the floor by a hyperbolic sine, so that it may be large and of either sign."""
+
+COUNT = 10  # parameters before those of the envelope
+
+_FLOOR_SCALE = 0.05
+
+# What is believed before: mean and standard deviation. Tone curves of cameras are near sRGB's or a
+# power of 2.2; processing blurs by about half a column.
+_PRIORS = {
+    WIDTH: (0.0, 3.0),
+    RAMP: (0.0, 3.0),
+    BLUR: (math.log(0.45), 0.45),
+    FLOOR: (0.0, 2.5),
+    AMBIENT: (0.0, 0.01),
+    GAMMA: (math.log(2.2), 0.18),
+    TOE: (math.log(0.002), 1.2),
+    BEND: (0.0, 0.2),
+}
+_LINEAR = {GAMMA: (0.0, 1e-3), TOE: (math.log(0.002), 1e-2), BEND: (0.0, 1e-3)}
+
+_LARGEST_LOG = 25.0  # of an envelope's brightness, so that it stays finite
+
+ENDS = {WIDTH: 4.5, RAMP: 6.0, FLOOR: 6.0}  # largest magnitudes
+MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3])
+"""Largest steps of the parameters; that of the place is in periods."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Levels:
+    """The model of a profile's levels, as fractions of white."""
+
+    columns: FloatArray  # Shape (n,)
+    envelope: FloatArray  # Shape (n, knots): the spline's values
+    bending: FloatArray  # Shape (knots - 2, knots): of its coefficients, in standard deviations
+    is_linear: bool  # Whether levels are in proportion to the light
+
+    @property
+    def priors(self) -> dict[int, tuple[float, float]]:
+        return {**_PRIORS, **_LINEAR} if self.is_linear else _PRIORS
+
+    def wave(self, values: FloatArray) -> Wave:
+        width, ramp = (1.0 / (1.0 + math.exp(-values[each])) for each in (WIDTH, RAMP))
+        return Wave(math.exp(values[PERIOD]), values[PLACE], width, ramp, math.exp(values[BLUR]))
+
+    def floor(self, values: FloatArray) -> float:
+        """Return the light between the pulses, as a fraction of their height."""
+        return _FLOOR_SCALE * math.sinh(values[FLOOR])
+
+    def tone(self, values: FloatArray) -> Tone:
+        return Tone(math.exp(values[GAMMA]), math.exp(values[TOE]), values[BEND])
+
+    def levels(self, values: FloatArray) -> FloatArray:
+        light = self._light(values, self.wave(values).values(self.columns))[0]
+        return self.tone(values).slopes(light)[0]
+
+    def ends(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the levels where the wave is 0 and where it is 1."""
+        tone, size = self.tone(values), len(self.columns)
+        dark, lit = (
+            tone.slopes(self._light(values, np.full(size, wave))[0])[0] for wave in (0.0, 1.0)
+        )
+        return dark, lit
+
+    def slopes(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the levels and their slopes, shapes (n,) and (n, parameters)."""
+        wave, by_wave = self.wave(values).slopes(self.columns)
+        light, brightness, scale = self._light(values, wave)
+        level, by_light, by_tone = self.tone(values).slopes(light)
+        floor, steep = self.floor(values), _FLOOR_SCALE * math.cosh(values[FLOOR])
+        by_floor = brightness * (scale - math.copysign(scale * scale, floor) * (wave + floor))
+        by_envelope = by_light * (light - values[AMBIENT])
+        slopes = np.concatenate([
+            by_light * brightness * scale * by_wave,
+            (by_light * by_floor * steep)[None],
+            by_light[None],
+            by_tone,
+            by_envelope * self.envelope.T,
+        ])  # fmt: skip
+        return level, slopes.T
+
+    def _light(self, values: FloatArray, wave: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+        log = np.clip(self.envelope @ values[COUNT:], -_LARGEST_LOG, _LARGEST_LOG)
+        brightness, floor = np.exp(log), self.floor(values)
+        scale = 1.0 / (1.0 + abs(floor))
+        return brightness * (wave + floor) * scale + values[AMBIENT], brightness, scale
+
+    def beliefs(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return what contradicts the priors, in standard deviations, and its slopes."""
+        priors = self.priors
+        places = list(priors)
+        means, deviations = np.array(list(priors.values())).T
+        own = np.zeros((len(places), len(values)))
+        own[np.arange(len(places)), places] = 1.0 / deviations
+        bending = np.zeros((len(self.bending), len(values)))
+        bending[:, COUNT:] = self.bending
+        slopes = np.concatenate([own, bending])
+        return np.concatenate(
+            [(values[places] - means) / deviations, self.bending @ values[COUNT:]]
+        ), slopes
+
+
+def envelope_basis(count: int, knots: int) -> FloatArray:
+    """Return the values of cubic B-splines over evenly spaced columns, shape (count, splines)."""
+    from scipy.interpolate import BSpline  # slow to import, and needed only for photos
+
+    ends = np.concatenate([np.zeros(3), np.linspace(0.0, 1.0, knots + 1), np.ones(3)])
+    places = np.linspace(0.0, 1.0, count)
+    return np.asarray(BSpline.design_matrix(places, ends, 3).toarray())

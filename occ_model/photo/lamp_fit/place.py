@@ -1,0 +1,112 @@
+"""The pixels of a lamp in a photo or in a part of it."""
+
+import math
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import BoolArray, FloatArray
+from occ_model.photo.reading.load import Photo
+from occ_model.results.decoding import Region
+
+_DARK = 0.02  # quantile of the darkest pixels
+_BRIGHT = 0.99  # quantile of the lamp's light, closed over its stripes
+_RIM = 0.25  # of that light, from which a pixel is the lamp's
+_CLOSED_PART = 0.4  # of the columns that may lie between two stripes
+_LEAST_PART = 0.3  # of the highest column's pixels, fewer of which are left out
+_SMOOTHING = 0.7  # pixels, below which noise is not the lamp's light
+_RIM_PIXELS = 2  # of the lamp's rim that blur darkens
+_MOST_COLUMNS = 512  # of the picture in which a lamp is searched
+_MARGIN = 0.25  # of a lamp's size, around it, when it is searched more finely
+_LEAST_COLUMNS = 16
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampPlace:
+    """The pixels of a lamp within the smallest rectangle around them."""
+
+    region: Region
+    pixels: FloatArray  # Shape (rows, columns of the region): fractions of white
+    shown: BoolArray  # Shape as ``pixels``: which of them show the lamp
+
+
+def find_place(photo: Photo, region: Region) -> LampPlace | None:
+    """Find the brightest lamp within a region; None without pixels brighter than the rest.
+
+    Dark stripes are closed along the columns, so that the lamp is one patch of light.
+    """
+    while True:
+        part = region.crop(photo.samples)
+        step = max(1, math.ceil(max(part.shape) / _MOST_COLUMNS))
+        small = cv2.resize(part, None, fx=1 / step, fy=1 / step, interpolation=cv2.INTER_AREA)
+        mask = _patch(small.astype(np.float32) / photo.white)
+        if mask is None:
+            return None
+        first_row, last_row, first, last = (
+            step * each for each in _bounds(mask, 0.0 if step == 1 else _MARGIN)
+        )
+        inner = Region(
+            region.first_row + first_row, min(region.first_row + last_row, region.last_row),
+            region.first_column + first, min(region.first_column + last, region.last_column),
+        )  # fmt: skip
+        if step > 1 and inner.columns * inner.rows < 0.5 * region.columns * region.rows:
+            region = inner  # small beside its surroundings: searched again, more finely
+            continue
+        if step > 1:
+            mask = cv2.resize(
+                mask.astype(np.uint8), part.shape[::-1], interpolation=cv2.INTER_NEAREST
+            ).astype(bool)
+        return _inside(part, mask, region, photo.white)
+
+
+def _bounds(mask: BoolArray, margin: float) -> tuple[int, int, int, int]:
+    """Return the first and end row and column of a mask, with a margin around it."""
+    found: list[int] = []
+    for axis, count in ((1, mask.shape[0]), (0, mask.shape[1])):
+        places = np.flatnonzero(mask.any(axis=axis))
+        first, last = int(places[0]), int(places[-1]) + 1
+        around = math.ceil(margin * (last - first))
+        found += [max(first - around, 0), min(last + around, count)]
+    return found[0], found[1], found[2], found[3]
+
+
+def _inside(part: FloatArray, mask: BoolArray, region: Region, white: int) -> LampPlace | None:
+    """Return the pixels of a mask without its rim; a picture's border is no rim."""
+    kernel = np.ones((2 * _RIM_PIXELS + 1,) * 2, dtype=np.uint8)
+    inner = cv2.erode(mask.astype(np.uint8), kernel).astype(bool)
+    counts = inner.sum(axis=0)
+    shown = np.flatnonzero(counts > _LEAST_PART * counts.max(initial=0))
+    if len(shown) < _LEAST_COLUMNS:
+        return None
+    inner[:, : shown[0]] = inner[:, shown[-1] + 1 :] = False
+    first_row, last_row, first, last = _bounds(inner, 0.0)
+    rows, columns = slice(first_row, last_row), slice(first, last)
+    place = Region(
+        region.first_row + first_row, region.first_row + last_row,
+        region.first_column + first, region.first_column + last,
+    )  # fmt: skip
+    return LampPlace(place, part[rows, columns].astype(np.float32) / white, inner[rows, columns])
+
+
+def _patch(part: FloatArray) -> BoolArray | None:
+    """Return which pixels are the largest patch of light."""
+    smooth = cv2.GaussianBlur(part, (0, 0), _SMOOTHING)
+    dark = float(np.quantile(part, _DARK))
+    reach = int(_CLOSED_PART * part.shape[1]) | 1
+    # Dark beside the picture, or the closing would reach from a lamp to its border.
+    wide = cv2.copyMakeBorder(
+        smooth, 0, 0, reach, reach, cv2.BORDER_CONSTANT, value=(dark, dark, dark, dark)
+    )
+    kernel = np.ones((1, reach), dtype=np.uint8)
+    light = cv2.morphologyEx(wide, cv2.MORPH_CLOSE, kernel)[:, reach:-reach] - dark
+    top = float(np.quantile(light, _BRIGHT))
+    if top <= 0.0:
+        return None
+    count, labels, sizes, _ = cv2.connectedComponentsWithStats(
+        (light > _RIM * top).astype(np.uint8)
+    )
+    if count < 2:
+        return None
+    largest = 1 + int(np.argmax(sizes[1:, cv2.CC_STAT_AREA]))
+    return np.asarray(labels == largest)

@@ -1,0 +1,80 @@
+"""The profile of a place in a photo, as the fit takes it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, FloatArray
+
+_CLIPPED = 0.98  # of white, from where samples are clipped
+_CLIPPED_PART = 0.02  # of a column's samples, from which its mean is too dark
+_GROUPS = (8, 4, 3, 2)  # lines that a sensor may read together
+_LEAST_STEP_RATIO = 0.35  # of steps within a group to steps between groups, below which it is one
+_MOST_COLUMNS = 640  # of a profile that is fitted
+_LEAST_PERIOD = 12.0  # columns that a period keeps
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampProfile:
+    """Column means of a lamp's pixels, as fractions of white."""
+
+    values: FloatArray  # Shape (columns,)
+    variances: FloatArray  # Shape (columns,): of the noise of each mean
+    clipped: BoolArray  # Shape (columns,): columns that are brighter than their mean says
+
+    @classmethod
+    def of(cls, pixels: FloatArray, shown: BoolArray) -> "LampProfile":
+        """Average a lamp's pixels, shapes (rows, columns), over its rows.
+
+        The noise is that between neighbouring rows, as these show the same stripes.
+        """
+        count = np.maximum(shown.sum(axis=0), 1)
+        both = shown[1:] & shown[:-1]
+        steps = np.where(both, np.diff(pixels, axis=0), 0.0)
+        pairs = np.maximum(both.sum(axis=0), 1)
+        noise = np.square(steps).sum(axis=0, dtype=np.float64) / (2.0 * pairs * count)
+        clipped = (shown & (pixels >= _CLIPPED)).sum(axis=0) > _CLIPPED_PART * count
+        means = np.where(shown, pixels, 0.0).sum(axis=0, dtype=np.float64) / count
+        return cls(means, np.maximum(noise, 1e-12), clipped)
+
+    @property
+    def columns(self) -> FloatArray:
+        return np.arange(len(self.values), dtype=np.float64)
+
+    @property
+    def swing(self) -> float:
+        low, high = np.quantile(self.values, (0.05, 0.95))
+        return float(high - low)
+
+    def lines_at_once(self) -> tuple[int, int]:
+        """Return how many lines the sensor reads together, and the first that begins a group."""
+        steps = np.square(np.diff(self.values))
+        for count in _GROUPS:
+            if len(steps) < 8 * count:
+                continue
+            whole = len(steps) // count * count
+            means = steps[:whole].reshape(-1, count).mean(axis=0)
+            largest = int(means.argmax())
+            others = np.delete(means, largest)
+            if others.max() < _LEAST_STEP_RATIO**2 * means[largest]:
+                return count, (largest + 1) % count
+        return 1, 0
+
+    def averaged(self, count: int, first: int) -> "LampProfile":
+        """Average every ``count`` columns from the column ``first`` on."""
+        if count == 1:
+            return self
+        whole = first + (len(self.values) - first) // count * count
+
+        values, variances, clipped = (
+            each[first:whole].reshape(-1, count)
+            for each in (self.values, self.variances, self.clipped)
+        )
+        return LampProfile(
+            values.mean(axis=1), variances.mean(axis=1) / count, np.asarray(clipped.any(axis=1))
+        )
+
+    def reduction(self, shortest: float) -> int:
+        """Return how many columns can be averaged where ``shortest`` is the shortest period."""
+        most = max(1, int(shortest / _LEAST_PERIOD))
+        return min(most, max(1, -(-len(self.values) // _MOST_COLUMNS)))

@@ -1,0 +1,170 @@
+"""Read a lamp's period, place, duty and exposure from a place in a photo."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.errors import MatchError
+from occ_model.photo.lamp_fit.cues import Cues, cues_of
+from occ_model.photo.lamp_fit.fit import LampFit, fit_lamp
+from occ_model.photo.lamp_fit.model import PERIOD, PLACE, RAMP, WIDTH
+from occ_model.photo.lamp_fit.periods import likely_periods
+from occ_model.photo.lamp_fit.place import LampPlace
+from occ_model.photo.lamp_fit.profile import LampProfile
+from occ_model.photo.lamp_fit.verdict import doubts, penalty, refusals
+
+_OTHER_PERIOD = 0.03  # relative difference from which a fit has another period
+_EDGE_ERROR = 0.02  # columns by which processing moves each edge
+_LEAST_COLUMNS = 16
+_UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
+_PERIODS = 2  # of the likely ones, of which multiples are tried, too
+_BANDS = 6  # of rows, whose phases are compared
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampReading:
+    """A lamp's stripes as they were read.
+
+    Parameters
+    ----------
+    place
+        Its pixels.
+    fit, cues
+        The model, and what was measured on it.
+    period_error, place_error
+        Standard deviations in columns.
+    width, ramp, width_error, ramp_error
+        Of the stripes, as fractions of a period.
+    """
+
+    place: LampPlace
+    step: int  # columns of the photo for each of the fit
+    first: int  # the first of them, in the place's region
+    lines_at_once: int
+    fit: LampFit
+    cues: Cues
+    period_error: float
+    place_error: float
+    width: float
+    ramp: float
+    width_error: float
+    ramp_error: float
+    gap: float
+    other_period: float | None
+
+    @property
+    def period(self) -> float:
+        """Columns of the photo from one stripe to the next."""
+        return self.fit.wave.period * self.step
+
+    @property
+    def column(self) -> float:
+        """Column of the place's region at which the middle of a stripe is."""
+        return float(self._of_photo(np.array(self.fit.wave.place)))
+
+    def _of_photo(self, column: FloatArray) -> FloatArray:
+        """Return where columns of the fit are in the place's region."""
+        return np.asarray(self.first + self.step * (column + 0.5) - 0.5)
+
+    @property
+    def levels(self) -> FloatArray:
+        """The model in every column of the place's region, in fractions of white."""
+        return self._spread(self.fit.levels)
+
+    @property
+    def ends(self) -> tuple[FloatArray, FloatArray]:
+        """The levels of dark and of lit columns, there."""
+        dark, lit = self.fit.ends
+        return self._spread(dark), self._spread(lit)
+
+    def _spread(self, values: FloatArray) -> FloatArray:
+        places = self._of_photo(self.fit.profile.columns)
+        return np.asarray(np.interp(np.arange(self.place.region.columns), places, values))
+
+    def reasons(self, *, has_note: bool) -> list[str]:
+        return doubts(self.cues, self.gap, self.other_period, has_note)
+
+
+def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
+    """Fit a lamp's stripes.
+
+    Raises
+    ------
+    MatchError
+        There are none, or they are no lamp's.
+    """
+    whole = LampProfile.of(place.pixels, place.shown)
+    together, first = whole.lines_at_once()
+    profile = whole.averaged(together, first)
+    periods = likely_periods(profile.values, _PERIODS)
+    if len(profile.values) < _LEAST_COLUMNS or not periods:
+        raise MatchError("No period of stripes is found in it.")
+    more = profile.reduction(0.5 * min(periods))
+    profile, step = profile.averaged(more, 0), together * more
+    bands = _bands(place, step, first)
+    ranked = []
+    for found in fit_lamp(profile, [each / more for each in periods], is_linear=is_linear):
+        measured = cues_of(found, bands)
+        ranked.append((found.score - penalty(measured), found, measured))
+    if not ranked:
+        raise MatchError("No period of stripes is found in it.")
+    ranked.sort(key=lambda each: -each[0])
+    score, fit, cues = ranked[0]
+    if problems := refusals(cues):
+        raise MatchError(*problems)
+    others = [
+        (score - each, other.wave.period)
+        for each, other, _ in ranked[1:]
+        if abs(other.wave.period / fit.wave.period - 1.0) > _OTHER_PERIOD
+    ]
+    gap, other_period = min(others, default=(math.inf, None))
+    scale = max(1.0, cues.scatter / max(cues.scatter_noise, 1e-9))
+    period, edges = fit.wave.period, max(cues.edges, 2)
+    of_edges = 2.0 * _EDGE_ERROR * math.sqrt(12.0 / (edges * (edges**2 - 1.0)))
+    deviations = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0)) * scale
+    width_error, ramp_error = _shape_errors(fit, scale)
+    return LampReading(
+        place=place,
+        step=step,
+        first=first,
+        lines_at_once=together,
+        fit=fit,
+        cues=cues,
+        period_error=math.hypot(period * float(deviations[PERIOD]), of_edges),
+        place_error=math.hypot(float(deviations[PLACE]), _EDGE_ERROR / math.sqrt(edges)),
+        width=fit.wave.width,
+        ramp=fit.wave.ramp_columns / period,
+        width_error=min(math.hypot(width_error, _EDGE_ERROR / period), _UNKNOWN),
+        ramp_error=min(
+            math.hypot(ramp_error, _EDGE_ERROR / period),
+            _UNKNOWN * min(fit.wave.width, 1.0 - fit.wave.width),
+        ),
+        gap=gap,
+        other_period=other_period,
+    )
+
+
+def _bands(place: LampPlace, step: int, first: int) -> FloatArray:
+    """Return profiles of bands of rows, all columns of which show the lamp, shape (bands, n)."""
+    whole = np.flatnonzero(place.shown.all(axis=1))
+    rows = place.pixels[whole if len(whole) >= _BANDS else slice(None)]
+    groups = np.array_split(rows, min(_BANDS, len(rows)))
+    bands = np.stack([group.mean(axis=0, dtype=np.float64) for group in groups])
+    last = first + (bands.shape[1] - first) // step * step
+    return np.asarray(bands[:, first:last].reshape(len(bands), -1, step).mean(axis=2))
+
+
+def _shape_errors(fit: LampFit, scale: float) -> tuple[float, float]:
+    """Return the deviations of width and ramp, as fractions of a period."""
+    width, ramp = fit.wave.width, fit.wave.ramp
+    smaller = min(width, 1.0 - width)
+    slope = width * (1.0 - width)
+    by_width = np.array([slope, 0.0])
+    sign = 1.0 if width < 0.5 else -1.0
+    by_ramp = np.array([sign * ramp * slope, smaller * ramp * (1.0 - ramp)])
+    covariance: FloatArray = fit.covariance[np.ix_([WIDTH, RAMP], [WIDTH, RAMP])]
+    return tuple(  # type: ignore[return-value]
+        scale * math.sqrt(max(float(each @ covariance @ each), 0.0)) for each in (by_width, by_ramp)
+    )

@@ -1,0 +1,144 @@
+"""Why a fit of a lamp's stripes is doubted or refused, in sentences."""
+
+from occ_model.photo.lamp_fit.cues import Cues
+
+_MOST_FLOOR, _FLOOR_PART = 0.06, 0.15  # of the stripes' height, and of the floor that is expected
+_MOST_BLUR, _BLUR_PART = 1.0, 0.25  # columns, and of the ramp
+_MOST_DRIFT, _MOST_ROWS_SCATTER = 0.35, 0.35  # columns
+_DRIFT_DEVIATIONS = 4.0
+_MOST_SCATTER, _SCATTER_PART, _SCATTER_DEVIATIONS = 0.12, 0.002, 2.6
+_LEAST_BITS = 9.0
+_GAMMAS = (0.9, 6.0)
+_LEAST_PERIOD = 4.0  # columns
+_MOST_MISFIT = 0.06  # of the swing
+_LEAST_GAP = 6.0  # natural logarithms between the best period and the next
+_FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
+_FLOOR_DEVIATION, _BLUR_DEVIATION, _MOST_PENALTY = 0.05, 0.3, 40.0
+_LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap
+_REFUSED_BITS, _REFUSED_FLOOR, _REFUSED_MISFIT, _REFUSED_SCATTER = 4.0, 0.25, 0.12, 0.1
+"""Limits of a refusal: bits, fractions of the height and of the swing, part of the period."""
+
+
+def floor_limit(cues: Cues) -> float:
+    return _MOST_FLOOR + _FLOOR_PART * cues.floor_expected
+
+
+def penalty(cues: Cues) -> float:
+    """Return by how much the cues of a fit count against it, as a logarithm of evidence."""
+    beyond = max(0.0, cues.floor - floor_limit(cues)) / _FLOOR_DEVIATION
+    blurred = max(0.0, cues.blur - _blur_limit(cues)) / _BLUR_DEVIATION
+    return min(0.5 * beyond * beyond, _MOST_PENALTY) + min(0.5 * blurred * blurred, _MOST_PENALTY)
+
+
+def refusals(cues: Cues) -> list[str]:
+    """Return why stripes are no lamp's; empty if they may be one."""
+    found = []
+    if cues.bits < _REFUSED_BITS:
+        found.append(
+            f"Only {cues.edges} edges of stripes are in view, evenly spaced within "
+            f"{cues.scatter:.2g} columns: that can be chance."
+        )
+    if cues.floor > max(_REFUSED_FLOOR, floor_limit(cues)):
+        found.append(_floor_sentence(cues))
+    if cues.misfit > _REFUSED_MISFIT:
+        found.append(_misfit_sentence(cues))
+    if cues.scatter > max(_REFUSED_SCATTER * cues.period, _scatter_limit(cues)):
+        found.append(_scatter_sentence(cues))
+    if cues.narrowest < _REFUSED_STRIPE:
+        found.append(_narrow_sentence(cues))
+    return found
+
+
+def doubts(cues: Cues, gap: float, other: float | None, has_note: bool) -> list[str]:
+    """Return why a fit is doubtful; empty if it is sure.
+
+    ``gap``: evidence over that of the next best period, ``other`` in columns. ``has_note``: whether
+    an exposure time is noted.
+    """
+    found = [*_doubts_by_light(cues, has_note), *_doubts_by_edges(cues)]
+    if gap < _LEAST_GAP and other is not None:
+        found.append(f"A period of {other:.4g} columns explains the stripes nearly as well.")
+    return found
+
+
+def _doubts_by_light(cues: Cues, has_note: bool) -> list[str]:
+    found = []
+    if cues.floor > floor_limit(cues):
+        found.append(_floor_sentence(cues))
+    if cues.floor_expected and not has_note:
+        found.append(
+            "Between the stripes there is light, as with an exposure of a period or more, and the "
+            "photo notes no exposure time."
+        )
+    low, high = _GAMMAS
+    if not low <= cues.gamma <= high:
+        found.append(f"The camera's gamma would be {cues.gamma:.2g}; allowed: {low:g} to {high:g}.")
+    if cues.dips > 1 or (cues.dips and cues.edges < _FEW_EDGES):
+        found.append("The lamp is darker in its middle than at its ends, as by a wide dark stripe.")
+    if cues.misfit > _MOST_MISFIT:
+        found.append(_misfit_sentence(cues))
+    return found
+
+
+def _doubts_by_edges(cues: Cues) -> list[str]:
+    found = []
+    if cues.blur > (most := _blur_limit(cues)):
+        found.append(f"The stripes are blurred over {cues.blur:.2g} columns; at most {most:.2g}.")
+    if abs(cues.drift) > _MOST_DRIFT + _DRIFT_DEVIATIONS * cues.drift_error:
+        found.append(
+            f"The stripes are not upright: from the first row to the last they shift by "
+            f"{abs(cues.drift):.2g} columns."
+        )
+    if cues.rows_scatter > _MOST_ROWS_SCATTER:
+        found.append(
+            f"Rows of the lamp disagree by {cues.rows_scatter:.2g} columns on where the stripes "
+            f"are; at most {_MOST_ROWS_SCATTER:.2g}."
+        )
+    if cues.scatter > _scatter_limit(cues):
+        found.append(_scatter_sentence(cues))
+    if cues.bits < _LEAST_BITS:
+        found.append(
+            f"Only {cues.edges} edges are in view: their even spacing is {cues.bits:.2g} bits of "
+            f"evidence; at least {_LEAST_BITS:.0f} are needed."
+        )
+    if cues.period < _LEAST_PERIOD:
+        found.append(f"A period has {cues.period:.2g} columns; at least {_LEAST_PERIOD:.0f}.")
+    if cues.narrowest < _LEAST_STRIPE:
+        found.append(_narrow_sentence(cues))
+    return found
+
+
+def _blur_limit(cues: Cues) -> float:
+    return max(_MOST_BLUR, _BLUR_PART * cues.ramp)
+
+
+def _scatter_limit(cues: Cues) -> float:
+    return max(
+        _MOST_SCATTER + _SCATTER_PART * cues.period, _SCATTER_DEVIATIONS * cues.scatter_noise
+    )
+
+
+def _narrow_sentence(cues: Cues) -> str:
+    return f"Stripes or gaps have {cues.narrowest:.2g} columns; at least {_LEAST_STRIPE:.0f}."
+
+
+def _scatter_sentence(cues: Cues) -> str:
+    return (
+        f"The stripes' edges lie {cues.scatter:.2g} columns off even spacing; at most "
+        f"{_scatter_limit(cues):.2g}."
+    )
+
+
+def _floor_sentence(cues: Cues) -> str:
+    return (
+        f"Between the stripes there is {100.0 * cues.floor:.2g} % of their height more or less "
+        "light than any duty and exposure leave, as of things that are no lamp; at most "
+        f"{100.0 * floor_limit(cues):.2g} %."
+    )
+
+
+def _misfit_sentence(cues: Cues) -> str:
+    return (
+        f"The stripes' shape differs by {100.0 * cues.misfit:.2g} % of their height from a lamp's; "
+        f"at most {100.0 * _MOST_MISFIT:.0f} %."
+    )

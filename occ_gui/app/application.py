@@ -87,7 +87,7 @@ class Application(Parts):
         photos.failed.connect(self.messages.say_of_photo)
         photos.opened.connect(self.document.show_photo)
         self.files.pane_wanted.connect(window.bring_to_front)
-        menus.scan_axes.triggered.connect(lambda action: photos.scan_along(action.data()))
+        menus.scan_axes.triggered.connect(lambda action: photos.set_scan_axis(action.data()))
         scan_axis = self.store.store.select(
             lambda workspace: workspace.photo.load_options.scan_axis
         )

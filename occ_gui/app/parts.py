@@ -261,7 +261,7 @@ class Parts(QObject):
     def about_photo(self) -> str:
         """Return the photo's name and the verdict on its match; empty if none is open."""
         pane = self.shell.find_pane("photo")
-        return "" if pane is None else str(pane.verdict.about())
+        return "" if pane is None else str(pane.verdict.caption())
 
     def _may_measure_rates(self) -> bool:
         """Whether the first picture is shown, or none is under way."""

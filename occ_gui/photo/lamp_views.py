@@ -28,8 +28,8 @@ from occ_model.scene.units import NONE
 _MOST_ROWS = 6  # rows of the table that are visible without scrolling
 _ROW_HEIGHT = 24
 
-_THIN, _THICK = 2, 4
-_LAYER = 20
+_THIN, _THICK = 2, 4  # pen widths in pixels
+_LAYER = 20  # z value of the outlines
 
 _HALF_SIDE = 1e6  # of the area for drawing, in pixels
 _HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be hit
@@ -58,13 +58,13 @@ class LampForm(QWidget):
         )
         self.by_hand.setCheckable(True)
         self.by_hand.toggled.connect(self.by_hand_chosen)
-        self.whole = push_button(
+        self.whole_photo = push_button(
             "&Whole photo", "Search the whole photo for stripes again.", self.whole_asked
         )
-        self.place = name_widget(QLabel(wordWrap=True), "What is matched")
+        self.target = name_widget(QLabel(wordWrap=True), "What is matched")
         self._make_table()
-        buttons = fill(QHBoxLayout(), self.search, self.by_hand, self.whole, None)
-        fill(QVBoxLayout(self), buttons, self.table, self.place, margins=0, spacing=4)
+        buttons = fill(QHBoxLayout(), self.search, self.by_hand, self.whole_photo, None)
+        fill(QVBoxLayout(self), buttons, self.table, self.target, margins=0, spacing=4)
         self.show_lamps((), None)
         self.show_region(None)
 
@@ -88,7 +88,7 @@ class LampForm(QWidget):
         with QSignalBlocker(self.table):
             self.table.setRowCount(len(lamps))
             for row, lamp in enumerate(lamps):
-                for column, text in enumerate(self._texts(row, lamp)):
+                for column, text in enumerate(self._row_texts(row, lamp)):
                     item = QTableWidgetItem(text)
                     item.setToolTip("\n".join(f"Doubtful: {doubt}." for doubt in lamp.doubts))
                     self.table.setItem(row, column, item)
@@ -100,7 +100,7 @@ class LampForm(QWidget):
         self.table.setFixedHeight(header + rows * _ROW_HEIGHT + 4)
         self.table.setVisible(bool(lamps))
 
-    def _texts(self, row: int, lamp: Lamp) -> tuple[str, str, str, str]:
+    def _row_texts(self, row: int, lamp: Lamp) -> tuple[str, str, str, str]:
         region = lamp.region
         columns = f"{region.first_column}\u2013{region.last_column - 1}"
         product, doubt = lamp.switching_frequency_times_readout, ", doubtful" * lamp.is_doubtful
@@ -115,26 +115,26 @@ class LampForm(QWidget):
 
     def show_region(self, region: Region | None, lamp: int | None = None) -> None:
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
-        self.whole.setEnabled(region is not None)
+        self.whole_photo.setEnabled(region is not None)
         if region is None:
-            self.place.setText("The whole photo will be searched for stripes.")
+            self.target.setText("The whole photo will be searched for stripes.")
             return
-        what = "A region by hand" if lamp is None else f"Lamp {lamp + 1}"
-        how = " Drag on the photo to draw another one." if lamp is None else ""
-        self.place.setText(
-            f"{what} will be matched: columns {region.first_column} to {region.last_column - 1}, "
-            f"rows {region.first_row} to {region.last_row - 1}.{how}"
+        subject = "A region by hand" if lamp is None else f"Lamp {lamp + 1}"
+        hint = " Drag on the photo to draw another one." if lamp is None else ""
+        self.target.setText(
+            f"{subject} will be matched: columns {region.first_column} to "
+            f"{region.last_column - 1}, rows {region.first_row} to {region.last_row - 1}.{hint}"
         )
 
     def show_by_hand(self, by_hand: bool) -> None:
         with QSignalBlocker(self.by_hand):
             self.by_hand.setChecked(by_hand)
 
-    def show_search(self, is_searched: bool, why_none: str) -> None:
+    def show_search(self, is_searching: bool, reason: str) -> None:
         """Show that the search is running, or why no lamps were found."""
-        self.search.setEnabled(not is_searched)
-        if is_searched or why_none:
-            self.place.setText("Searching for lamps…" if is_searched else why_none)
+        self.search.setEnabled(not is_searching)
+        if is_searching or reason:
+            self.target.setText("Searching for lamps…" if is_searching else reason)
 
     def _choose(self) -> None:
         rows = {item.row() for item in self.table.selectedItems()}
@@ -165,7 +165,7 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
 
 
 class LampOutlines(QObject):
-    """Outlines of the lamps and of the rectangle, drawn on a photo.
+    """Outlines of the lamps and a movable rectangle, drawn on a photo.
 
     The centre of the photo's first pixel is at (0, 0).
     """
@@ -175,22 +175,22 @@ class LampOutlines(QObject):
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
-        # Weak, to avoid a cycle: the view holds the rectangle, whose signal holds this object.
+        # A weak reference: the view holds the rectangle, and its signal holds this object.
         self._box = weakref.proxy(box)
         self._lamps: Sequence[Lamp] = ()
         self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
-        self._updating = False
+        self._is_updating = False
         self.rectangle = pg.ROI((0, 0), (1, 1), pen=pg.mkPen(REGION, width=_THIN))
         self.rectangle.handleSize = _HANDLE
         for corner in ((0, 0), (0, 1), (1, 0), (1, 1)):
             self.rectangle.addScaleHandle(corner, (1 - corner[0], 1 - corner[1]))
-        self.rectangle.sigRegionChangeFinished.connect(self._follow)
+        self.rectangle.sigRegionChangeFinished.connect(self._emit_region)
         self.area = _DrawingArea()
         self.area.setCursor(Qt.CursorShape.CrossCursor)
         self.area.dragged.connect(self._draw_rectangle)
         # The area lies under the rectangle, which handles drags on itself.
-        for height, item in enumerate((self.area, self.rectangle), _LAYER):
-            item.setZValue(height)
+        for z_value, item in enumerate((self.area, self.rectangle), _LAYER):
+            item.setZValue(z_value)
             item.hide()
             box.addItem(item, ignoreBounds=True)
 
@@ -198,9 +198,11 @@ class LampOutlines(QObject):
         for item in (item for items in self.items for item in items):
             self._box.removeItem(item)
         self._lamps = lamps
-        self.items = [self._draw(place, lamp, place == chosen) for place, lamp in enumerate(lamps)]
+        self.items = [
+            self._draw_outline(index, lamp, index == chosen) for index, lamp in enumerate(lamps)
+        ]
 
-    def _draw(
+    def _draw_outline(
         self, index: int, lamp: Lamp, is_chosen: bool
     ) -> tuple[pg.PlotCurveItem, pg.TextItem]:
         pen = QPen(REGION if is_chosen else PHOTO, _THICK if is_chosen else _THIN)
@@ -229,21 +231,21 @@ class LampOutlines(QObject):
         self.area.setVisible(region is not None)
         if region is not None:
             left, top = region.first_column - 0.5, region.first_row - 0.5
-            self._place(QRectF(left, top, region.columns, region.rows))
+            self._place_rectangle(QRectF(left, top, region.columns, region.rows))
 
-    def _place(self, rect: QRectF) -> None:
-        self._updating = True
+    def _place_rectangle(self, rect: QRectF) -> None:
+        self._is_updating = True
         self.rectangle.setPos(rect.topLeft(), update=False)
         self.rectangle.setSize(rect.size())
-        self._updating = False
+        self._is_updating = False
 
     def _draw_rectangle(self, corners: QRectF, has_ended: bool) -> None:
-        self._place(corners)
+        self._place_rectangle(corners)
         if has_ended:
-            self._follow()
+            self._emit_region()
 
-    def _follow(self) -> None:
-        if self._updating:
+    def _emit_region(self) -> None:
+        if self._is_updating:
             return
         corner, size = self.rectangle.pos(), self.rectangle.size()
         rect = QRectF(corner.x(), corner.y(), size.x(), size.y()).normalized()

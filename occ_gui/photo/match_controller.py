@@ -26,33 +26,35 @@ _RECORDED = ("exposure_time", "f_number", "iso")
 """Parameters of the scene that cameras record in their photos."""
 
 
-def sources_of(
-    found: Match, photo_name: str, known: str, day: date, *, assumed: bool
+def describe_sources(
+    match: Match, photo_name: str, known: str, day: date, *, assumed: bool
 ) -> dict[str, str]:
     """Describe the source and the uncertainty of every value that a match estimated."""
-    given = quantity(known)
-    value = given.format(float(found.scene.value(known)))
-    how = "assumed to be" if assumed else "being"
-    where = f"photo {photo_name}, {day.isoformat()}, the {given.in_sentence} {how} {value}"
+    parameter = quantity(known)
+    value = parameter.format(float(match.scene.value(known)))
+    assumption = "assumed to be" if assumed else "being"
+    origin = (
+        f"photo {photo_name}, {day.isoformat()}, the {parameter.in_sentence} {assumption} {value}"
+    )
     sources = {}
-    for name, spread in found.uncertainties.items():
+    for name, deviation in match.uncertainties.items():
         if name in PARAMETERS:
-            precision = quantity(name).unit.format_deviation(spread)
-            doubt = "; doubtful" if name in found.doubtful_alone else ""
-            sources[name] = f"measured to ±{precision} from {where}{doubt}"
+            precision = quantity(name).unit.format_deviation(deviation)
+            doubt = "; doubtful" if name in match.doubtful_alone else ""
+            sources[name] = f"measured to ±{precision} from {origin}{doubt}"
     for name in ("rows", "columns"):
         sources[name] = f"the size of the photo {photo_name}"
-    if found.pattern_was_read and found.lamp is None:
+    if match.pattern_was_read and match.lamp is None:
         sources["pattern"] = f"read from the photo {photo_name}"
     return sources
 
 
-def cure_of_match(found: Match) -> Cure:
-    return cure_of(found.scene, found.uncertainties.get("exposure_time", 0.0))
+def cure_of_match(match: Match) -> Cure:
+    return cure_of(match.scene, match.uncertainties.get("exposure_time", 0.0))
 
 
 class MatchController(QObject):
-    failed = Signal(str)  # why a match, its use, or a recorded camera setting is refused
+    failed = Signal(str)  # why a match or a setting of the scene is refused
 
     def __init__(
         self, scenes: SceneStore, photos: PhotoController, results_store: ResultsStore
@@ -63,11 +65,11 @@ class MatchController(QObject):
         self.task: Task[MatchRequest, FoundMatch] = Task(
             match, "match of the photo", impatient=True
         )
-        self.task.finished.connect(self._take)
+        self.task.finished.connect(self._take_match)
         self.task.failed.connect(self._show_refusal)
-        results_store.select(lambda results: results.photo).changed.connect(self._follow)
+        results_store.select(lambda results: results.photo).changed.connect(self._follow_photo)
 
-    def _follow(self) -> None:
+    def _follow_photo(self) -> None:
         """End the match of the previous photo; start one if it was requested with the new photo."""
         self.task.cancel()
         choice = self._photos.choice
@@ -80,12 +82,12 @@ class MatchController(QObject):
         return self._results_store.results.photo
 
     @property
-    def _part(self) -> ShownPhoto:
+    def _shown_photo(self) -> ShownPhoto:
         return ShownPhoto.of(self._store.workspace, self._results_store.results)
 
     @property
     def match(self) -> Match | None:
-        return self._part.match
+        return self._shown_photo.match
 
     def start(self, choice: MatchChoice, *, apply: bool = False) -> None:
         """Match the open photo; with ``apply``, apply the match to the scene once it is found."""
@@ -94,7 +96,7 @@ class MatchController(QObject):
             return
         self._photos.edit(lambda each: replace(each, form=choice))
         scene = self._store.workspace.scene
-        request = MatchRequest(document.photo, scene, choice, self._part.part, apply)
+        request = MatchRequest(document.photo, scene, choice, self._shown_photo.part, apply)
         self._photos.put(replace(document, requested=request))
         self.task.ask(request)
 
@@ -105,7 +107,7 @@ class MatchController(QObject):
             self.task.cancel()
             self._photos.put(replace(document, requested=None))
 
-    def _take(self, found: FoundMatch) -> None:
+    def _take_match(self, found: FoundMatch) -> None:
         document = self._photos.document
         if document is None or document.requested is None:
             return
@@ -133,8 +135,8 @@ class MatchController(QObject):
         photo = self.photo
         if photo is None:
             return
-        notes = {name: getattr(photo, name) for name in _RECORDED}
-        changes = {name: value for name, value in notes.items() if value is not None}
+        recorded = {name: getattr(photo, name) for name in _RECORDED}
+        changes = {name: value for name, value in recorded.items() if value is not None}
         title = f"settings of {photo.path.name}"
         try:
             self._scenes.put(self._scenes.scene.replace(**changes), title)
@@ -142,37 +144,37 @@ class MatchController(QObject):
             self.failed.emit(str(error))
 
     def apply(self) -> None:
-        found, photo = self._take_usable_match(), self.photo
-        if found is not None and photo is not None:
-            self._scenes.put(found.scene, f"match with {photo.path.name}")
+        match, photo = self._take_usable_match(), self.photo
+        if match is not None and photo is not None:
+            self._scenes.put(match.scene, f"match with {photo.path.name}")
 
     def cure(self) -> None:
         """Apply the match, with a shutter speed that shows no bars, as one undo step."""
-        found = self._take_usable_match()
-        if found is not None:
-            self._scenes.put(cure_of(found.scene).scene, "shutter speed without bars")
+        match = self._take_usable_match()
+        if match is not None:
+            self._scenes.put(cure_of(match.scene).scene, "shutter speed without bars")
 
     def save(self, name: str, title: str, day: date | None = None) -> bool:
         """Save the scene of the match as a preset; return whether it was saved."""
-        found, photo = self._take_usable_match(), self.photo
-        if found is None or photo is None:
+        match, photo = self._take_usable_match(), self.photo
+        if match is None or photo is None:
             return False
         certain = self._store.workspace.photo.certain
-        sources = sources_of(
-            found, photo.path.name, found.known, day or date.today(),
-            assumed=not is_match_certain(found, certain),
+        sources = describe_sources(
+            match, photo.path.name, match.known, day or date.today(),
+            assumed=not is_match_certain(match, certain),
         )  # fmt: skip
         try:
-            save_preset(name, found.scene, title=title, sources=sources)
+            save_preset(name, match.scene, title=title, sources=sources)
         except OccError as error:
             self.failed.emit(str(error))
             return False
         return True
 
     def _take_usable_match(self) -> Match | None:
-        """Return the match; if it belongs to another part or photo, report that and return None."""
-        part = self._part
-        if part.match is not None and part.elsewhere:
-            self.failed.emit(f"This match is {part.elsewhere}; it is not used.")
+        """Return the match; if it is of another part or photo, report that and return None."""
+        photo = self._shown_photo
+        if photo.match is not None and photo.why_unusable:
+            self.failed.emit(f"This match is {photo.why_unusable}; it is not used.")
             return None
-        return part.match
+        return photo.match

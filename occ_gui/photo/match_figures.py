@@ -1,4 +1,4 @@
-"""Values of a match, the condition that they depend on, and lines to paste into other programs."""
+"""Values of a match, the value that they assume, and lines to paste into other programs."""
 
 import math
 from collections.abc import Mapping
@@ -29,43 +29,42 @@ def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
     return math.isclose(value, certain.get(name, math.nan), rel_tol=1e-9)
 
 
-def warn_of_stale(
-    scene: Scene, estimate: str, then: tuple[str, float], given: tuple[str, float]
+def describe_stale_value(
+    scene: Scene, estimate: str, used: tuple[str, float], in_scene: tuple[str, float]
 ) -> str:
-    """Return the start of a warning if the scene's known value has changed since; else empty.
+    """Say which known value the match used, if the scene has another one now; else empty.
 
-    ``then`` is the known value that the result was found with, and ``given`` the scene's at that
-    time, each with its name: they differ where a lamp was stated, which has its own frequency.
+    ``used``: the name and value that the match used; ``in_scene``: those that the scene had then.
+    They differ if the user stated a lamp, which has its own frequency.
     """
     now = known_value(estimate, scene)
-    if any(now[0] == name and math.isclose(now[1], value) for name, value in (then, given)):
+    if any(now[0] == name and math.isclose(now[1], value) for name, value in (used, in_scene)):
         return ""
-    texts = [quantity(name).format(value) for name, value in (then, now)]
-    if then[0] != now[0]:
-        names = (quantity(name).in_sentence for name, _ in (then, now))
+    texts = [quantity(name).format(value) for name, value in (used, now)]
+    if used[0] != now[0]:
+        names = (quantity(name).in_sentence for name, _ in (used, now))
         texts = [f"the {name} {text}" for name, text in zip(names, texts, strict=True)]
     return f"Found with {texts[0]}; the scene has {texts[1]} now: "
 
 
 def is_match_certain(match: Match, certain: Mapping[str, float]) -> bool:
-    """Whether the user has confirmed the known value of a match, in the words of any light."""
-    name = match.known
-    values = {name: float(getattr(match, name))}
-    if match.lamp is not None and name != "readout_time":
-        # Where chips of this rate or flashes were known, a lamp of its frequency is.
+    """Whether the user has confirmed the known value of a match, by any of its names."""
+    values = {match.known: float(getattr(match, match.known))}
+    if match.lamp is not None and match.known != "readout_time":
+        # Knowing the rate of the chips or flashes means knowing the lamp's frequency.
         values["pulse_frequency"] = match.lamp.frequency
         values["switching_frequency"] = match.switching_frequency
-    return any(is_certain(each, value, certain) for each, value in values.items())
+    return any(is_certain(name, value, certain) for name, value in values.items())
 
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
-    """Name the value that a match's times depend on, unless the user is certain of it."""
+    """Name the known value that a match's times assume, unless the user is certain of it."""
     if is_match_certain(match, certain):
         return ""
     return assumption(match.known, float(getattr(match, match.known)))
 
 
-def _grid(parent: QWidget | None = None) -> QGridLayout:
+def _make_grid(parent: QWidget | None = None) -> QGridLayout:
     # A QFormLayout would not reserve the height of wrapped lines.
     grid = QGridLayout(parent)
     grid.setContentsMargins(0, 0, 0, 0)
@@ -79,16 +78,16 @@ class MatchValues(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        grid = _grid(self)
+        grid = _make_grid(self)
         self.labels: dict[str, QLabel] = {}
-        self._titled: dict[str, QLabel] = {}
+        self._titles: dict[str, QLabel] = {}
         for row, (name, title) in enumerate(LABELS.items()):
             # A pattern can be arbitrarily long.
             label = ElidedLabel() if name == "pattern" else paragraph()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             name_widget(label, title, WHAT_ERRORS_MEAN if name in (*ESTIMATES, "frame") else "")
-            self.labels[name], self._titled[name] = label, QLabel(title)
-            grid.addWidget(self._titled[name], row, 0, Qt.AlignmentFlag.AlignTop)
+            self.labels[name], self._titles[name] = label, QLabel(title)
+            grid.addWidget(self._titles[name], row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(label, row, 1)
         fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         self.labels["pattern"].setFont(fixed)
@@ -96,14 +95,16 @@ class MatchValues(QWidget):
             "From the first edge of a stripe to the last; outside, the applied scene is dark."
         )
 
-    def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
-        """Show a match; ``noted``: the exposure time in seconds recorded by the camera, if any."""
+    def show_match(
+        self, match: Match, certain: Mapping[str, float], recorded_exposure: float | None
+    ) -> None:
+        """Show a match, with the exposure time in seconds if the camera recorded one."""
         condition = condition_of(match, certain)
-        facts = match_facts(match, condition, noted)
+        facts = match_facts(match, condition, recorded_exposure)
         # The condition is shown once, above the values.
-        shown = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
-        others = [f"• {text}" for key, text in shown if key == "alternative"]
-        texts = dict(shown) | {"alternative": "\n".join(others)}
+        texts_by_key = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
+        alternatives = [f"• {text}" for key, text in texts_by_key if key == "alternative"]
+        texts = dict(texts_by_key) | {"alternative": "\n".join(alternatives)}
         if "gamma" not in match.uncertainties:  # the scene's gamma was not estimated from the photo
             texts["gamma"] = ""
         for name, label in self.labels.items():
@@ -112,7 +113,7 @@ class MatchValues(QWidget):
                 label.set_full_text(text)
             else:
                 label.setText(text)
-            for part in (label, self._titled[name]):
+            for part in (label, self._titles[name]):
                 part.setVisible(bool(text))
 
 
@@ -124,11 +125,11 @@ class PasteLines(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.lines: dict[str, QLabel] = {}
-        self.why_none = paragraph(name="Why there is no line for other programs")
+        self.reason = paragraph(name="Why there is no line for other programs")
         self.note = paragraph(name="What the lines for other programs assume")
-        self._grid = _grid()
+        self._grid = _make_grid()
         self._parts: list[QWidget] = []
-        fill(QVBoxLayout(self), self.why_none, self._grid, self.note, margins=0)
+        fill(QVBoxLayout(self), self.reason, self._grid, self.note, margins=0)
         self.show_lines({})
 
     def show_lines(self, lines: Mapping[str, str], condition: str = "") -> None:
@@ -136,15 +137,15 @@ class PasteLines(QWidget):
 
         A line that is pasted into another program would lose its condition.
         """
-        why_none = ""
+        reason = ""
         if condition and lines:
-            why_none = (
+            reason = (
                 f"Lines for {' and '.join(lines)} hold only {condition.removesuffix(': ')}. They "
                 "appear once you confirm this: enter the value, or tick “certain”."
             )
             lines = {}
-        self.why_none.setText(why_none)
-        self.why_none.setVisible(bool(why_none))
+        self.reason.setText(reason)
+        self.reason.setVisible(bool(reason))
         for part in self._parts:
             part.setParent(None)
             part.deleteLater()
@@ -163,4 +164,4 @@ class PasteLines(QWidget):
                 self._parts.append(part)
         self.note.setText(note_on(lines))
         self.note.setVisible(bool(self.note.text()))
-        self.setVisible(bool(lines or why_none))
+        self.setVisible(bool(lines or reason))

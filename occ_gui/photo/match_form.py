@@ -36,7 +36,7 @@ class MatchForm(QWidget):
 
     chosen = Signal(object)  # another choice was made: a MatchChoice
     certain_chosen = Signal(str, object)
-    """A known value, in SI units, was confirmed for this photo, or is only assumed: None."""
+    """Name of a known value, and the confirmed value in SI units; None if it is only assumed."""
 
     cancelled = Signal()
     refused = Signal(str)  # why an entered value is refused
@@ -45,15 +45,15 @@ class MatchForm(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._scene: Scene | None = None
-        self._shown = MatchChoice()
+        self._shown_choice = MatchChoice()
         self._certain: Mapping[str, float] = {}
-        self._forgotten: Mapping[str, float] = {}  # values confirmed only for earlier photos
+        self._certain_before: Mapping[str, float] = {}  # values confirmed for earlier photos only
         self.sent = KeyedComboBox(
             "What was sent",
             "What the LED in the photo sent: what the scene sends, a lamp of a given number of "
             "cycles per second and any duty, or whatever can be read from the stripes.\n"
-            "Find out: what the scene sends if that explains the stripes, else what is read from "
-            "them.",
+            "Find out: what the scene sends, if that explains the stripes; otherwise, what is read "
+            "from them.",
             {
                 "auto": "Find out: as the scene, else read",
                 "scene": "What the scene sends",
@@ -78,7 +78,7 @@ class MatchForm(QWidget):
             "Fit gamma too",
             "Estimate the camera's gamma from the shape of the stripes' edges as well.",
         )
-        self._make_run()
+        self._make_start()
         self._lay_out()
         self.sent.chosen.connect(self._take_sent)
         for change in (
@@ -89,14 +89,14 @@ class MatchForm(QWidget):
         self._show_known()
 
     def _make_known(self) -> None:
-        """Make the fields of the known values, which can be edited here as well."""
+        """Make the fields of the known values, which can also be edited here."""
         self.known: dict[str, QuantityEdit] = {}
         note = "A known value of the photo; entering it changes the scene."
         for name in KNOWN:
             declared = quantity(name)
             tip = f"{note}\n\n{explain(declared)}"
             field = name_widget(QuantityEdit(declared), f"Known: {declared.label}", tip)
-            field.edited.connect(lambda value, name=name: self._edit(name, value))
+            field.edited.connect(lambda value, name=name: self._enter_known(name, value))
             self.known[name] = field
         self.hint = paragraph()
         self.certain = check_box(
@@ -105,7 +105,7 @@ class MatchForm(QWidget):
             "only assumed are stated with the assumption. A value that you enter here is taken "
             "as certain.",
         )
-        self.certain.clicked.connect(self._click_certain)
+        self.certain.clicked.connect(self._set_certain)
         self.notices: dict[QuantityEdit, RefusalNotice] = {}
         """For each field, the notice below it that says why its last input was refused."""
         for field in (self.lamp, *self.known.values()):
@@ -123,18 +123,18 @@ class MatchForm(QWidget):
         self.lamp.setFocus()
         self.lamp.selectAll()
 
-    def _edit(self, name: str, value: float) -> None:
+    def _enter_known(self, name: str, value: float) -> None:
         self.certain_chosen.emit(name, value)
         self.edited.emit(name, value, new_gesture())
 
     def _emit_choice(self) -> None:
-        self.chosen.emit(self._choice())
+        self.chosen.emit(self._current_choice())
 
     def _take_sent(self, sent: str) -> None:
         if sent == "lamp":  # choosing it confirms its frequency
             self._confirm_lamp(self.lamp.value())
         elif self._certain.get(_LAMP) == self.lamp.value():
-            self.certain_chosen.emit(_LAMP, None)  # it was that of the lamp stated here
+            self.certain_chosen.emit(_LAMP, None)  # the confirmed frequency was that of this lamp
 
     def _confirm_lamp(self, frequency: float) -> None:
         self.certain_chosen.emit(_LAMP, frequency)
@@ -146,11 +146,11 @@ class MatchForm(QWidget):
         sent = Transmitter() if self._scene is None else self._scene.transmitter
         return known_parameter(estimate, sent)
 
-    def _click_certain(self, certain: bool) -> None:
+    def _set_certain(self, certain: bool) -> None:
         name = self._known_name()
         self.certain_chosen.emit(name, self.known[name].value() if certain else None)
 
-    def _make_run(self) -> None:
+    def _make_start(self) -> None:
         self.start = push_button(
             "&Match photo",
             "Find the settings that explain the photo's stripes.",
@@ -183,9 +183,9 @@ class MatchForm(QWidget):
         """Return the choices, including values that were typed but not yet entered."""
         for field in (self.lamp, *self.known.values()):
             field.accept_text()
-        return self._choice()
+        return self._current_choice()
 
-    def _choice(self) -> MatchChoice:
+    def _current_choice(self) -> MatchChoice:
         return MatchChoice(
             sent=self.sent.key(),
             lamp_frequency=self.lamp.value(),
@@ -194,20 +194,20 @@ class MatchForm(QWidget):
         )
 
     def show_choice(
-        self, choice: MatchChoice, certain: Mapping[str, float], forgotten: Mapping[str, float]
+        self, choice: MatchChoice, certain: Mapping[str, float], certain_before: Mapping[str, float]
     ) -> None:
         """Show the choices, the confirmed values, and those confirmed for other photos."""
-        if choice != self._shown:  # else keep what was typed but not yet entered
-            self._shown = choice
+        if choice != self._shown_choice:  # else keep what was typed but not yet entered
+            self._shown_choice = choice
             self.sent.show_key(choice.sent)
             self.lamp.set_value(choice.lamp_frequency)
             self.estimate.show_key(choice.estimate)
             self.gamma.setChecked(choice.fit_gamma)
-        self._certain, self._forgotten = certain, forgotten
+        self._certain, self._certain_before = certain, certain_before
         self._show_known()
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the known values of this scene; input that was refused is replaced."""
+        """Show the known values of this scene in place of refused input."""
         self._scene = scene
         for notice in self.notices.values():
             notice.end()
@@ -218,13 +218,13 @@ class MatchForm(QWidget):
         return not self.cancel.isHidden()
 
     def show_running(self, running: bool) -> None:
-        hidden, shown = (self.start, self.cancel) if running else (self.cancel, self.start)
-        had_focus = hidden.hasFocus()
+        before, after = (self.start, self.cancel) if running else (self.cancel, self.start)
+        had_focus = before.hasFocus()
         for widget in (self.progress, self.cancel):
             widget.setVisible(running)
         self.start.setVisible(not running)
         if had_focus:  # otherwise Qt would move it to the next field, where typing changes a value
-            shown.setFocus()
+            after.setFocus()
         self.gamma.setEnabled(not running)
         self.progress.setValue(0)
 
@@ -236,12 +236,12 @@ class MatchForm(QWidget):
         self.lamp.setVisible(is_lamp)
         if not is_lamp:
             self.notices[self.lamp].end()
-        for each, field in self.known.items():
-            field.setVisible(each == name)
-            if each != name:
+        for field_name, field in self.known.items():
+            field.setVisible(field_name == name)
+            if field_name != name:
                 self.notices[field].end()
             if self._scene is not None:
-                field.set_value(float(self._scene.value(each)))
+                field.set_value(float(self._scene.value(field_name)))
         is_stated = is_lamp and name == _LAMP
         self.known[name].setEnabled(not is_stated)  # the field of the lamp determines it
         if is_stated:
@@ -252,7 +252,7 @@ class MatchForm(QWidget):
         if name == "switching_frequency":
             lamp = None if self._scene is None else blinking_lamp(self._scene.transmitter)
             lines.append("chips or levels per second" if lamp is None else f"a {lamp.words}")
-        if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
+        if not self.certain.isChecked() and is_certain(name, known, self._certain_before):
             lines.append(
                 "Only assumed here: it was certain for another photo. Tick “certain” if it "
                 "also holds for this one."

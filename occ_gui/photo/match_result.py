@@ -11,8 +11,8 @@ from occ_gui.photo.match_figures import (
     MatchValues,
     PasteLines,
     condition_of,
+    describe_stale_value,
     is_match_certain,
-    warn_of_stale,
 )
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
@@ -25,7 +25,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
 
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
-"""Sign of each verdict, so that none depends on colour alone."""
+"""Sign of each verdict, so that it does not depend on colour alone."""
 
 STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
 """The state that gives each verdict its colours, here and in the bar at the top."""
@@ -45,9 +45,9 @@ class MatchVerdictView(QWidget):
         self.word.setFont(font)
         self.word.setContentsMargins(_MARGIN, 0, _MARGIN, 0)
         self.reasons = paragraph(name="Reasons of the verdict", is_selectable=True)
-        fixed, least = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
+        fixed, minimum = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
         self.word.setSizePolicy(fixed, fixed)
-        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, least)
+        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, minimum)
         self._verdict, self._is_outdated = "", False
         row = fill(QHBoxLayout(), self.word, None)
         fill(QVBoxLayout(self), row, self.reasons, margins=0, spacing=_MARGIN)
@@ -61,7 +61,7 @@ class MatchVerdictView(QWidget):
 
     def show_outdated(self, outdated: bool) -> None:
         self._is_outdated = outdated
-        sign = "Before:" if outdated else SIGNS[self._verdict]
+        sign = "Earlier:" if outdated else SIGNS[self._verdict]
         self.word.setText(f"{sign} {self._verdict}")
         self.word.setAutoFillBackground(not outdated)
         palette = QPalette()
@@ -87,22 +87,22 @@ class MatchResult(QWidget):
         super().__init__()
         self._match: Match | None = None
         self._cure: Cure | None = None
-        self._noted: float | None = None
+        self._recorded_exposure: float | None = None
         self._scene: Scene | None = None
-        self._given = ("", math.nan)
+        self._known_at_match = ("", math.nan)
         self._certain: Mapping[str, float] = {}
         self._turned = False
         self.verdict, self.figures, self.paste = MatchVerdictView(), MatchValues(), PasteLines()
         self.mark = OutdatedMark(self.figures)
-        self.condition = paragraph(name="What the values depend on")
-        self.stale = paragraph(name="Whether the match still belongs to the known value")
-        self.stale.hide()
+        self.condition = paragraph(name="What the values assume")
+        self.warning = paragraph(name="Whether the match still belongs to the known value")
+        self.warning.hide()
         self.cure = paragraph()
         self._make_buttons()
         fill(
             QVBoxLayout(self),
-            # Most photographers want the cure, so it is visible without scrolling.
-            self.verdict, self.stale, self.condition, self.cure,
+            # Most photographers look for the cure, so it is visible without scrolling.
+            self.verdict, self.warning, self.condition, self.cure,
             (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft), self.figures, self.paste,
             fill(QHBoxLayout(), self.apply, self.save, None), None,
             margins=0, spacing=4,
@@ -131,50 +131,51 @@ class MatchResult(QWidget):
     def show_match(
         self,
         match: Match,
-        noted: float | None,
-        given: tuple[str, float] = ("", math.nan),
+        recorded_exposure: float | None,
+        known_at_match: tuple[str, float] = ("", math.nan),
         cure: Cure | None = None,
         *,
         turned: bool = False,
     ) -> None:
         """Show a match.
 
-        ``noted``: the exposure time in seconds recorded by the camera, if any. ``given``: the known
-        value of the scene at the match's start, with its name. ``cure``: the remedy for its bars.
+        ``recorded_exposure``: the exposure time in seconds recorded by the camera, if any.
+        ``known_at_match``: name and value of the scene's known parameter when the match began.
+        ``cure``: the remedy for its bars.
         """
-        self._match, self._noted, self._turned = match, noted, turned
-        self._cure, self._given = cure, given
-        self._show_stale()
+        self._match, self._recorded_exposure, self._turned = match, recorded_exposure, turned
+        self._cure, self._known_at_match = cure, known_at_match
+        self._warn_if_stale()
         self.verdict.show_verdict(match.verdict, match.all_reasons)
         self._show_figures(match)
         self.show_outdated("", usable=True)
 
-    def _show_cure(self, found: Cure, match: Match) -> None:
+    def _show_cure(self, cure: Cure, match: Match) -> None:
         text = (
-            f"This lamp repeats at {HERTZ.format(found.repeats, 4)} and is lit for "
-            f"{PERCENT.format(found.duty, 2)} of the time: {self._depth(found, match)}no bars at "
-            f"whole multiples of {SECOND.format(1.0 / found.repeats, 4)}."
+            f"This lamp repeats at {HERTZ.format(cure.repeats, 4)} and is lit for "
+            f"{PERCENT.format(cure.duty, 2)} of the time: {self._describe_depth(cure, match)}"
+            f"no bars at whole multiples of {SECOND.format(1.0 / cure.repeats, 4)}."
         )
-        first, kept = (
-            " or ".join(each.name for each in speeds) for speeds in (found.speeds, found.kept)
+        marked, real = (
+            " or ".join(speed.name for speed in speeds) for speeds in (cure.speeds, cure.kept)
         )
-        if first == kept != "":
-            text += f" Set {first}."
-        elif first:
-            text += f" Set {first} if the camera keeps what is written"
-            text += f", else {kept}." if kept else "."
+        if marked == real != "":
+            text += f" Set {marked}."
+        elif marked:
+            text += f" Set {marked} if the camera keeps the marked times exactly"
+            text += f", else {real}." if real else "."
         self.cure.setText(text)
 
-    def _depth(self, found: Cure, match: Match) -> str:
+    def _describe_depth(self, cure: Cure, match: Match) -> str:
         if match.exposure_verdict != "sure":
             return ""  # the depth of the bars depends on the exposure time
-        ends = dict.fromkeys(f"{100.0 * depth:.3g}" for depth in found.depth)
+        depths = dict.fromkeys(f"{100.0 * depth:.3g}" for depth in cure.depth)
         exposure = SECOND.format(match.exposure_time, 3)
-        return f"bars of {' to '.join(ends)} % of its light at {exposure}, "
+        return f"bars of {' to '.join(depths)} % of its light at {exposure}, "
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         self._certain = certain
-        self._show_stale()
+        self._warn_if_stale()
         if self._match is not None:
             self._show_figures(self._match)
 
@@ -184,9 +185,9 @@ class MatchResult(QWidget):
         if self._cure is not None:
             self._show_cure(self._cure, match)
         condition = condition_of(match, self._certain)
-        self.condition.setText(f"What follows holds {condition.removesuffix(': ')}.")
+        self.condition.setText(f"These values hold only {condition.removesuffix(': ')}.")
         self.condition.setVisible(bool(condition))
-        self.figures.show_match(match, self._certain, self._noted)
+        self.figures.show_match(match, self._certain, self._recorded_exposure)
         self.paste.show_lines(lines_of_match(match, turned=self._turned), condition)
 
     def show_outdated(self, why: str, usable: bool) -> None:
@@ -201,15 +202,15 @@ class MatchResult(QWidget):
 
     def show_scene(self, scene: Scene) -> None:
         self._scene = scene
-        self._show_stale()
+        self._warn_if_stale()
 
-    def _show_stale(self) -> None:
+    def _warn_if_stale(self) -> None:
         match, scene = self._match, self._scene
         if match is None or scene is None:
             return
-        then = match.known, float(getattr(match, match.known))
-        stale = ""
+        used = match.known, float(getattr(match, match.known))
+        warning = ""
         if not is_match_certain(match, self._certain):
-            stale = warn_of_stale(scene, match.estimate, then, self._given)
-        self.stale.setText(f"{stale}match again.")
-        self.stale.setVisible(bool(stale))
+            warning = describe_stale_value(scene, match.estimate, used, self._known_at_match)
+        self.warning.setText(f"{warning}match again.")
+        self.warning.setVisible(bool(warning))

@@ -12,11 +12,11 @@ from occ_gui.photo.match_controller import MatchController, cure_of_match
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.photo_work import (
-    chip_reading,
     comparison_inputs,
     find_lamps,
+    make_chip_updater,
+    make_stripe_updater,
     photo_profile,
-    stripe_search,
 )
 from occ_gui.photo.shown_photo import PartEdits, ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
@@ -76,14 +76,14 @@ class PhotoPane(Pane[ShownPhoto]):
         self.many = ManyPhotosController(scenes, photos, view.many, results_store)
         self.lamps = LampSearch(photos, results_store)
         self.works = (
-            stripe_search(scenes.store, results_store),
-            chip_reading(scenes.store, results_store),
+            make_stripe_updater(scenes.store, results_store),
+            make_chip_updater(scenes.store, results_store),
         )
         works = (photos.work, self.matching, self.lamps, *self.works)
         self.tasks = (*(work.task for work in works), self.many.runner)
         self.outlines = LampOutlines(image.photo.box)
         self._shown = ShownPhoto(scenes.scene, None, photos.choice)
-        self._compared = comparison_inputs(self._shown)
+        self._comparison_inputs = comparison_inputs(self._shown)
         view.show_scene(scenes.scene)
         view.show_choice(photos.choice)
         self.matching.task.reported.connect(view.form.show_progress)
@@ -93,7 +93,7 @@ class PhotoPane(Pane[ShownPhoto]):
     def _connect_window(self, window: WindowActions) -> None:
         view = self.view
         self.sentences = (view.verdict.sentence, view.verdict.wrapped)
-        self.matching.failed.connect(self._say_of_match)
+        self.matching.failed.connect(self._remark_on_match)
         for sentence in (view.refused, view.many.copied, view.result.paste.copied):
             sentence.connect(self.status_message)
         view.accepted.connect(self.accepted)
@@ -104,19 +104,19 @@ class PhotoPane(Pane[ShownPhoto]):
         view.result.save_asked.connect(lambda: window.save_match(self.matching))
         view.many.save_asked.connect(window.save_table)
 
-    def _say_of_match(self, sentence: str) -> None:
+    def _remark_on_match(self, sentence: str) -> None:
         results = self._results_store.results
         last = make_remark(sentence, next_match, self._store.workspace, results)
         self._results_store.put(replace(results, remark=last))
 
     def _connect_view(self) -> None:
         view, image, photos, matching = self.view, self._image, self.photos, self.matching
-        for placing in (image.overlay, view.placement):
-            placing.placed.connect(self._place)
+        for source in (image.overlay, view.placement):
+            source.placed.connect(self._place)
         view.placement.reset_asked.connect(self._reset_placement)
         view.placement.moving_chosen.connect(self._set_movable)
-        view.facts.channel_chosen.connect(photos.take_channel)
-        view.facts.scan_axis_chosen.connect(photos.scan_along)
+        view.facts.channel_chosen.connect(photos.set_channel)
+        view.facts.scan_axis_chosen.connect(photos.set_scan_axis)
         view.facts.settings_asked.connect(matching.apply_camera_settings)
         view.form.chosen.connect(self._take_form)
         view.form.certain_chosen.connect(self._take_certain)
@@ -130,75 +130,75 @@ class PhotoPane(Pane[ShownPhoto]):
         form.find_asked.connect(self.lamps.find)
         form.by_hand_chosen.connect(parts.set_by_hand)
         form.whole_asked.connect(parts.match_whole)
-        for choosing in (form.chosen, self.outlines.clicked):
-            choosing.connect(parts.choose)
+        for signal in (form.chosen, self.outlines.clicked):
+            signal.connect(parts.choose)
         self.outlines.drawn.connect(parts.draw)
         image.photo.graphics.scene().sigMouseClicked.connect(self._click)
 
     # Showing the part.
 
     def show_part(self, part: ShownPhoto) -> None:
-        shown, self._shown = self._shown, part
-        self._show(part, shown)
-        self._follow(part, shown)
+        last, self._shown = self._shown, part
+        self._show(part, last)
+        self._act_on_change(part, last)
 
-    def _show(self, part: ShownPhoto, shown: ShownPhoto) -> None:
-        view, is_another = self.view, part.photo is not shown.photo
-        if is_another:
+    def _show(self, part: ShownPhoto, last: ShownPhoto) -> None:
+        view, is_new = self.view, part.photo is not last.photo
+        if is_new:
             self._image.show_photo(part.photo)
             view.show_photo(part.photo)
-        if part.scene is not shown.scene:
+        if part.scene is not last.scene:
             view.show_scene(part.scene)
-        if part.choice != shown.choice:
+        if part.choice != last.choice:
             view.show_choice(part.choice)
-        self._show_match(part, shown)
-        searched, searched_before = part.search, shown.search
-        if is_another or (searched, part.part) != (searched_before, shown.part):
+        self._show_match(part, last)
+        if is_new or (part.search, part.part) != (last.search, last.part):
             self._show_part_of_photo()
-        placing = (part.placement, part.is_by_hand)
-        if placing != (shown.placement, shown.is_by_hand):
+        placement = (part.placement, part.is_placed_by_hand)
+        if placement != (last.placement, last.is_placed_by_hand):
             self._image.show_placement(part.placement)
-            view.placement.show_placement(*placing)
+            view.placement.show_placement(*placement)
 
-    def _show_match(self, part: ShownPhoto, shown: ShownPhoto) -> None:
-        view, is_another = self.view, part.match is not shown.match
-        if is_another:
+    def _show_match(self, part: ShownPhoto, last: ShownPhoto) -> None:
+        view, is_new = self.view, part.match is not last.match
+        if is_new:
             view.show_match(part.found, None if part.match is None else cure_of_match(part.match))
             is_own = part.found is not None and not part.found.is_listed
-            own = part.photo.path if part.photo is not None and is_own else None
-            view.many.rows.show_earlier(own)
-        if part.match is not None and (is_another or part.age != shown.age):
-            view.show_match_outdated(*part.age)
-        running = (part.is_matched_now, part.refusal)
-        is_new = is_another or part.photo is not shown.photo
-        if is_new or running != (shown.is_matched_now, shown.refusal):
+            own_path = part.photo.path if part.photo is not None and is_own else None
+            view.many.rows.mark_earlier(own_path)
+        if part.match is not None and (is_new or part.validity != last.validity):
+            view.show_match_outdated(*part.validity)
+        running = (part.is_matching, part.refusal)
+        is_other_photo = part.photo is not last.photo
+        if is_new or is_other_photo or running != (last.is_matching, last.refusal):
             view.show_match_running(*running)
 
-    def _follow(self, part: ShownPhoto, shown: ShownPhoto) -> None:
-        """Do what follows from a change; this may change the part again, which is then shown."""
-        if part.choice.listed != shown.choice.listed:
+    def _act_on_change(self, part: ShownPhoto, last: ShownPhoto) -> None:
+        """Act on a change, which may change the part again; that change is then shown."""
+        if part.choice.listed != last.choice.listed:
             self.many.show_files(part.choice.listed)
-        if part.part != shown.part:
+        if part.part != last.part:
             self.matching.cancel()
             if part.part is not None:
-                self._set_overlay(
-                    MODES[0]
-                )  # lamps and regions are drawn on the photo beside the picture
-        last, self._compared = self._compared, comparison_inputs(self._shown)
-        if self._compared != last:
+                # Lamps and regions are drawn on the photo beside the picture.
+                self._set_overlay(MODES[0])
+        inputs = comparison_inputs(self._shown)
+        if inputs != self._comparison_inputs:
+            self._comparison_inputs = inputs
             profile = photo_profile(self._shown)
             self._results_store.put(replace(self._results_store.results, photo_profile=profile))
 
     def _show_part_of_photo(self) -> None:
         lamps, part = self._shown.lamps, self._shown.part
-        chosen = next((place for place, lamp in enumerate(lamps) if lamp is part), None)
-        by_hand = part if isinstance(part, Region) else None
-        for drawn in (self.view.lamps, self.outlines):
-            drawn.show_lamps(lamps, chosen)
-        self.view.lamps.show_region(lamps[chosen].region if chosen is not None else by_hand, chosen)
-        self.view.lamps.show_by_hand(by_hand is not None)
+        chosen = next((index for index, lamp in enumerate(lamps) if lamp is part), None)
+        rectangle = part if isinstance(part, Region) else None
+        for view in (self.view.lamps, self.outlines):
+            view.show_lamps(lamps, chosen)
+        region = rectangle if chosen is None else lamps[chosen].region
+        self.view.lamps.show_region(region, chosen)
+        self.view.lamps.show_by_hand(rectangle is not None)
         self.view.lamps.show_search(*self._shown.search[1:])
-        self.outlines.show_rectangle(by_hand)
+        self.outlines.show_rectangle(rectangle)
 
     # Handling the user's input.
 

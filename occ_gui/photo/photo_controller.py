@@ -1,4 +1,4 @@
-"""Controller of the open photo: loads it in the background whenever another one is chosen."""
+"""Controller of the open photo: loads another one in the background when it is chosen."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -36,14 +36,14 @@ class PhotoController(QObject):
     def __init__(self, store: Store, results_store: ResultsStore) -> None:
         super().__init__()
         self._store, self._results_store = store, results_store
-        self._settled = store.workspace.photo
+        self._shown_choice = store.workspace.photo
         task: Task[PhotoSource, PhotoDocument] = Task(_load, "loading of the photo", impatient=True)
         self.work = ResultUpdater(
             store, results_store, task, lambda workspace, _: workspace.photo.source, _put,
             stays=True, keep=KEPT_PHOTOS,
         )  # fmt: skip
         self.work.failed.connect(self._fail)
-        results_store.select(lambda results: results.photo).changed.connect(self._settle)
+        results_store.select(lambda results: results.photo).changed.connect(self._keep_shown_choice)
         results_store.select(lambda results: results.photo).changed.connect(self.opened)
 
     @property
@@ -60,13 +60,13 @@ class PhotoController(QObject):
         return self._results_store.results.document
 
     def put(self, document: PhotoDocument) -> None:
-        """Store the open photo's document; what was found in it is kept for its next opening."""
+        """Store the open photo's document, and keep its results for when it is opened again."""
         self.work.keep(document.without_work())
         self._results_store.put(_put(self._results_store.results, document))
 
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
         if self.work.task.is_idle:
-            self._settled = self.choice
+            self._shown_choice = self.choice
         workspace = self._store.workspace
         self._store.put(replace(workspace, photo=change(workspace.photo)))
 
@@ -75,19 +75,19 @@ class PhotoController(QObject):
         self.edit(lambda choice: choice.open(path, match=match))
 
     def list_files(self, paths: Sequence[Path]) -> None:
-        """List these photos in place of the previous ones; no value is certain for them."""
+        """List these photos in place of the previous ones, without confirmed values."""
         listed = tuple(paths)
         self.edit(lambda each: replace(each.clear_certain() if listed else each, listed=listed))
 
     def cancel(self) -> None:
         """Cancel the loading of a photo; the previous photo stays."""
         if not self.work.task.is_idle:
-            self._give_up()
+            self._restore_shown_choice()
 
-    def scan_along(self, scan_axis: str) -> None:
+    def set_scan_axis(self, scan_axis: str) -> None:
         self._reload_with(scan_axis=scan_axis)
 
-    def take_channel(self, channel: str) -> None:
+    def set_channel(self, channel: str) -> None:
         self._reload_with(channel=channel)
 
     def _reload_with(self, **changes: str) -> None:
@@ -96,18 +96,18 @@ class PhotoController(QObject):
     def close(self) -> None:
         self.edit(PhotoChoice.close)
 
-    def _settle(self) -> None:
-        self._settled = self.choice
+    def _keep_shown_choice(self) -> None:
+        self._shown_choice = self.choice
 
-    def _give_up(self) -> None:
-        shown = self._settled
+    def _restore_shown_choice(self) -> None:
+        shown = self._shown_choice
         changes = {
             name: getattr(shown, name)
             for name in ("path", "load_options", "opening", "certain", "forgotten", "parts")
         }
-        self._settled = replace(self.choice, **changes, is_match_wanted=False)
-        self._store.put(replace(self._store.workspace, photo=self._settled))
+        self._shown_choice = replace(self.choice, **changes, is_match_wanted=False)
+        self._store.put(replace(self._store.workspace, photo=self._shown_choice))
 
     def _fail(self, sentence: str) -> None:
-        self._give_up()
+        self._restore_shown_choice()
         self.failed.emit(sentence)

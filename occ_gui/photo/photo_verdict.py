@@ -26,7 +26,7 @@ STEPS = {
 }
 """The steps in their order, each with its word and its meaning."""
 
-EARLIER = "earlier"  # verdict on a match of something else than the part that is chosen now
+EARLIER = "earlier"  # stands for a match of another part than the one chosen now
 
 
 class PhotoSteps(QWidget):
@@ -37,7 +37,7 @@ class PhotoSteps(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.buttons: dict[str, QPushButton] = {}
-        self._shown: tuple[bool, str, bool] | None = None
+        self._state: tuple[bool, str, bool] | None = None
         for name, (_, meaning) in STEPS.items():
             go = lambda _=False, name=name: self.chosen.emit(name)  # noqa: E731
             button = self.buttons[name] = push_button("", meaning, go)
@@ -51,25 +51,25 @@ class PhotoSteps(QWidget):
 
         ``match``: the verdict ``"sure"`` or ``"doubtful"``, EARLIER, or empty without a match.
         """
-        shown = (has_photo, match, is_applied)
-        if shown == self._shown:  # called at each change of the scene, and styles apply slowly
+        new_state = (has_photo, match, is_applied)
+        if new_state == self._state:  # called at each change of the scene, and styling is slow
             return
-        self._shown = shown
-        signs = {"": "", EARLIER: "", "sure": "✓", "doubtful": "?"}
+        self._state = new_state
+        signs_of_match = {"": "", EARLIER: "", "sure": "✓", "doubtful": "?"}
         is_present = match not in {"", EARLIER}
-        done = {
+        signs_of_steps = {
             "open": "✓" if has_photo else "",
             "sent": "✓" if match else "",
-            "match": signs[match],
+            "match": signs_of_match[match],
             "apply": "✓" if is_present and is_applied else "",
         }
-        able = {"open": True, "sent": has_photo, "match": has_photo, "apply": is_present}
-        current = next((name for name in STEPS if not done[name]), "")
+        is_enabled = {"open": True, "sent": has_photo, "match": has_photo, "apply": is_present}
+        current = next((name for name in STEPS if not signs_of_steps[name]), "")
         for place, (name, button) in enumerate(self.buttons.items(), 1):
-            word, sign = STEPS[name][0], done[name]
+            word, sign = STEPS[name][0], signs_of_steps[name]
             state = "next step" if name == current else {"✓": "done", "?": "doubtful"}.get(sign)
             button.setText(f"{sign or place} {word}")
-            button.setEnabled(able[name])
+            button.setEnabled(is_enabled[name])
             button.setAccessibleName(f"{word}: {state}" if state else word)
             button.setProperty("current", name == current)
             button.style().unpolish(button)
@@ -77,7 +77,7 @@ class PhotoSteps(QWidget):
 
 
 class PhotoVerdictBar(StateBar):
-    """Whether the open photo is matched, how sure the match is, and what was found.
+    """Whether the open photo is matched, how sure the match is, and its estimates.
 
     The verdict on the simulated picture, which may differ, is a badge beside it.
     """
@@ -92,8 +92,8 @@ class PhotoVerdictBar(StateBar):
         self._match: Match | None = None
         self._row: PhotoRow | None = None
         self._is_running = False
-        self._why_not: tuple[str, ...] = ()
-        self._outdated = ""
+        self._refusal: tuple[str, ...] = ()
+        self._outdated_reason = ""
         self._is_applied = True
         self._certain: Mapping[str, float] = {}
         self._simulation: tuple[Badge, ...] = ()
@@ -101,7 +101,7 @@ class PhotoVerdictBar(StateBar):
 
     def show_photo(self, photo: Photo | None) -> None:
         self._photo, self._match = photo, None
-        self._why_not, self._outdated = (), ""
+        self._refusal, self._outdated_reason = (), ""
         self._write()
 
     def show_row(self, row: PhotoRow | None) -> None:
@@ -109,22 +109,22 @@ class PhotoVerdictBar(StateBar):
         self._row = row
         self._write()
 
-    def show_begun(self) -> None:
-        self._is_running, self._why_not = True, ()
+    def begin_match(self) -> None:
+        self._is_running, self._refusal = True, ()
         self._write()
 
-    def show_ended(self, why_not: Sequence[str] = ()) -> None:
+    def end_match(self, refusal: Sequence[str] = ()) -> None:
         """Show that no match is running, with the reasons why none was found."""
-        self._is_running, self._why_not = False, tuple(why_not)
+        self._is_running, self._refusal = False, tuple(refusal)
         self._write()
 
     def show_match(self, match: Match | None) -> None:
-        self._match, self._outdated = match, ""
-        self.show_ended()
+        self._match, self._outdated_reason = match, ""
+        self.end_match()
 
     def show_outdated(self, why: str) -> None:
         """Show why the match is outdated, empty if it is not."""
-        self._outdated = why
+        self._outdated_reason = why
         self._write()
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
@@ -146,12 +146,12 @@ class PhotoVerdictBar(StateBar):
     def _write(self) -> None:
         state, (title, *sentences) = self._judge()
         badges = self._simulation
-        is_present = self._match is not None and not self._outdated and not self._why_not
+        is_present = self._match is not None and not self._outdated_reason and not self._refusal
         if is_present and not self._is_applied:
             meaning = "The simulation is of another scene. Apply the match to simulate its scene."
             badges = (Badge("applied", "not applied", meaning, State.DOUBTFUL), *badges)
         self.show_state(state, title, *sentences, badges=badges)
-        is_plain = PLAIN_STRIPES in self._why_not
+        is_plain = PLAIN_STRIPES in self._refusal
         self.offer_step("It is a &lamp" if is_plain else "")
 
     def _judge(self) -> tuple[State, tuple[str, ...]]:
@@ -160,50 +160,51 @@ class PhotoVerdictBar(StateBar):
         if self._photo is None:
             sentence = "Open one, say what was sent if you know it, and match it."
             return State.NEUTRAL, ("No photo is open", sentence)
-        if self._why_not:
-            reasons = (" ".join(self._why_not), _shorten_reasons(self._why_not))
+        if self._refusal:
+            reasons = (" ".join(self._refusal), _shorten_reasons(self._refusal))
             return State.BAD, ("Photo: not matched", *reasons)
         if self._match is None and self._row is not None:
             return self._judge_row(self._row)
         if self._match is None:
             sentence = "Say what was sent if you know it, and match it."
             return State.NEUTRAL, ("Photo: no match yet", sentence)
-        if self._outdated:
-            return State.WAITING, ("Photo: an earlier match is shown", f"It is {self._outdated}.")
+        if self._outdated_reason:
+            sentence = f"It is {self._outdated_reason}."
+            return State.WAITING, ("Photo: an earlier match is shown", sentence)
         return self._judge_match(self._match)
 
     def _judge_match(self, match: Match) -> tuple[State, tuple[str, ...]]:
-        found = self._describe_match(match)
+        description = self._describe_match(match)
         if match.verdict == SURE and not match.exposure_reasons:
-            return State.GOOD, ("Photo: sure match", found)
+            return State.GOOD, ("Photo: sure match", description)
         if match.verdict == SURE:
             title = "Photo: sure, but for the exposure"
-            return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
+            return State.GOOD, (title, " ".join((*match.all_reasons, description)), description)
         reason = _shorten_reasons(match.all_reasons)
-        return State.DOUBTFUL, ("Photo: doubtful match", f"{reason} {found}", reason)
+        return State.DOUBTFUL, ("Photo: doubtful match", f"{reason} {description}", reason)
 
-    def about(self) -> str:
-        """Return the photo's name, its verdict and what was found, as the caption of a figure."""
+    def caption(self) -> str:
+        """Return a figure's caption: the photo's name, its verdict and the estimates."""
         if self._photo is None:
             return ""
         name = f"photo {one_line(self._photo.path.name)}"
-        if self._match is None or self._outdated or self._why_not:
+        if self._match is None or self._outdated_reason or self._refusal:
             return f"{name}, not matched"
         verdict = self._match.verdict
         if self._match.only_exposure_is_doubtful:
             verdict = f"{verdict} but for the exposure time"
-        found = self._describe_match(self._match)
+        description = self._describe_match(self._match)
         if self._is_applied:
-            return f"{name}, the match is {verdict}. {found}"
-        return f"{name}; its match is {verdict}, but not this scene's. {found}"
+            return f"{name}, the match is {verdict}. {description}"
+        return f"{name}; its match is {verdict}, but not this scene's. {description}"
 
     def _judge_row(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return the state and the sentences for the table's result."""
         state = STATES.get(row.verdict, State.BAD)
         is_matched = state is not State.BAD
-        here = "Match it on its own to see its curves and to apply the match." * is_matched
+        advice = "Match it on its own to see its curves and to apply the match." * is_matched
         title = f"Photo: {row.verdict} in the table"
-        return state, (title, f"{row.note} {here}".strip(), row.note or here)
+        return state, (title, f"{row.note} {advice}".strip(), row.note or advice)
 
     def _describe_match(self, match: Match) -> str:
         parts = []
@@ -218,8 +219,8 @@ class PhotoVerdictBar(StateBar):
         duty, error = match.duty, match.uncertainties.get("duty")
         if duty is not None and error is not None:
             parts.append(f"duty {PERCENT.format_estimate(duty, error)}")
-        found = condition_of(match, self._certain) + ", ".join(parts)
-        return f"{found[0].upper()}{found[1:]}."
+        description = condition_of(match, self._certain) + ", ".join(parts)
+        return f"{description[0].upper()}{description[1:]}."
 
 
 def _shorten_reasons(reasons: Sequence[str]) -> str:

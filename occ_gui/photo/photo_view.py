@@ -115,9 +115,9 @@ class PhotoView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        unseen = QWidget(self)
-        unseen.hide()
-        self.many = ManyPhotosView(unseen)
+        hidden_parent = QWidget(self)
+        hidden_parent.hide()
+        self.many = ManyPhotosView(hidden_parent)
         """The table of several photos; its own pane takes it over when it is made."""
         self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
@@ -169,11 +169,11 @@ class PhotoView(QWidget):
     def _make_page(self) -> QWidget:
         page = self._page = QWidget()
         fill(
-            QVBoxLayout(page), self.facts, _line(), self.lamps, _line(), self.form, self.result,
-            _line(), self.placement, None, margins=(6, 4, 6, 4), spacing=5,
+            QVBoxLayout(page), self.facts, _make_line(), self.lamps, _make_line(), self.form,
+            self.result, _make_line(), self.placement, None, margins=(6, 4, 6, 4), spacing=5,
         )  # fmt: skip
-        least = QSize(page.minimumSizeHint().width() + _SCROLL_BAR, _LEAST_HEIGHT)
-        self._scroll = ScrollPane(page, least)
+        minimum_size = QSize(page.minimumSizeHint().width() + _SCROLL_BAR, _LEAST_HEIGHT)
+        self._scroll = ScrollPane(page, minimum_size)
         return self._scroll
 
     def show_photo(self, photo: Photo | None) -> None:
@@ -218,8 +218,8 @@ class PhotoView(QWidget):
         match, scene = self._match, self._scene
         is_applied = match is not None and scene is not None and match.is_applied_to(scene)
         self.verdict.show_applied(is_applied)
-        worth = "" if match is None else EARLIER if self._is_outdated else match.verdict
-        self.steps.show_state(has_photo=self.has_photo, match=worth, is_applied=is_applied)
+        verdict = "" if match is None else EARLIER if self._is_outdated else match.verdict
+        self.steps.show_state(has_photo=self.has_photo, match=verdict, is_applied=is_applied)
 
     def _go_to_step(self, step: str) -> None:
         if step == "open":
@@ -241,9 +241,9 @@ class PhotoView(QWidget):
         if is_running != self.form.is_running:
             self.form.show_running(is_running)
         if is_running:
-            self.verdict.show_begun()
+            self.verdict.begin_match()
         else:
-            self.verdict.show_ended(why_not)
+            self.verdict.end_match(why_not)
 
     def show_match(self, found: FoundMatch | None, cure: Cure | None = None) -> None:
         """Show a match with the remedy for its bars, or that there is none."""
@@ -255,12 +255,11 @@ class PhotoView(QWidget):
         if found is None or match is None or cure is None or self._photo is None:
             return
         bar = self._scroll.verticalScrollBar()
-        place, photo = bar.value(), self._photo
-        noted, given = photo.exposure_time, found.given
-        self.result.show_match(match, noted, given, cure, turned=photo.turned)
+        scroll_position, photo = bar.value(), self._photo
+        self.result.show_match(match, photo.exposure_time, found.given, cure, turned=photo.turned)
         self._bring_into_view(self.result)
         if found.is_listed:  # the table stays where it was
-            bar.setValue(place)
+            bar.setValue(scroll_position)
 
     def show_match_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is outdated, empty if it is not, and whether it can be used."""
@@ -272,14 +271,14 @@ class PhotoView(QWidget):
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, once the page has a new layout."""
         self._page.adjustSize()
-        # Its top is what must be visible: it says most.
-        bar, room = self._scroll.verticalScrollBar(), self._scroll.viewport().height()
+        # The top must be visible, because it matters most.
+        bar, height = self._scroll.verticalScrollBar(), self._scroll.viewport().height()
         top = part.mapTo(self._page, QPoint()).y()
-        if not bar.value() <= top <= bar.value() + room - part.height():
+        if not bar.value() <= top <= bar.value() + height - part.height():
             bar.setValue(top - _MARGIN_ABOVE)
 
 
-def _line() -> QFrame:
+def _make_line() -> QFrame:
     line = QFrame()
     line.setFrameShape(QFrame.Shape.HLine)
     line.setFrameShadow(QFrame.Shadow.Sunken)

@@ -24,7 +24,7 @@ from occ_model.scene.scene import Scene
 
 PartOfPhoto = tuple[Photo, Part]
 
-_LEAST_SWING = 0.5  # least swing, in grey levels, of simulated columns with stripes
+_LEAST_SWING = 0.5  # smallest swing, in grey levels, that counts as stripes
 
 
 def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
@@ -32,19 +32,19 @@ def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
     return None if photo is None else (photo, part_of(workspace.photo, results))
 
 
-def stripe_search(
+def make_stripe_updater(
     store: Store, results_store: ResultsStore
 ) -> ResultUpdater[PartOfPhoto, StripeSearch]:
     """Make the updater that finds the stripes of a photo or a part of it."""
 
-    def search(asked: PartOfPhoto, _report: Report) -> StripeSearch:
+    def search(part: PartOfPhoto, _report: Report) -> StripeSearch:
         try:
-            return StripeSearch(find_stripes(*asked), "")
+            return StripeSearch(find_stripes(*part), "")
         except MatchError as error:
             return StripeSearch(None, str(error))
 
-    def put(results: Results, found: StripeSearch | None) -> Results:
-        return replace(results, stripes=found)
+    def put(results: Results, stripes: StripeSearch | None) -> Results:
+        return replace(results, stripes=stripes)
 
     task: Task[PartOfPhoto, StripeSearch] = Task(search, "search for stripes", impatient=True)
     work = ResultUpdater(store, results_store, task, _part, put)
@@ -54,13 +54,14 @@ def stripe_search(
     return work
 
 
-def chip_reading(
+def make_chip_updater(
     store: Store, results_store: ResultsStore
 ) -> ResultUpdater[PartOfPhoto, ChipReading | None]:
+    """Make the updater that reads the chips of a photo or a part of it."""
 
-    def read(asked: PartOfPhoto, _report: Report) -> ChipReading | None:
+    def read(part: PartOfPhoto, _report: Report) -> ChipReading | None:
         try:
-            return occ.read_chips(*asked)
+            return occ.read_chips(*part)
         except MatchError:
             return None
 
@@ -99,14 +100,14 @@ def put_known_values(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     """Return the scene with the known values, and the source of the sent pattern."""
     if choice.sent != "lamp":
         return scene, choice.sent
-    # Its duty is not known, and "scene" would refuse another.
+    # The duty is unknown, and a match with "scene" would refuse any other.
     return scene.replace(light="lamp", lamp_frequency=choice.lamp_frequency, duty=0.5), "auto"
 
 
 def comparison_inputs(part: ShownPhoto) -> tuple[object, ...]:
     """Return what a comparison depends on."""
-    found = (part.compared_stripes, part.why_no_stripes)
-    return (part.photo, part.reading, *found, part.placement, part.is_enhanced)
+    stripes = (part.compared_stripes, part.why_no_stripes)
+    return (part.photo, part.reading, *stripes, part.placement, part.is_enhanced)
 
 
 def photo_profile(part: ShownPhoto) -> PhotoProfile | None:
@@ -121,7 +122,7 @@ def photo_profile(part: ShownPhoto) -> PhotoProfile | None:
         sentence = str(error)
     if comparison is not None and float(np.ptp(comparison.simulated)) < _LEAST_SWING:
         # A photo scaled to a swing of zero would agree with it.
-        comparison, sentence = None, "The simulation has no stripes there to compare."
+        comparison, sentence = None, "The simulation has no stripes to compare there."
     raw = photo.profile
     if part.is_enhanced:
         raw = enhance(raw, reading.scene.model.enhancement).astype(np.float64)

@@ -17,20 +17,20 @@ from occ_model.scene.units import NONE, PIXEL
 _LARGEST_SHIFT = 1e6  # largest shift of a photo in pixels
 
 
-def _shift(name: str, label: str, meaning: str) -> Quantity:
+def _make_shift(name: str, label: str, meaning: str) -> Quantity:
     return Quantity(
         name, label, "", meaning, unit=PIXEL, low=-_LARGEST_SHIFT, high=_LARGEST_SHIFT,
         slider=(0.0, 5000.0), scale="linear", default=0.0,
     )  # fmt: skip
 
 
-COLUMN = _shift(
+COLUMN = _make_shift(
     "photo_column",
     "Column of the photo",
     "Column of the simulation under the photo's first column, in pixels.",
 )
 
-ROW = _shift(
+ROW = _make_shift(
     "photo_row", "Row of the photo", "Row of the simulation under the photo's first row, in pixels."
 )
 
@@ -42,11 +42,11 @@ SCALE = Quantity(
     unit=NONE, low=LEAST_SCALE, high=LARGEST_SCALE, slider=(0.1, 10.0), scale="log", default=1.0,
 )  # fmt: skip
 
-_FIELD_DIGITS = 12  # digits that a field has room for, with arrows and frame
+_FIELD_DIGITS = 12  # width of a field with arrows and frame, in digits
 
 
-class _PlaceField(DecimalEdit):
-    """A field as wide as usual values need; Qt would make room for the largest allowed value."""
+class _CompactField(DecimalEdit):
+    """A field as wide as usual values; Qt would make it as wide as the largest allowed value."""
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
@@ -69,8 +69,8 @@ class PlacementForm(QWidget):
         super().__init__()
         self._placement = Placement()
         self.notices: dict[DecimalEdit, RefusalNotice] = {}
-        self.column, self.row = self._field(COLUMN, 2), self._field(ROW, 2)
-        self.scale = self._field(SCALE, 5)
+        self.column, self.row = self._make_field(COLUMN, 2), self._make_field(ROW, 2)
+        self.scale = self._make_field(SCALE, 5)
         self.scale.setSingleStep(0.01)
         self.by_mouse = push_button(
             "Mo&ve by mouse",
@@ -88,8 +88,8 @@ class PlacementForm(QWidget):
         self._lay_out()
         self.show_placement(Placement(), by_hand=False)
 
-    def _field(self, declared: Quantity, decimals: int) -> DecimalEdit:
-        field = name_widget(_PlaceField(declared, decimals), declared.label, explain(declared))
+    def _make_field(self, declared: Quantity, decimals: int) -> DecimalEdit:
+        field = name_widget(_CompactField(declared, decimals), declared.label, explain(declared))
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
@@ -105,10 +105,10 @@ class PlacementForm(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(2)
         texts = ("Photo at column", "row", "scaled by")
-        for place, (text, field) in enumerate(zip(texts, self.notices, strict=True)):
-            grid.addWidget(QLabel(text), 0, place)
-            grid.addWidget(field, 1, place)
-            grid.setColumnStretch(place, 1)
+        for column, (text, field) in enumerate(zip(texts, self.notices, strict=True)):
+            grid.addWidget(QLabel(text), 0, column)
+            grid.addWidget(field, 1, column)
+            grid.setColumnStretch(column, 1)
         buttons = fill(QHBoxLayout(), self.by_mouse, self.reset, None)
         fill(QVBoxLayout(self), grid, buttons, margins=0, spacing=4)
 
@@ -122,8 +122,8 @@ class PlacementForm(QWidget):
 
     def _emit_placement(self) -> None:
         # A field that was not edited keeps the digits that it does not show.
-        new = [
+        values = [
             field.value() if abs(field.value() - value) > 10.0 ** -field.decimals() / 2 else value
             for field, value in zip(self.notices, astuple(self._placement), strict=True)
         ]
-        self.placed.emit(Placement(*new))
+        self.placed.emit(Placement(*values))

@@ -60,15 +60,15 @@ def find_match(results: Results) -> FoundMatch | None:
 
 
 def automatic_placement(
-    photo: Photo, reading: ColumnView, searched: StripeSearch | None = None
+    photo: Photo, reading: ColumnView, search: StripeSearch | None = None
 ) -> Placement:
-    """Place a photo of the picture's size at its corner, any other with its lamp on the panel."""
+    """Place a photo of the picture's size on the picture, any other with its lamp on the panel."""
     camera = reading.scene.camera
     if photo.image.shape == (camera.rows, camera.columns):
         return Placement()
     column, row = reading.panel_origin
-    if searched is not None and searched.stripes is not None:
-        lamp = searched.stripes.region
+    if search is not None and search.stripes is not None:
+        lamp = search.stripes.region
         column, row = column - lamp.first_column, row - lamp.first_row
     return Placement(column, row)
 
@@ -76,38 +76,38 @@ def automatic_placement(
 @dataclass(frozen=True, slots=True)
 class ShownPhoto:
     scene: Scene
-    reading: Reading | None  # what is read from the simulated scene
+    reading: Reading | None  # of the simulated scene
     choice: PhotoChoice
     document: PhotoDocument | None = None
     part: Part = None
     found: FoundMatch | None = None
-    searched: StripeSearch | None = None
+    stripe_search: StripeSearch | None = None
     placement: Placement = field(default_factory=Placement)
-    is_by_hand: bool = False  # whether the user has placed the photo
-    is_late: bool = False  # whether another photo is being loaded
+    is_placed_by_hand: bool = False  # whether the user has placed the photo
+    is_loading: bool = False  # whether another photo is being loaded
     is_enhanced: bool = False
 
     @classmethod
     def of(cls, workspace: Workspace, results: Results) -> "ShownPhoto":
         choice, document, reading = workspace.photo, results.document, results.reading
-        there = cls(workspace.scene, reading, choice)
+        shown = cls(workspace.scene, reading, choice)
         if document is None:
-            return there
+            return shown
         placed, placement = choice.placed, Placement()
-        is_by_hand = placed is not None and placed.source == document.source
-        if placed is not None and is_by_hand:
+        is_placed_by_hand = placed is not None and placed.source == document.source
+        if placed is not None and is_placed_by_hand:
             placement = placed.placement.within_limits()
         elif reading is not None:
             placement = automatic_placement(document.photo, reading, results.stripes)
         return replace(
-            there,
+            shown,
             document=document,
             part=part_of(choice, results),
             found=find_match(results),
-            searched=results.stripes,
+            stripe_search=results.stripes,
             placement=placement,
-            is_by_hand=is_by_hand,
-            is_late=choice.source != document.source,
+            is_placed_by_hand=is_placed_by_hand,
+            is_loading=choice.source != document.source,
             is_enhanced=workspace.is_enhanced,
         )
 
@@ -120,13 +120,13 @@ class ShownPhoto:
         return () if self.document is None else self.document.lamps
 
     @property
-    def is_matched_now(self) -> bool:
+    def is_matching(self) -> bool:
         """Whether a match is running."""
         return self.document is not None and self.document.requested is not None
 
     @property
     def search(self) -> tuple[tuple[Lamp, ...], bool, str]:
-        """The lamps that were found, whether the search is running, and why it found none."""
+        """The lamps found, whether the search is running, and why it found none."""
         document = self.document
         if document is None:
             return (), False, ""
@@ -137,17 +137,19 @@ class ShownPhoto:
         """The stripes of the match, with the fitted levels, or those found before."""
         if self.match is not None:
             return self.match.stripes
-        return None if self.searched is None else self.searched.stripes
+        return None if self.stripe_search is None else self.stripe_search.stripes
 
     @property
     def compared_stripes(self) -> Stripes | None:
         """The stripes to compare: a match does not change their levels."""
-        return self.stripes if self.searched is None else self.searched.stripes or self.stripes
+        search = self.stripe_search
+        return self.stripes if search is None else search.stripes or self.stripes
 
     @property
     def why_no_stripes(self) -> str:
         """Why no stripes are known; also empty while the search is running."""
-        return "" if self.match is not None or self.searched is None else self.searched.sentence
+        search = self.stripe_search
+        return "" if self.match is not None or search is None else search.sentence
 
     @property
     def match(self) -> Match | None:
@@ -155,23 +157,23 @@ class ShownPhoto:
 
     @property
     def refusal(self) -> tuple[str, ...]:
-        """Why the match was refused; empty if it was not."""
+        """The reasons why the match was refused; empty if it was not."""
         return () if self.found is None else self.found.refusal_of(self.part)
 
     @property
-    def elsewhere(self) -> str:
+    def why_unusable(self) -> str:
         """Why the match belongs to another photo or part and cannot be used; empty if it can."""
-        if self.is_late:
+        if self.is_loading:
             return "of the previous photo: the next one is being loaded"
         if self.found is not None and self.found.part != self.part:
             return "of another part of the photo: match again"
         return ""
 
     @property
-    def age(self) -> tuple[str, bool]:
+    def validity(self) -> tuple[str, bool]:
         """Why the match is outdated, empty if it is not, and whether it can be used."""
-        refused = "an earlier match: the latest one was refused" * bool(self.refusal)
-        return self.elsewhere or refused, not self.elsewhere
+        reason = "an earlier match: the latest one was refused" * bool(self.refusal)
+        return self.why_unusable or reason, not self.why_unusable
 
 
 _INSET = 4  # the first rectangle leaves out a fraction 1 / _INSET of the photo at each side

@@ -440,7 +440,7 @@ class Monkey:
             top, left = self._random.randrange(90), self._random.randrange(900)
             outlines.drawn.emit(Region(top, top + 60, left, left + 300))
         if self._random.random() < 0.3:
-            form.whole.click()
+            form.whole_photo.click()
 
     def match_several(self) -> None:
         view = self._application.view("photo").many

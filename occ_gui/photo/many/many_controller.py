@@ -28,7 +28,7 @@ class ManyRequest:
     paths: tuple[Path, ...]
     settings: "MatchSettings"
     jobs: int | None
-    # The earlier rows and the index of the one photo to match again; without rows, all are matched
+    # The rows of the last match, and the index of the photo to match again; if empty, match all
     rows: tuple[PhotoRow, ...] = ()
     only: int = 0
 
@@ -39,23 +39,23 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
     from occ_model.photo.many.table import table_of
 
     if request.rows:
-        # A table of this photo alone, in which its index is 0.
+        # In a table of this photo alone, its index is 0.
         settings = replace(request.settings.of(request.only), known=())
         ((_, row),) = matched_rows([request.paths[request.only]], settings, 1, lambda: report(None))
         given = dict(request.settings.known).get(request.only)
-        again = [*request.rows]
-        again[request.only] = replace(row, given=given)
-        report((request.only, again[request.only]))
-        return table_of(request.settings, again)
+        new_rows = [*request.rows]
+        new_rows[request.only] = replace(row, given=given)
+        report((request.only, new_rows[request.only]))
+        return table_of(request.settings, new_rows)
     rows: dict[int, PhotoRow] = {}
     jobs = request.jobs or usual_jobs()
     work = matched_rows(request.paths, request.settings, jobs, lambda: report(None))
-    # Closed even after a cancel, so that the processes end.
-    with closing(work) as found:
-        for place, row in found:
-            rows[place] = row
-            report((place, row))
-    return table_of(request.settings, [rows[place] for place in range(len(rows))])
+    # Closing ends the processes, even after a cancel.
+    with closing(work) as results:
+        for index, row in results:
+            rows[index] = row
+            report((index, row))
+    return table_of(request.settings, [rows[index] for index in range(len(rows))])
 
 
 class ManyPhotosController(QObject):
@@ -74,22 +74,22 @@ class ManyPhotosController(QObject):
         self._scenes, self._results_store = scenes, results_store
         self._view, self._jobs = view, jobs
         self._settings: MatchSettings | None = None
-        self._found: dict[int, PhotoRow] = {}
-        self._done = 0
+        self._rows: dict[int, PhotoRow] = {}
+        self._finished_count = 0
         self.table: PhotoTable | None = None
         self.runner: Task[ManyRequest, PhotoTable] = Task(
             match_all, "match of several photos", impatient=True
         )
         self.runner.reported.connect(self._take_row)
-        self.runner.finished.connect(self._take)
-        self.runner.failed.connect(view.show_failed)
+        self.runner.finished.connect(self._take_table)
+        self.runner.failed.connect(view.show_failure)
         view.cancelled.connect(self.cancel)
         view.closed.connect(lambda: photos.list_files(()))
-        view.rows.known_given.connect(self._match_again)
+        view.rows.known_entered.connect(self._match_again)
 
     def show_files(self, paths: tuple[Path, ...]) -> None:
         self.runner.cancel()
-        self._found, self.table = {}, None
+        self._rows, self.table = {}, None
         self._results_store.put(replace(self._results_store.results, listed=None))
         self._view.show_files(paths)
 
@@ -100,7 +100,7 @@ class ManyPhotosController(QObject):
         try:
             scene, sent = put_known_values(self._scenes.scene, choice)
         except OccError as error:
-            self._view.show_failed(str(error))
+            self._view.show_failure(str(error))
             return
         from occ_model.photo.many.row import MatchSettings
 
@@ -114,13 +114,13 @@ class ManyPhotosController(QObject):
             channel=options.channel,
             known=self._view.rows.entered_values(known),
         )
-        self._found, self._done, self.table = {}, 0, None
+        self._rows, self._finished_count, self.table = {}, 0, None
         self._listed = ListedRows((), options, known_value(choice.estimate, self._scenes.scene))
         self._put_rows()
-        self._view.show_begun(choice.estimate, scene)
+        self._view.begin_match(choice.estimate, scene)
         self.runner.ask(ManyRequest(paths, settings, self._jobs))
 
-    def _match_again(self, place: int) -> None:
+    def _match_again(self, index: int) -> None:
         """Match a photo again after its known value was entered, if all have been matched."""
         table, settings = self.table, self._settings
         if table is None or settings is None:
@@ -128,30 +128,30 @@ class ManyPhotosController(QObject):
         parameter = known_parameter(settings.estimate, settings.scene.transmitter)
         known = self._view.rows.entered_values(parameter)
         self._settings = settings = replace(settings, known=known)
-        self._done, self.table = len(table.rows) - 1, None
+        self._finished_count, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)
         paths = self.photos.choice.listed
-        self.runner.ask(ManyRequest(paths, settings, self._jobs, table.rows, place))
+        self.runner.ask(ManyRequest(paths, settings, self._jobs, table.rows, index))
 
     def cancel(self) -> None:
         """Cancel the work; finished rows stay."""
         if not self.runner.is_idle:
             self.runner.cancel()
-            self._view.show_ended()
+            self._view.end_match()
 
-    def _take_row(self, found: tuple[int, PhotoRow] | None) -> None:
-        if found is not None:
-            place, row = found
-            self._found[place] = row
-            self._done += 1
-            self._view.show_row(place, row, self._done)
+    def _take_row(self, result: tuple[int, PhotoRow] | None) -> None:
+        if result is not None:
+            index, row = result
+            self._rows[index] = row
+            self._finished_count += 1
+            self._view.show_row(index, row, self._finished_count)
 
-    def _take(self, table: PhotoTable) -> None:
+    def _take_table(self, table: PhotoTable) -> None:
         self.table = table
-        self._found = dict(enumerate(table.rows))
+        self._rows = dict(enumerate(table.rows))
         self._view.show_table(table)
         self._put_rows()
 
     def _put_rows(self) -> None:
-        listed = replace(self._listed, rows=tuple(self._found.values()))
+        listed = replace(self._listed, rows=tuple(self._rows.values()))
         self._results_store.put(replace(self._results_store.results, listed=listed))

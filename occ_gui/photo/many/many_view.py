@@ -1,4 +1,4 @@
-"""Table of several photos: what was found in each, their mean, and lines for other programs."""
+"""Table of several photos: the match of each, their mean, and lines for other programs."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,7 +8,12 @@ from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, is_certain, warn_of_stale
+from occ_gui.photo.match_figures import (
+    WHAT_ERRORS_MEAN,
+    PasteLines,
+    describe_stale_value,
+    is_certain,
+)
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.work_bar import WorkBar
@@ -27,7 +32,7 @@ from occ_model.results.photo_table import (
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
-_ROWS_SEEN = 5
+_MIN_VISIBLE_ROWS = 5
 _LEAST_RESULTS_SIZE = QSize(220, 60)
 
 _LARGEST_WIDTHS = {PHOTO: 220, NOTE: 280}
@@ -54,7 +59,7 @@ class ManyPhotosView(QWidget):
         self._make_table()
         self.work = WorkBar("Photos that are matched")
         self.work.cancelled.connect(self.cancelled)
-        self.title, self.mean, self.exposure, self.frame, self.notes, self.stale = (
+        self.title, self.mean, self.exposure, self.frame, self.notes, self.warning = (
             paragraph(name=name, is_selectable=True)
             for name in (
                 "How many photos",
@@ -69,11 +74,11 @@ class ManyPhotosView(QWidget):
         self.paste.copied.connect(self.copied)
         for label in (self.mean, self.exposure, self.frame):
             label.setToolTip(WHAT_ERRORS_MEAN)
-        self._found: PhotoTable | None = None
-        self._asked: tuple[str, Scene] | None = None
+        self._results: PhotoTable | None = None
+        self._request: tuple[str, Scene] | None = None
         self._counts = ""
         self._scene: Scene | None = None
-        self._given = ("", math.nan)
+        self._known_at_match = ("", math.nan)
         self._certain: Mapping[str, float] = {}
         self._lay_out()
         self._show_title()
@@ -82,7 +87,7 @@ class ManyPhotosView(QWidget):
         """Put the table beside the combined results, because the pane is wide and low."""
         together = QWidget()
         fill(
-            QVBoxLayout(together), self.stale, self.mean, self.exposure, self.frame, self.notes,
+            QVBoxLayout(together), self.warning, self.mean, self.exposure, self.frame, self.notes,
             self.paste, None, margins=0,
         )  # fmt: skip
         self._results_pane = ScrollPane(together, _LEAST_RESULTS_SIZE)
@@ -128,7 +133,7 @@ class ManyPhotosView(QWidget):
         self.table.verticalHeader().setDefaultSectionSize(row)
         header.setHighlightSections(False)
         header.setStretchLastSection(True)
-        self.table.setMinimumHeight(header.sizeHint().height() + _ROWS_SEEN * row)
+        self.table.setMinimumHeight(header.sizeHint().height() + _MIN_VISIBLE_ROWS * row)
         self.table.clicked.connect(self._choose)
         self.table.activated.connect(self._choose)
 
@@ -140,38 +145,38 @@ class ManyPhotosView(QWidget):
         self.table.horizontalScrollBar().setValue(0)
 
     def _choose(self, index: QModelIndex) -> None:
-        if index.column() != KNOWN:  # which is edited
+        if index.column() != KNOWN:  # a click on that column edits it
             self.photo_chosen.emit(self.rows.paths[index.row()])
 
     def show_files(self, paths: Sequence[Path]) -> None:
         """Show these files in place of the previous ones, or hide the table."""
         self.rows.show_files(paths)
-        self._show_found(None)
+        self._show_results(None)
         self.work.end()
-        self._asked = None
+        self._request = None
         self._show_title()
         self._fit_columns()
         for button in (self.start, self.close_table):
             button.setEnabled(bool(paths))
         self.files_shown.emit()
 
-    def show_begun(self, estimate: str, scene: Scene) -> None:
+    def begin_match(self, estimate: str, scene: Scene) -> None:
         known = known_parameter(estimate, scene.transmitter)
-        self.rows.show_begun(estimate, known, float(scene.value(known)))
+        self.rows.clear_results(estimate, known, float(scene.value(known)))
         self.show_busy(estimate, scene)
 
     def show_busy(self, estimate: str, scene: Scene) -> None:
         """Show that photos are being matched, and no mean yet."""
         self.rows.is_busy = True
-        self._show_found(None)
-        self._asked, self._counts = (estimate, scene), ""
+        self._show_results(None)
+        self._request, self._counts = (estimate, scene), ""
         self._show_title()
         self.start.setEnabled(False)
-        self._show_done(0)
+        self._show_count(0)
         self.work.begin()
         self.table.horizontalScrollBar().setValue(0)
 
-    def _show_done(self, done: int) -> None:
+    def _show_count(self, done: int) -> None:
         count = len(self.rows.paths)
         self.work.progress.setFormat(f"{done} of {count}")
         self.work.show_progress(done / count)
@@ -180,28 +185,28 @@ class ManyPhotosView(QWidget):
         text = counted(len(self.rows.paths), "photo")
         if not self.rows.paths:
             text = "Open several photos together, or drop them, to match them all."
-        elif self._asked is None:
+        elif self._request is None:
             text += ", not matched yet: say in the pane Photo what is known."
         else:
             text += f": {self._counts}" if self._counts else ""
-            rests_on = self._condition(*self._asked)
-            self.rows.show_condition(rests_on)
-            if rests_on:
-                text += f". What is measured holds only {rests_on.removesuffix(': ')}."
+            condition = self._condition(*self._request)
+            self.rows.show_condition(condition)
+            if condition:
+                text += f". These values hold only {condition.removesuffix(': ')}."
         self.title.setText(text)
 
-    def show_row(self, place: int, row: PhotoRow, done: int) -> None:
-        self.rows.show_row(place, row)
-        self._show_done(done)
+    def show_row(self, index: int, row: PhotoRow, done: int) -> None:
+        self.rows.show_row(index, row)
+        self._show_count(done)
 
-    def show_ended(self) -> None:
+    def end_match(self) -> None:
         self.work.end()
         self.rows.is_busy = False
         self.start.setEnabled(True)
         self._fit_columns()
 
-    def show_failed(self, sentence: str) -> None:
-        self.show_ended()
+    def show_failure(self, sentence: str) -> None:
+        self.end_match()
         self._show_note(sentence)
 
     def _show_note(self, sentence: str) -> None:
@@ -211,63 +216,65 @@ class ManyPhotosView(QWidget):
 
     def show_table(self, table: PhotoTable) -> None:
         self.rows.show_table(table)
-        self.show_ended()
-        self._asked = (table.estimate, table.scene)
-        self._counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
+        self.end_match()
+        self._request = (table.estimate, table.scene)
+        self._counts = ", ".join(
+            f"{table.count(verdict)} {verdict}" for verdict in VERDICTS if table.count(verdict)
+        )
         self._show_title()
-        self._show_found(table)
+        self._show_results(table)
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         self._certain = certain
         self._show_title()
-        self._show_found(self._found)
+        self._show_results(self._results)
 
     def show_scene(self, scene: Scene) -> None:
         self._scene = scene
-        self._show_stale()
+        self._warn_if_stale()
 
-    def _show_stale(self) -> None:
-        table, scene = self._found, self._scene
-        self.stale.hide()
+    def _warn_if_stale(self) -> None:
+        table, scene = self._results, self._scene
+        self.warning.hide()
         if table is None or scene is None:
             return
-        stale = ""
+        warning = ""
         if not is_certain(table.known, float(table.scene.value(table.known)), self._certain):
-            then = known_value(table.estimate, table.scene)
-            stale = warn_of_stale(scene, table.estimate, then, self._given)
-        self.stale.setText(f"{stale}match all again.")
-        self.stale.setVisible(bool(stale))
+            known = known_value(table.estimate, table.scene)
+            warning = describe_stale_value(scene, table.estimate, known, self._known_at_match)
+        self.warning.setText(f"{warning}match all again.")
+        self.warning.setVisible(bool(warning))
 
     def _condition(self, estimate: str, scene: Scene) -> str:
-        """Name the value that an estimate depends on, unless the user is certain of it."""
-        if self._found is not None and not self._found.rests_on_the_scene:
+        """Name the known value that an estimate assumes, unless the user is certain of it."""
+        if self._results is not None and not self._results.rests_on_the_scene:
             return ""  # a value was entered for each photo
         known = known_parameter(estimate, scene.transmitter)
         if is_certain(known, float(scene.value(known)), self._certain):
             return ""
         return assumption(*known_value(estimate, scene))
 
-    def _show_found(self, table: PhotoTable | None) -> None:
-        if table is not None and table is not self._found and self._scene is not None:
+    def _show_results(self, table: PhotoTable | None) -> None:
+        if table is not None and table is not self._results and self._scene is not None:
             # The known value of a lamp stated in the form is its own frequency, not the scene's.
-            self._given = known_value(table.estimate, self._scene)
-        self._found = table
-        self._show_stale()
+            self._known_at_match = known_value(table.estimate, self._scene)
+        self._results = table
+        self._warn_if_stale()
         for button in (self.copy, self.save):
             button.setEnabled(table is not None)
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
         if table is not None:
-            rests_on = self._condition(table.estimate, table.scene)
-            texts[self.mean] = self._describe_mean(table.estimate, table.estimated, rests_on)
+            condition = self._condition(table.estimate, table.scene)
+            texts[self.mean] = self._describe_mean(table.estimate, table.estimated, condition)
             texts[self.exposure] = self._describe_mean(
-                "exposure_time", table.exposure_time, rests_on
+                "exposure_time", table.exposure_time, condition
             )
             frame = frame_readout_time(table)
             if frame is not None:
                 time = estimate_text(quantity("readout_time"), *frame)
-                texts[self.frame] = f"Readout of the whole frame, sure photos: {rests_on + time}"
+                texts[self.frame] = f"Readout of the whole frame, sure photos: {condition + time}"
             texts[self.notes] = "\n".join(table.notes)
-            self.paste.show_lines(lines_to_paste(table), rests_on)
+            self.paste.show_lines(lines_to_paste(table), condition)
         else:
             self.paste.show_lines({})
         for label, text in texts.items():
@@ -275,26 +282,26 @@ class ManyPhotosView(QWidget):
             label.setVisible(bool(text))
         self._results_pane.setVisible(any(texts.values()))
 
-    def _describe_mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
-        if found is None:
+    def _describe_mean(self, name: str, mean: CombinedEstimate | None, condition: str) -> str:
+        if mean is None:
             return ""
         declared = quantity(name)
-        value = estimate_text(declared, found.value, found.uncertainty)
+        value = estimate_text(declared, mean.value, mean.uncertainty)
         text = f"{LABELS[name]}: {condition}{value}, of the one sure photo"
-        if found.count > 1:
-            how = "they agree" if found.agrees else "they do not agree"
+        if mean.count > 1:
+            agreement = "they agree" if mean.agrees else "they do not agree"
             text = (
-                f"{LABELS[name]}: {condition}{value}, mean of {found.count} sure photos; "
-                f"χ² {found.chi_square:.3g} of {found.degrees_of_freedom}: {how}"
+                f"{LABELS[name]}: {condition}{value}, mean of {mean.count} sure photos; "
+                f"χ² {mean.chi_square:.3g} of {mean.degrees_of_freedom}: {agreement}"
             )
-        if found.outliers:
-            text += f"; {len(found.outliers)} left out"
+        if mean.outliers:
+            text += f"; {len(mean.outliers)} left out"
         return text
 
     def csv(self) -> str:
         """Return the table as CSV, with the lines to paste; empty before the photos are matched."""
-        table = self._found
+        table = self._results
         if table is None:
             return ""
-        rests_on = self._condition(table.estimate, table.scene)
-        return csv_text(table, stated_lines(table, rests_on), rests_on)
+        condition = self._condition(table.estimate, table.scene)
+        return csv_text(table, stated_lines(table, condition), condition)

@@ -52,7 +52,7 @@ class Bench(PhotoBench):
 
     def _note(self) -> None:
         """Note when the pane shows that a match is at work, and when not any more."""
-        was, self._was_running = self._was_running, self.part.is_matched_now
+        was, self._was_running = self._was_running, self.part.is_matching
         if was != self._was_running:
             self.events.append("ended" if was else "begun")
 
@@ -75,9 +75,9 @@ class Bench(PhotoBench):
         self._qtbot.waitUntil(lambda: self.controller.task.is_idle)
 
     @property
-    def age(self) -> str:
+    def validity(self) -> str:
         """Why the match is not the present one."""
-        why, is_usable = self.part.age
+        why, is_usable = self.part.validity
         assert is_usable or why
         return why
 
@@ -133,13 +133,13 @@ def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> N
     assert bench.failures == ["No scene explains these stripes."]
     assert bench.part.refusal == bench.refusal
     assert bench.controller.match is found
-    assert "refused" in bench.age
+    assert "refused" in bench.validity
     bench.parts.draw(PARTS[0])
     assert bench.part.refusal == (), "it is of the part that was matched"
     bench.parts.match_whole()
     bench.refusal = ()
     bench.start()
-    assert bench.age == ""
+    assert bench.validity == ""
     assert bench.part.refusal == ()
 
 
@@ -150,26 +150,26 @@ def test_a_match_of_another_region_is_marked_as_such(bench: Bench) -> None:
     bench.parts.draw(PARTS[0])
     bench.start()
     assert bench.asked[-1]["region"] == PARTS[0]
-    assert bench.age == ""
+    assert bench.validity == ""
     bench.parts.draw(PARTS[1])
-    assert "another part" in bench.age
+    assert "another part" in bench.validity
     before = bench.scenes.scene
     bench.controller.apply()
     assert bench.scenes.scene == before
     assert "another part" in bench.failures[-1]
     bench.parts.match_whole()
-    assert "another part" in bench.age
+    assert "another part" in bench.validity
     bench.parts.draw(replace(PARTS[0]))
-    assert bench.age == ""
+    assert bench.validity == ""
 
 
 def test_a_match_is_marked_while_another_photo_is_read(bench: Bench) -> None:
     bench.start()
     shown = bench.choice
     bench.choose(path=Path("other.png"))
-    assert "is being loaded" in bench.age
+    assert "is being loaded" in bench.validity
     bench.store.put(replace(bench.store.workspace, photo=shown))  # it could not be read
-    assert bench.age == ""
+    assert bench.validity == ""
 
 
 def test_a_cancelled_match_has_no_result_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:

@@ -89,16 +89,16 @@ def test_a_match_of_outdated_inputs_is_marked(view: LiveView, match: Match) -> N
     view.show_matched(match)
     for frequency, stale in ((2e3, False), (1e3, True), (2e3, False)):
         view.show_scene(scene.replace(switching_frequency=frequency, exposure_time=5e-5))
-        assert view.result.stale.isVisible() == stale
+        assert view.result.warning.isVisible() == stale
     view.show_scene(scene.replace(switching_frequency=1e3))
-    assert view.result.stale.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
+    assert view.result.warning.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
     # A frequency that is certain for the photo does not depend on the scene's.
     view.confirm({"switching_frequency": 2e3})
-    assert not view.result.stale.isVisible()
+    assert not view.result.warning.isVisible()
     view.confirm({"switching_frequency": 3e3})
-    assert view.result.stale.isVisible()
+    assert view.result.warning.isVisible()
     view.show_matched(replace(match, switching_frequency=1e3))
-    assert not view.result.stale.isVisible()
+    assert not view.result.warning.isVisible()
 
 
 def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(

@@ -53,7 +53,7 @@ def test_a_lamp_that_blinks_with_any_duty_is_known_by_its_cycles(
     assert texts["period"] == f"{1 / (1e3 * 14.5777e-6):.4g} columns"
     assert texts["exposed_periods"] == "0.0625"
     assert {texts[name] for name in ("switching_frequency", "pattern", "chip", "exposed")} == {""}
-    assert view.result.condition.text() == "What follows holds if it is a lamp of 1 kHz."
+    assert view.result.condition.text() == "These values hold only if it is a lamp of 1 kHz."
 
 
 def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
@@ -62,9 +62,9 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     match = replace(match, scene=match.scene.replace(columns=1000))
     view.show_matched(match)
     paste = view.result.paste
-    assert view.result.condition.text() == "What follows holds if f = 2 kHz."
+    assert view.result.condition.text() == "These values hold only if f = 2 kHz."
     assert view.result.figures.labels["frame"].text() == "14.57770 ± 0.00027 ms"
-    assert (paste.lines, paste.why_none.isVisible()) == ({}, True)
+    assert (paste.lines, paste.reason.isVisible()) == ({}, True)
     view.result.show_certain({"switching_frequency": 2e3})
     assert not view.result.condition.isVisible()
     texts = {program: field.text() for program, field in paste.lines.items()}
@@ -84,7 +84,8 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: M
     view.show_matched(found, cure_of(scene))
     rest = (
         "no bars at whole multiples of 520.8 µs. "
-        "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."
+        "Set 1/640 s or 1/320 s if the camera keeps the marked times exactly, "
+        "else 1/240 s or 1/120 s."
     )
     # Such a short exposure is all lit or all dark: twice the mean of a lamp lit half the time.
     depth = f"bars of 200 % of its light at {SECOND.format(match.exposure_time, 3)}, "
@@ -98,7 +99,7 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: M
     assert view.result.cure.text() == lamp + rest
     view.result.show_certain({})
     assert view.result.cure.text() == lamp + rest
-    assert view.result.condition.text() == "What follows holds if f = 2 kHz."
+    assert view.result.condition.text() == "These values hold only if f = 2 kHz."
 
 
 def test_what_was_not_estimated_is_not_shown(view: LiveView, match: Match) -> None:
@@ -151,7 +152,7 @@ def test_a_result_that_depends_on_an_assumed_value_says_so_until_it_is_confirmed
     assert readout == "14.5777 µs (assumed)"
     assert frequency.startswith("2.0000 ± 0.0010 kHz")
     assert exposure.endswith("µs")
-    assert view.result.condition.text() == "What follows holds if t_r = 14.5777 µs."
+    assert view.result.condition.text() == "These values hold only if t_r = 14.5777 µs."
 
 
 ONLY = "Only the exposure time, and with it the start time, is doubtful."
@@ -197,7 +198,7 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
         is_present = not why
         view.show_match_outdated(why, usable=is_present)
         assert result.mark.isVisible() != is_present
-        assert result.verdict.word.text() == ("● sure" if is_present else "Before: sure")
+        assert result.verdict.word.text() == ("● sure" if is_present else "Earlier: sure")
         assert result.verdict.word.autoFillBackground() == is_present
         inks = {
             each.palette().windowText().color().name() for each in (result, result.verdict.word)

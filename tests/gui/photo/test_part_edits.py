@@ -107,7 +107,7 @@ def test_a_click_within_a_lamp_chooses_it_and_its_outline_alone_is_thick(bench: 
     bench.form.table.selectRow(2)
     assert bench.parts.part is LAMPS[2]
     assert thick() == [2]
-    bench.form.whole.click()
+    bench.form.whole_photo.click()
     assert bench.parts.part is None
 
 
@@ -150,7 +150,7 @@ def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
     corner, size = rectangle.pos(), rectangle.size()
     # A pixel's centre has a whole number.
     assert (corner.x(), corner.y(), size.x(), size.y()) == (10.5, 5.5, 30.0, 20.0)
-    bench.form.whole.click()
+    bench.form.whole_photo.click()
     assert bench.parts.part is None
     assert not bench.form.by_hand.isChecked()
     assert not rectangle.isVisible()

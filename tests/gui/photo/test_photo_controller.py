@@ -121,7 +121,7 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
     assert bench.controller.work.task.is_idle
     assert ended == [True]
     bench.go_on.set()
-    bench.controller.scan_along("lines")
+    bench.controller.set_scan_axis("lines")
     bench.wait_until_idle()
     assert [photo.path for photo in bench.shown if photo] == [photo_file, photo_file]
     assert np.array_equal(bench.image, stripes.T)
@@ -131,23 +131,23 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
 def test_the_scan_axis_holds_for_the_open_photo_and_the_next_and_opens_none(
     bench: Bench, photo_file: Path, tmp_path: Path, stripes: Grey
 ) -> None:
-    def scan_along(axis: str) -> None:
-        bench.controller.scan_along(axis)
+    def set_scan_axis(axis: str) -> None:
+        bench.controller.set_scan_axis(axis)
         bench.wait_until_idle()
 
-    scan_along("lines")
+    set_scan_axis("lines")
     assert bench.shown == []
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes.T)
     for axis, expected in (("columns", stripes), ("auto", stripes), ("lines", stripes.T)):
-        scan_along(axis)
+        set_scan_axis(axis)
         assert np.array_equal(bench.image, expected)
     bench.open(tmp_path / "missing.png")  # after a failure the photo that is kept is turned
-    scan_along("columns")
+    set_scan_axis("columns")
     assert np.array_equal(bench.image, stripes)
     assert len(bench.failures) == 1
     bench.controller.close()
-    scan_along("lines")
+    set_scan_axis("lines")
     assert bench.shown[-1] is None
 
 
@@ -158,7 +158,7 @@ def test_another_channel_applies_to_this_photo_and_the_next(
     Image.fromarray(np.full((8, 9, 3), (10, 20, 30), dtype=np.uint8)).save(coloured_file)
     bench.open(coloured_file)
     assert bench.image.max() == 30
-    bench.controller.take_channel("green")
+    bench.controller.set_channel("green")
     bench.wait_until_idle()
     assert bench.image.max() == 20
     bench.open(photo_file)

@@ -37,7 +37,7 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     view.show_match_running(False)
     assert bar.state is State.NEUTRAL
     view.show_match_running(True)
-    view.verdict.show_ended(REASONS)
+    view.verdict.end_match(REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert " ".join(REASONS) in bar.accessibleDescription()  # they are stated nowhere else
     view.show_matched(match)
@@ -74,7 +74,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
     told = bar.accessibleDescription()
     assert f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}" in told
     assert "exposure time 62.50 ± 0.21 µs (doubtful)" in told
-    assert "sure but for the exposure time" in bar.about()
+    assert "sure but for the exposure time" in bar.caption()
 
 
 def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
@@ -85,7 +85,7 @@ def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
         for certain in ({}, {"switching_frequency": 2e3}, {"switching_frequency": 4e3}):
             view.confirm(certain)
             is_assumed = certain.get("switching_frequency") != 2e3
-            said = view.result.condition.text().removeprefix("What follows holds ").rstrip(".")
+            said = view.result.condition.text().removeprefix("These values hold only ").rstrip(".")
             condition = f"{said.lower()}: " if is_assumed else ""
             told = bar.accessibleDescription().lower()
             assert f"{condition}readout time" in told
@@ -107,7 +107,7 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
     view.show_matched(match)
     assert bar.heading == "Photo: sure match"
     view.open(photo)
-    view.many.show_begun("readout_time", occ.Scene())
+    view.many.begin_match("readout_time", occ.Scene())
     assert bar.heading == "Photo: no match yet"
 
 
@@ -116,9 +116,9 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
 ) -> None:
     asked = collect(view.form.asked)
     view.open(photo)
-    view.verdict.show_ended(REASONS)
+    view.verdict.end_match(REASONS)
     assert bar.step.isHidden()
-    view.verdict.show_ended([PLAIN_STRIPES, "They repeat after 40.0 columns."])
+    view.verdict.end_match([PLAIN_STRIPES, "They repeat after 40.0 columns."])
     assert not bar.step.isHidden()
     qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
     assert [one.sent for one in asked] == ["lamp"]
@@ -131,15 +131,15 @@ def test_the_caption_of_a_figure_names_the_photo_and_the_verdict_on_its_match(
     view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
     view.open(None)
-    assert bar.about() == ""
+    assert bar.caption() == ""
     view.open(photo)
-    assert bar.about() == "photo stripes.png, not matched"
+    assert bar.caption() == "photo stripes.png, not matched"
     view.show_matched(match)
-    assert bar.about().startswith("photo stripes.png, the match is sure. If f = 2 kHz: readout")
-    assert "exposure time 62.50 ± 0.21 µs" in bar.about()
+    assert bar.caption().startswith("photo stripes.png, the match is sure. If f = 2 kHz: readout")
+    assert "exposure time 62.50 ± 0.21 µs" in bar.caption()
     bar.show_applied(False)  # the picture in the figure is of another scene
-    assert bar.about().startswith(
+    assert bar.caption().startswith(
         "photo stripes.png; its match is sure, but not this scene's. If f"
     )
     view.show_match_outdated("of another part of the photo: match again", usable=False)
-    assert bar.about() == "photo stripes.png, not matched"
+    assert bar.caption() == "photo stripes.png, not matched"

@@ -55,7 +55,7 @@ class Bench(PhotoBench):
         self.go_on.set()
         self.stripes: Callable[[Photo], Stripes] = stripes_of
         monkeypatch.setattr(photo_work, "find_stripes", self._find)
-        self.work: Any = photo_work.stripe_search(self.store, self.results_store)
+        self.work: Any = photo_work.make_stripe_updater(self.store, self.results_store)
         self._qtbot = qtbot
 
     def do(self, work: object) -> None:
@@ -227,7 +227,7 @@ def test_a_simulation_without_stripes_is_not_compared(
     bench.wait()
     bench.show_reading(snapshot_of(exposure_time=5.0))  # white from edge to edge
     assert bench.last.comparison is None
-    assert bench.last.sentence == "The simulation has no stripes there to compare."
+    assert bench.last.sentence == "The simulation has no stripes to compare there."
     bench.show_reading(snapshot_of())
     assert bench.comparison is not None
     assert bench.last.sentence == ""
@@ -262,7 +262,7 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
 
 
 def chips_shown(bench: Bench) -> list[ChipReading | None]:
-    bench.do(photo_work.chip_reading(bench.store, bench.results_store))
+    bench.do(photo_work.make_chip_updater(bench.store, bench.results_store))
     chips, shown = (
         bench.results_store.select(lambda results: results.chips),
         list[ChipReading | None](),

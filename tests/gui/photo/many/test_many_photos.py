@@ -117,7 +117,7 @@ def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
     view.show_table(table_of(MatchSettings(occ.Scene()), rows))
     assert column(view, VERDICT)[0] == "● sure"
     assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
-    view.rows.show_earlier(PATHS[0])
+    view.rows.mark_earlier(PATHS[0])
     assert column(view, VERDICT)[:2] == ["● sure, earlier match", "● sure"]
 
 
@@ -151,9 +151,9 @@ def test_another_frequency_asks_to_match_again_unless_that_of_the_photos_is_cert
     ):
         view.show_scene(scene)
         view.show_certain(certain)
-        assert view.stale.isHidden() != is_stale
+        assert view.warning.isHidden() != is_stale
         if is_stale:
-            assert "the scene has 4.321 kHz now: match all again." in view.stale.text()
+            assert "the scene has 4.321 kHz now: match all again." in view.warning.text()
 
 
 def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:
@@ -166,7 +166,7 @@ def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot)
         copied = QGuiApplication.clipboard().text()
         assert copied in {f.text() for f in view.paste.lines.values()}
         assert said.pop() == f"Copied: {copied}"
-    view.show_begun("readout_time", occ.Scene())
+    view.begin_match("readout_time", occ.Scene())
     assert view.paste.lines == {}
     assert view.mean.isHidden()
 
@@ -195,15 +195,15 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
 def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(view: ManyPhotosView) -> None:
     view.show_table(table())
     assert not view.findChildren(QToolButton)
-    assert "hold only if f = 10 kHz" in view.paste.why_none.text()
-    assert "holds only if f = 10 kHz" in view.title.text()
+    assert "hold only if f = 10 kHz" in view.paste.reason.text()
+    assert "hold only if f = 10 kHz" in view.title.text()
     assert all("if f = 10 kHz" in tip(view, 0, column) for column in (ESTIMATE, EXPOSURE))
     view.show_certain(CERTAIN)
     assert len(view.findChildren(QToolButton)) == 2
-    assert view.paste.why_none.isHidden()
+    assert view.paste.reason.isHidden()
     assert "if f" not in view.title.text() + tip(view, 0, ESTIMATE)
     view.show_certain({})
-    view.show_begun("readout_time", occ.Scene())
+    view.begin_match("readout_time", occ.Scene())
     view.show_row(0, ROWS[0], 1)
     assert "if f = 10 kHz" in view.title.text()
     assert view.work.progress.text() == "1 of 6"

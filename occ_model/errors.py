@@ -1,4 +1,4 @@
-"""Exceptions whose message is a sentence for the user, and how values are quoted in them."""
+"""Exceptions whose message is a sentence for the user, and functions that quote values in them."""
 
 import reprlib
 from collections.abc import Sequence
@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 _LONGEST_VALUE = 80  # characters of a value that a sentence quotes
-_LONGEST_NAME = 200  # characters of a name or title that a sentence or a label shows
-_LONGEST_TEXT = 1_000_000  # characters of a text that is shown whole
+_LONGEST_NAME = 200  # characters of a name or title in a sentence or a label
+_LONGEST_TEXT = 1_000_000  # characters of any text
 
 
 class OccError(Exception):
@@ -18,7 +18,7 @@ class OccError(Exception):
     *args
         The sentence.
     parameters
-        Names of the scene's parameters that the sentence is about; none where it is about others.
+        Names of the scene's parameters that the sentence is about, if any.
     """
 
     def __init__(self, *args: object, parameters: Sequence[str] = ()) -> None:
@@ -53,7 +53,7 @@ class ParameterError(OccError, ValueError):
     Attributes
     ----------
     refused : RefusedValue or None
-        The parameter, its value and what is allowed; None where it is no single value.
+        The parameter, its value and what is allowed; None if no single value is refused.
     """
 
     refused: RefusedValue | None = None
@@ -88,7 +88,7 @@ class SceneFileError(OccError, ValueError):
 
 
 class PresetError(OccError, KeyError):
-    """No preset has the name asked for."""
+    """There is no preset of this name."""
 
     def __str__(self) -> str:
         # KeyError would print the sentence as a quoted key.
@@ -131,11 +131,11 @@ class MatchError(OccError):
 
 
 class PluginError(OccError):
-    """A plug-in cannot be imported, or does not do what it should."""
+    """A plug-in cannot be imported, or violates its interface."""
 
 
 class OutputError(OccError):
-    """A result cannot be written to the file named."""
+    """A result cannot be written to a file."""
 
 
 class _ShortRepr(reprlib.Repr):
@@ -147,7 +147,7 @@ class _ShortRepr(reprlib.Repr):
         self.maxstring = self.maxother = self.maxlong = _LONGEST_VALUE
 
     def repr_int(self, value: int, level: int) -> str:
-        """Write a whole number, also one with more digits than Python writes."""
+        """Format a whole number, even one with more digits than Python converts."""
         try:
             repr(value)  # the base class names an address instead from Python 3.14 on
         except ValueError:
@@ -173,8 +173,8 @@ def counted(number: float, noun: str) -> str:
 
 
 def distinct_texts(value: float, limit: float, digits: int = 1) -> tuple[str, str]:
-    """Format two numbers with so many decimals, or as many more as show their difference."""
-    texts = ((f"{value:.{more}f}", f"{limit:.{more}f}") for more in range(digits, 18))
+    """Format two numbers with ``digits`` decimals, or as many more as distinguish them."""
+    texts = ((f"{value:.{count}f}", f"{limit:.{count}f}") for count in range(digits, 18))
     return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))
 
 

@@ -28,7 +28,7 @@ _COLOURS = dict(
 )
 
 _NAME_PLACES = [(side, height) for height in (4, -9, 11, -16) for side in (6, -6)]
-"""Offsets in points, from a name's point, that are tried in turn."""
+"""Offsets in points of a name from its data point, in the order in which they are tried."""
 
 
 def write_accuracy_figure(
@@ -72,25 +72,25 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
     ax.grid(linewidth=0.3)
     ax.set_xlabel("time (ms)")
     unit = points[0].unit
-    of_what = "levels of the stretched profile" if unit == LEVEL.symbol else f"decision {unit}"
-    ax.set_ylabel(f"root mean square error\n({of_what})")
+    quantity = "levels of the stretched profile" if unit == LEVEL.symbol else f"decision {unit}"
+    ax.set_ylabel(f"root mean square error\n({quantity})")
     figure.legend(loc="outside right center", frameon=False, fontsize=7)
     _place_names(figure, ax, names)
     return figure
 
 
 def _place_names(figure: Figure, ax: Axes, names: Sequence[Annotation]) -> None:
-    """Place each name where it covers no other and ends inside the axes, if possible."""
+    """Place each name so that it covers no other and ends inside the axes, if possible."""
     figure.draw_without_rendering()  # this gives the axes their size
-    placed: list[Bbox] = []
+    boxes: list[Bbox] = []
     for name in names:
         for place in _NAME_PLACES:
             name.xyann = place
             name.set_horizontalalignment("left" if place[0] > 0 else "right")
             box = name.get_window_extent()
-            if box.x1 < ax.bbox.x1 and not box.count_overlaps(placed):
+            if box.x1 < ax.bbox.x1 and not box.count_overlaps(boxes):
                 break
-        placed.append(box)
+        boxes.append(box)
 
 
 def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> list[Annotation]:

@@ -38,12 +38,9 @@ _SIZE, _DOTS = (9.6, 5.4), 100  # size of a frame in inches, and pixels an inch
 
 _ROWS, _SHOWN_COLUMNS = 120, 900
 _DEFAULT_RATE = 15.0
-_MAX_GIF_RATE = 50.0  # frames a second; players show no GIF file faster
+_MAX_GIF_RATE = 50.0  # frames a second, the fastest that players show a GIF file
 
-_HEADROOM, _HIGHEST = (
-    1.2,
-    260.0,
-)  # end of the level axis: factor on the brightest level; most
+_HEADROOM, _HIGHEST = 1.2, 260.0  # end of the level axis: factor on the brightest level; maximum
 _TITLE_WIDTH, _TITLE_LINES = 8.2, 2  # in inches, and lines; a longer title ends in an ellipsis
 _BAND_MODEL = "band model"
 
@@ -59,11 +56,11 @@ def write_animation(  # noqa: PLR0913 - settings, most of them optional
     decoder: str = PAPER_DECODER,
     progress: Callable[[int], object] = lambda _draw_frames: None,
 ) -> None:
-    """Write an animation of a scene in which a quantity takes some values, in SI units, in turn.
+    """Write an animation of a scene in which a quantity takes ``values``, in SI units, in turn.
 
     Each frame shows the panel's picture, the profile with that of the band model, and the code that
-    the decoder reads. The file (.gif, .mp4, .png) contains the scene. It is a ParameterError if the
-    parameter is not a quantity, a value is out of range, there are no values or more than
+    the decoder reads. The file (.gif, .mp4, .png) contains the scene. A ParameterError is raised if
+    the parameter is not a quantity, a value is out of range, there are no values or more than
     :data:`MOST_FRAMES`, or the rate is not above 0 and at most 50 a second.
     """
     if path.suffix.lower() not in ENDINGS:
@@ -113,19 +110,19 @@ def _draw_frames(
 
 
 def _describe_read(frame: Frame, decoder: str, settings: SimulationSettings) -> str:
-    """Return what was read, behind the cause where that is not what was sent.
+    """Describe what was read, after the cause if it differs from what was sent.
 
-    Of a light that is no code, it is what was sent.
+    If the light is no code, describe the light.
     """
     scene = frame.scene
     if scene.transmitter.light != "code":
         return describe_light(scene.transmitter)
     result = decode(frame.image, scene, decoder=decoder)
-    read = result.failure or f"code {result.code} read"
+    reading = result.failure or f"code {result.code} read"
     if scene.transmitter.pattern or tuple(result.bits.tolist()) == scene.transmitter.payload_bits:
-        return read
+        return reading
     cause = cause_of(scene, result.decoder, settings)
-    return read if cause is None else f"{cause.what}: {in_sentence(symptom(read))}"
+    return reading if cause is None else f"{cause.what}: {in_sentence(symptom(reading))}"
 
 
 class AnimatedFigure:
@@ -150,16 +147,16 @@ class AnimatedFigure:
         legend = lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
         _, self.band_name = legend.get_texts()
 
-    def draw(self, frame: Frame, read: str) -> ByteArray:
+    def draw(self, frame: Frame, reading: str) -> ByteArray:
         first = max(0, int(frame.corners[:, 0].min()))
         last = min(frame.scene.camera.columns, first + _SHOWN_COLUMNS)
         top, bottom = frame.corners[:, 1].min(), frame.corners[:, 1].max()
         rows = slice(max(0, int(top)), max(0, int(bottom)) + 1)
-        shown_part = frame.camera_image[rows, first:last]
-        if not shown_part.size:  # the panel is outside the picture
-            shown_part = frame.camera_image[:, first:last]
+        visible_part = frame.camera_image[rows, first:last]
+        if not visible_part.size:  # the panel is outside the picture
+            visible_part = frame.camera_image[:, first:last]
         self._picture.set_data(
-            cv2.resize(shown_part, (last - first, _ROWS), interpolation=cv2.INTER_AREA)
+            cv2.resize(visible_part, (last - first, _ROWS), interpolation=cv2.INTER_AREA)
         )
         self._picture.set_extent((first - 0.5, last - 0.5, 1.0, 0.0))
         columns = np.arange(first, last)
@@ -168,7 +165,10 @@ class AnimatedFigure:
         self.band_name.set_text(_BAND_MODEL if is_defined else f"{_BAND_MODEL} (undefined here)")
         self._lower.set_xlim(first, last)
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
-        title, font = f"{self._parameter.label} {value}: {read}", self._title.get_fontproperties()
+        title, font = (
+            f"{self._parameter.label} {value}: {reading}",
+            self._title.get_fontproperties(),
+        )
         self._title.set_text("\n".join(break_lines(title, _TITLE_WIDTH, font, _TITLE_LINES)))
         self._canvas.draw()  # type: ignore[no-untyped-call]
         pixels = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]

@@ -17,18 +17,18 @@ from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.eye import eye_flicker, risk_limits, risk_lines
 from occ_model.study.bands.least_depth import depth_map
 
-_MAX_VALLEY_LINES = 8  # lines that are drawn; further ones are closer together than the cells
-_DEPTHS = (0.1, 100.0)  # percent, at the ends of the colour scale
-_MIN_MODULATION = 0.01  # percent, at the lower end of the chart
+_MAX_VALLEY_LINES = 8  # lines drawn at most; further ones are closer together than the cells
+_DEPTHS = (0.1, 100.0)  # in percent, at the ends of the colour scale
+_MIN_MODULATION = 0.01  # in percent, at the lower end of the chart
 
 
 def bands_drawing(scene: Scene) -> Drawing:
     depths = depth_map(scene)
 
     def rows() -> Iterable[tuple[object, ...]]:
-        for i, of_frequency in enumerate(depths.least.tolist()):
+        for i, row_depths in enumerate(depths.least.tolist()):
             middle = float(np.sqrt(depths.frequencies[i] * depths.frequencies[i + 1]))
-            for j, depth in enumerate(of_frequency):
+            for j, depth in enumerate(row_depths):
                 yield middle, *depths.exposures[j : j + 2].tolist(), 100.0 * depth
 
     axis = f"{depths.axis.label.lower()} (Hz)"
@@ -98,15 +98,15 @@ def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
     figure = Figure(figsize=(5.6, 4.2))
     ax = figure.subplots()
     lines = risk_lines()
-    for line, name, look in (
+    for line, name, style in (
         (lines.low_risk, "below: low risk", "-"),
         (lines.no_effect, "below: no observable effect", "--"),
     ):  # fmt: skip
-        ax.plot(line[:, 0], line[:, 1], look, color=colours.BAND, label=name)
-    drawn = eye.modulations > _MIN_MODULATION
+        ax.plot(line[:, 0], line[:, 1], style, color=colours.BAND, label=name)
+    is_drawn = eye.modulations > _MIN_MODULATION
     ax.plot(
-        eye.frequencies[drawn], eye.modulations[drawn], ".", color=colours.SIMULATION, linestyle="",
-        label="its sines",
+        eye.frequencies[is_drawn], eye.modulations[is_drawn], ".", color=colours.SIMULATION,
+        linestyle="", label="its sines",
     )  # fmt: skip
     ax.plot(
         [eye.frequency], [eye.percent_flicker], "o", markerfacecolor="none", color="black",
@@ -120,6 +120,6 @@ def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
     ax.set_ylabel("modulation (%)")
     ax.legend(loc="lower right", fontsize=7)
     ax.grid(linewidth=0.3)
-    about = "lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked"
-    write_caption(figure, scene, about)
+    source_note = "lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked"
+    write_caption(figure, scene, source_note)
     return figure

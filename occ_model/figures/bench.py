@@ -24,7 +24,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 # As in the window
 _COLOURS = (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION, colours.NOISE)
 
-_ARROW = 0.5  # length of the arrow down from an upper bound, as a fraction of that
+_ARROW = 0.5  # length of the arrow down from an upper bound, as a fraction of the bound
 
 _AXES = ("exposure", "noise")
 _BOUND: dict[str, Any] = {"color": "0.35", "linestyle": "--", "linewidth": 1.0}
@@ -81,14 +81,16 @@ def _draw(
 ) -> Figure:
     figure = Figure(figsize=(7.2, 5.6))
     panels = figure.subplots(2, 2, sharex="col", sharey="row")
-    for place, axis in enumerate(_AXES):
-        some = [point for point in points if point.axis == axis]
-        rates, bits = panels[0][place], panels[1][place]
-        for number, (label, curve) in enumerate(_group_curves(some).items()):
+    for column, axis in enumerate(_AXES):
+        axis_points = [point for point in points if point.axis == axis]
+        rates, bits = panels[0][column], panels[1][column]
+        for number, (label, curve) in enumerate(_group_curves(axis_points).items()):
             _draw_rates(rates, number, label, curve)
             _draw_bits(bits, number, curve, frames_a_second)
-        at, most = bounds.most_bits[axis]
-        bits.plot(at, [frames_a_second * one for one in most], **_BOUND)
+        at, bounds_of_bits = bounds.most_bits[axis]
+        bits.plot(
+            at, [frames_a_second * bits_a_picture for bits_a_picture in bounds_of_bits], **_BOUND
+        )
         rates.set_yscale("log")
         # The scale is linear below a bit a picture, to include 0.
         bits.set_yscale("symlog", linthresh=frames_a_second)
@@ -105,22 +107,27 @@ def _draw(
 
 
 def _name_axes(figure: Figure, panels: Sequence[Sequence[Axes]], request: BenchRequest) -> None:
-    (rates, right), (bits, below) = panels
+    (rates, rates_by_noise), (bits, bits_by_noise) = panels
     rates.set_ylabel("bit error rate")
     bits.set_ylabel("bits a second")
     bits.set_xlabel("exposure (symbols)")
-    below.set_xlabel("signal-to-noise ratio (dB)")
+    bits_by_noise.set_xlabel("signal-to-noise ratio (dB)")
     rates.set_title(f"{request.at_decibels:g} dB", fontsize=9)
-    right.set_title(f"exposure of {counted(request.at_exposure, 'symbol')}", fontsize=9)
+    rates_by_noise.set_title(f"exposure of {counted(request.at_exposure, 'symbol')}", fontsize=9)
     curves = dict(zip(*reversed(rates.get_legend_handles_labels()), strict=True))
-    curves |= dict(zip(*reversed(right.get_legend_handles_labels()), strict=True))
+    curves |= dict(zip(*reversed(rates_by_noise.get_legend_handles_labels()), strict=True))
     lines = {
         "nulls of alternating chips": Line2D([], [], **_NULL),
         "most that Gaussian light carries": Line2D([], [], **_BOUND),
     }
-    drawn = {**curves, **lines}
+    legend = {**curves, **lines}
     figure.legend(
-        drawn.values(), drawn.keys(), loc="outside upper center", ncols=3, frameon=False, fontsize=7
+        legend.values(),
+        legend.keys(),
+        loc="outside upper center",
+        ncols=3,
+        frameon=False,
+        fontsize=7,
     )
 
 
@@ -128,37 +135,46 @@ def _group_curves(points: Sequence[BenchPoint]) -> dict[str, list[BenchPoint]]:
     curves: dict[str, list[BenchPoint]] = {}
     for point in points:
         curves.setdefault(f"{point.scheme}, {point.errors.decoder}", []).append(point)
+    failed = " (a plug-in failed)"
     return {
-        f"{label} (a plug-in failed)" if any(one.errors.faults for one in curve) else label: curve
+        label + failed * any(point.errors.faults for point in curve): curve
         for label, curve in curves.items()
     }
 
 
 def _draw_rates(ax: Axes, number: int, label: str, points: Sequence[BenchPoint]) -> None:
-    at = [point.place for point in points]
+    places = [point.place for point in points]
     errors = [point.errors for point in points]
-    rates = [one.rate or nan for one in errors]
+    rates = [error.rate or nan for error in errors]
     # A logarithmic axis has no place for an interval that ends at 0.
-    low = [rate * (1.0 - _ARROW) if one.low == 0.0 else rate - one.low
-           for rate, one in zip(rates, errors, strict=True)]  # fmt: skip
-    high = [one.high - rate for rate, one in zip(rates, errors, strict=True)]
-    look = _curve_style(number)
-    ax.errorbar(at, rates, [low, high], label=label, linewidth=1.0, **look)
+    low = [rate * (1.0 - _ARROW) if error.low == 0.0 else rate - error.low
+           for rate, error in zip(rates, errors, strict=True)]  # fmt: skip
+    high = [error.high - rate for rate, error in zip(rates, errors, strict=True)]
+    style = _curve_style(number)
+    ax.errorbar(places, rates, [low, high], label=label, linewidth=1.0, **style)
     # Without any error there is only an upper bound, drawn without a line to the rates.
-    most = [nan if one.errors else one.high for one in errors]
-    down = [_ARROW * one.high for one in errors]
-    ax.errorbar(at, most, [down, down], uplims=True, linestyle="", **look, markerfacecolor="none")
+    upper_bounds = [nan if error.errors else error.high for error in errors]
+    arrows = [_ARROW * error.high for error in errors]
+    ax.errorbar(
+        places,
+        upper_bounds,
+        [arrows, arrows],
+        uplims=True,
+        linestyle="",
+        **style,
+        markerfacecolor="none",
+    )
 
 
 def _draw_bits(ax: Axes, number: int, points: Sequence[BenchPoint], frames_a_second: float) -> None:
     bits = [point.errors.bits_a_second(frames_a_second) for point in points]
     ends = [point.errors.bits_a_second_interval(frames_a_second) for point in points]
     error = [
-        [max(found - low, 0.0) for found, (low, _) in zip(bits, ends, strict=True)],
-        [max(high - found, 0.0) for found, (_, high) in zip(bits, ends, strict=True)],
+        [max(value - low, 0.0) for value, (low, _) in zip(bits, ends, strict=True)],
+        [max(high - value, 0.0) for value, (_, high) in zip(bits, ends, strict=True)],
     ]
-    at = [point.place for point in points]
-    ax.errorbar(at, bits, error, linewidth=1.0, clip_on=False, **_curve_style(number))
+    places = [point.place for point in points]
+    ax.errorbar(places, bits, error, linewidth=1.0, clip_on=False, **_curve_style(number))
 
 
 def _curve_style(number: int) -> dict[str, Any]:

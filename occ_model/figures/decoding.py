@@ -30,7 +30,7 @@ _SPLITS: tuple[dict[str, Any], ...] = (
 
 
 def decode_drawing(scene: Scene, result: DecodeResult, cause: Cause | None = None) -> Drawing:
-    """Draw the steps of decoding, up to the code or to the step that failed; the cause is named."""
+    """Draw the steps of decoding up to the code or the step that failed, and name the cause."""
     message = result.failure or f"{_describe_read(result)} read by the {result.decoder} decoder"
     if cause is not None:
         message = f"{cause.what[:1].upper()}{cause.what[1:]}: {in_sentence(symptom(message))}"
@@ -54,9 +54,11 @@ def decode_drawing(scene: Scene, result: DecodeResult, cause: Cause | None = Non
 
     def rows() -> Iterable[tuple[object, ...]]:
         columns = range(len(signal))
-        yield from zip_longest(whole(columns), columns, signal, whole(starts), starts, chips)
+        yield from zip_longest(
+            in_picture(columns), columns, signal, in_picture(starts), starts, chips
+        )
 
-    def whole(places: Sequence[float]) -> list[float | None]:
+    def in_picture(places: Sequence[float]) -> list[float | None]:
         if result.region is None:
             return [None] * len(places)
         return [result.region.first_column + place for place in places]
@@ -89,10 +91,10 @@ def _draw_signal(ax: Axes, result: DecodeResult) -> None:
         low = float(result.signal.min())
         height = 0.06 * max(float(np.ptp(result.signal)), 1.0)
         ax.broken_barh(bars, (low - 2.0 * height, height), color="0.3", label="chips: lit")
-    _legend(ax, 3)
+    _add_legend(ax, 3)
 
 
-def _legend(ax: Axes, columns: int) -> None:
+def _add_legend(ax: Axes, columns: int) -> None:
     """Put the legend above the axes, where it covers nothing."""
     ax.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=7, ncols=columns, frameon=False
@@ -101,11 +103,11 @@ def _legend(ax: Axes, columns: int) -> None:
 
 def _draw_folded(ax: Axes, folded: FloatArray, model: FloatArray) -> None:
     ax.plot(folded, linewidth=1.0, label="signal, folded over one packet", **_SIGNAL)
-    # Its dots are wider than the signal's line, which covers it if the code is right.
+    # The model's dots are wider than the signal's line, which covers them if the code is right.
     ax.plot(model, linewidth=2.5, label="the code's forward model", **_MODEL)
     ax.set_xlabel("eighth of a chip")
     ax.set_ylabel("lit fraction")
-    _legend(ax, 2)
+    _add_legend(ax, 2)
 
 
 def _draw_runs(ax: Axes, result: DecodeResult) -> None:
@@ -125,4 +127,4 @@ def _draw_runs(ax: Axes, result: DecodeResult) -> None:
         if histogram.split is not None:
             place = histogram.split + (0.5 if value else 0.4)
             ax.axvline(place, label=f"split of the {runs}", linewidth=0.9, **_SPLITS[value])
-    _legend(ax, 4)
+    _add_legend(ax, 4)

@@ -18,7 +18,7 @@ from occ_model.files.writing import make_folder, write_atomically, write_whole
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import SimulationSettings, unit_of
 
-# The line styles differ too, so that the lines can be told apart in grey.
+# The line styles differ too, so that the lines can be distinguished in grey.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
 BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
@@ -41,10 +41,10 @@ STYLE: dict[Any, Any] = {
 
 def house_style() -> AbstractContextManager[None]:
     """Return a context in which all figures have one style, regardless of the user's settings."""
-    look = dict[Any, Any](rcParamsDefault) | STYLE
-    # The backend matters only for windows, and these figures become files.
-    del look["backend"]
-    return rc_context(look)
+    parameters = dict[Any, Any](rcParamsDefault) | STYLE
+    # These figures become files, and the backend matters only for windows.
+    del parameters["backend"]
+    return rc_context(parameters)
 
 
 def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
@@ -119,7 +119,7 @@ def write_all(
 ) -> list[Path]:
     """Write figures and their tables into a folder, either all of them or none."""
     make_folder(folder)
-    written: list[Path] = []
+    paths: list[Path] = []
     with ExitStack() as stack:
         for drawing in drawings:
             origin = provenance(drawing)
@@ -132,8 +132,8 @@ def write_all(
                         else encode_figure(figure, figure_format(path), origin)
                     )
                     stack.enter_context(write_atomically(path)).write_bytes(content)
-                    written.append(path)
-    return written
+                    paths.append(path)
+    return paths
 
 
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:

@@ -65,8 +65,10 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
         label = f"{HERTZ.format(frequency)}, {counted(bits, 'bit')}"
         receptions = [100.0 * point.reception for point in line]
         reception_axes.plot(gaps, receptions, linestyle="", markersize=4, label=label, **style)
-        exact = [100.0 * point.counted_reception for point in line]  # without a receiver's errors
-        reception_axes.plot(gaps, exact, linewidth=0.8, color=style["color"])
+        counted_receptions = [
+            100.0 * point.counted_reception for point in line
+        ]  # without a receiver's errors
+        reception_axes.plot(gaps, counted_receptions, linewidth=0.8, color=style["color"])
         rates = [point.bits_per_second for point in line]
         rate_axes.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
     reception_axes.plot([], [], color="black", linewidth=0.8, label="by exact counting")
@@ -78,7 +80,7 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
     return figure
 
 
-def _label_axes(ax: Axes, what: str) -> None:
+def _label_axes(ax: Axes, y_label: str) -> None:
     ax.set_xlabel("gap (% of a frame period)")
-    ax.set_ylabel(what)
+    ax.set_ylabel(y_label)
     ax.grid(linewidth=0.3)

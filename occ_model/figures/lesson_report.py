@@ -34,12 +34,12 @@ def write_lesson_report(
 ) -> None:
     """Write a lesson's report as .pdf, as .md with a folder of figures, or one page as a picture.
 
-    It is an OutputError if there are no steps, the ending is another one, a picture would need a
-    second page, or the disk fails.
+    An OutputError is raised if there are no steps, the ending is another one, a picture would need
+    a second page, or the disk fails.
     """
     if not steps:
         raise OutputError(f"The lesson {one_line(lesson.title)} has no answers to report.")
-    scenes = {f"step {place}": each.scene for place, each in enumerate(steps, 1)}
+    scenes = {f"step {place}": step.scene for place, step in enumerate(steps, 1)}
     provenance = Provenance(f"Report of the lesson: {lesson.title}", scenes, date=date)
     about = ", ".join(text for text in (author, date) if text) or lesson.summary
     with house_style():
@@ -80,39 +80,42 @@ def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], a
     folder = path.with_name(f"{path.stem}-figures")
     make_folder(folder)
     lines = [f"# {_escape_markdown(lesson.title)}", "", _escape_markdown(about), ""]
-    for place, each in enumerate(steps, 1):
+    for place, answered in enumerate(steps, 1):
         figure = folder / f"step-{place}.png"
-        _write_step_figure(figure, each)
-        lines += [f"## {place}. {_escape_markdown(each.step.question)}", ""]
-        if each.answer is None:
+        _write_step_figure(figure, answered)
+        lines += [f"## {place}. {_escape_markdown(answered.step.question)}", ""]
+        if answered.answer is None:
             lines += ["*(no answer)*", ""]
         else:
             lines += [
-                f"**Answer:** {_escape_markdown(each.step.with_unit(each.answer.text))}",
+                f"**Answer:** {_escape_markdown(answered.step.with_unit(answered.answer.text))}",
                 "",
-                _escape_markdown(each.answer.sentence),
+                _escape_markdown(answered.answer.sentence),
                 "",
             ]
-        if each.match is not None:
+        if answered.match is not None:
             lines += [
-                *(f"* {_escape_markdown(line)}" for line in match_lines(each.match, each.photo)),
+                *(
+                    f"* {_escape_markdown(line)}"
+                    for line in match_lines(answered.match, answered.photo)
+                ),
                 "",
             ]
         lines += [f"![What was seen]({quote(folder.name)}/{figure.name})", ""]
-        lines += [f"> {_escape_markdown(explanation(each.step, each.scene))}", ""]
+        lines += [f"> {_escape_markdown(explanation(answered.step, answered.scene))}", ""]
     scene = steps[-1].scene.to_toml()
     lines += [f"Scene of the last step, occ-explorer {__version__}:", "", "```toml", scene, "```"]
     write_whole(path, ("\n".join(lines) + "\n").encode())
 
 
-def _write_step_figure(path: Path, each: AnsweredStep) -> None:
-    figure = Figure(figsize=_FIGURE if each.match is None else _MATCHED_FIGURE)
-    if each.match is None:
-        draw_profile(figure.subplots(), each.scene)
+def _write_step_figure(path: Path, answered: AnsweredStep) -> None:
+    figure = Figure(figsize=_FIGURE if answered.match is None else _MATCHED_FIGURE)
+    if answered.match is None:
+        draw_profile(figure.subplots(), answered.scene)
     else:
-        draw_match(figure.subplots(2, 1, sharex=True, height_ratios=(2, 1)), each.match)
-    title = each.step.question
-    write_whole(path, figure_bytes(figure, "png", Provenance(title, {"step": each.scene})))
+        draw_match(figure.subplots(2, 1, sharex=True, height_ratios=(2, 1)), answered.match)
+    title = answered.step.question
+    write_whole(path, figure_bytes(figure, "png", Provenance(title, {"step": answered.scene})))
 
 
 def _escape_markdown(text: str) -> str:
@@ -125,7 +128,7 @@ def _escape_markdown(text: str) -> str:
 _PAGE = (8.27, 11.69)  # inches of an A4 page
 _LEFT, _RIGHT = 0.08, 0.92  # margins of the lines, as fractions of the page's width
 _MAX_STEPS_A_PAGE = 5  # most steps on a page, for legibility
-_STEPS_OF_A_MATCH = 2  # places that a step with a match takes
+_PLACES_OF_A_MATCH = 2  # places on a page that a step with a match takes
 
 _SHOWN_COLUMNS = 700
 _NO_ANSWER = "." * 60
@@ -137,16 +140,16 @@ def split_into_pages(
 ) -> Iterator[tuple[int, tuple[AnsweredStep, ...]]]:
     """Yield, for each page, the number of its first step, from 1, and its steps."""
     page: list[AnsweredStep] = []
-    for place, each in enumerate(steps):
-        if page and sum(map(_count_places, page)) + _count_places(each) > _MAX_STEPS_A_PAGE:
+    for place, step in enumerate(steps):
+        if page and sum(map(_count_places, page)) + _count_places(step) > _MAX_STEPS_A_PAGE:
             yield place - len(page) + 1, tuple(page)
             page = []
-        page.append(each)
+        page.append(step)
     yield len(steps) - len(page) + 1, tuple(page)
 
 
-def _count_places(each: AnsweredStep) -> int:
-    return 1 if each.match is None else _STEPS_OF_A_MATCH
+def _count_places(step: AnsweredStep) -> int:
+    return 1 if step.match is None else _PLACES_OF_A_MATCH
 
 
 def draw_page(
@@ -160,30 +163,32 @@ def draw_page(
     figure.text(_RIGHT, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
     unit = (_TOP - _BOTTOM) / sum(map(_count_places, steps))
     top = _TOP
-    for place, each in enumerate(steps, first):
-        height = unit * _count_places(each)
-        _draw_step(figure, place, each, top, top - height)
+    for place, step in enumerate(steps, first):
+        height = unit * _count_places(step)
+        _draw_step(figure, place, step, top, top - height)
         top -= height
     return figure
 
 
-def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bottom: float) -> None:
-    answer = each.answer
-    given = _NO_ANSWER if answer is None else each.step.with_unit(answer.text)
+def _draw_step(
+    figure: Figure, number: int, answered: AnsweredStep, top: float, bottom: float
+) -> None:
+    answer = answered.answer
+    answer_text = _NO_ANSWER if answer is None else answered.step.with_unit(answer.text)
     outcome = "" if answer is None else answer.sentence
-    matched = "" if each.match is None else _describe_match(each.match, each.photo)
+    matched = "" if answered.match is None else _describe_match(answered.match, answered.photo)
     texts = (
-        (f"{number}. {each.step.question}", 10, "bold", "0.0"),
-        (f"Answer: {given}", 10, "normal", "0.0"),
+        (f"{number}. {answered.step.question}", 10, "bold", "0.0"),
+        (f"Answer: {answer_text}", 10, "normal", "0.0"),
         (outcome, 9, "normal", "0.3"),
         (matched, 9, "normal", "0.0"),
-        (explanation(each.step, each.scene), 8.5, "normal", "0.3"),
+        (explanation(answered.step, answered.scene), 8.5, "normal", "0.3"),
     )
     line = 0.0145
     for text, size, weight, colour in texts:
         lines = _write_lines(figure, top, text, FontProperties(size=size, weight=weight), colour)
         top -= line * lines + 0.004 * (lines > 0)
-    _draw_result(figure, each, top - line * 0.5, bottom + 0.045)
+    _draw_result(figure, answered, top - line * 0.5, bottom + 0.045)
 
 
 def _write_lines(
@@ -201,44 +206,46 @@ def _write_lines(
     return len(lines)
 
 
-def _draw_result(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:
-    room = min(top - bottom, 0.2 * _count_places(each))
-    if room <= 0.03:
+def _draw_result(figure: Figure, answered: AnsweredStep, top: float, bottom: float) -> None:
+    height = min(top - bottom, 0.2 * _count_places(answered))
+    if height <= 0.03:
         return
-    if each.match is None:
-        draw_profile(figure.add_axes((0.12, bottom, 0.8, room)), each.scene)
+    if answered.match is None:
+        draw_profile(figure.add_axes((0.12, bottom, 0.8, height)), answered.scene)
         return
-    below = figure.add_axes((0.12, bottom, 0.8, room * 0.3))
-    above = figure.add_axes((0.12, bottom + room * 0.36, 0.8, room * 0.64), sharex=below)
-    draw_match((above, below), each.match)
+    residual_axes = figure.add_axes((0.12, bottom, 0.8, height * 0.3))
+    profile_axes = figure.add_axes(
+        (0.12, bottom + height * 0.36, 0.8, height * 0.64), sharex=residual_axes
+    )
+    draw_match((profile_axes, residual_axes), answered.match)
 
 
 def _describe_match(match: Match, photo: str) -> str:
     lines, reasons = match_lines(match, photo), match.all_reasons
-    found = "; ".join(lines[: len(lines) - len(reasons)])
-    return " ".join((f"{found}.", *reasons))
+    facts = "; ".join(lines[: len(lines) - len(reasons)])
+    return " ".join((f"{facts}.", *reasons))
 
 
 def match_lines(match: Match, photo: str) -> list[str]:
     """Describe a match: values with standard deviations, the verdict, and its reasons."""
     lines = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
     for name in ("readout_time", "exposure_time"):
-        declared = quantity(name)
+        parameter = quantity(name)
         deviation = match.uncertainties.get(name)
-        value = declared.unit.format_estimate(getattr(match, name), deviation)
+        value = parameter.unit.format_estimate(getattr(match, name), deviation)
         doubt = " (doubtful)" if name in match.doubtful_alone else ""
-        lines.append(f"{declared.in_sentence} {value}{doubt}")
-    exposed = f"{match.exposure_in_chips:.3g} chips"
+        lines.append(f"{parameter.in_sentence} {value}{doubt}")
+    exposure = f"{match.exposure_in_chips:.3g} chips"
     if match.lamp is not None:
-        exposed = f"{match.exposure_in_periods:.3g} periods of a {match.lamp.words}"
-    lines.append(f"{exposed} an exposure, residual {match.rmse:.2g} levels")
+        exposure = f"{match.exposure_in_periods:.3g} periods of a {match.lamp.words}"
+    lines.append(f"{exposure} an exposure, residual {match.rmse:.2g} levels")
     return [*lines, *match.all_reasons]
 
 
 def draw_profile(ax: Axes, scene: Scene) -> None:
-    shown = min(_SHOWN_COLUMNS, scene.camera.columns)
-    ax.plot(column_profile(scene)[:shown], linewidth=0.9, **SIMULATION)  # type: ignore[arg-type]
-    ax.set_xlim(0, shown)
+    columns = min(_SHOWN_COLUMNS, scene.camera.columns)
+    ax.plot(column_profile(scene)[:columns], linewidth=0.9, **SIMULATION)  # type: ignore[arg-type]
+    ax.set_xlim(0, columns)
     ax.set_xlabel(f"column   ({caption(scene)})", fontsize=7, parse_math=False)
     ax.set_ylabel("grey level", fontsize=7)
     ax.tick_params(labelsize=7)
@@ -246,20 +253,20 @@ def draw_profile(ax: Axes, scene: Scene) -> None:
 
 def draw_match(axes: Sequence[Axes], match: Match) -> None:
     """Draw a photo's profile and the fitted one, with the residual below."""
-    above, below = axes
-    shown = min(_SHOWN_COLUMNS, len(match.profile))
-    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
-    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
+    profile_axes, residual_axes = axes
+    columns = min(_SHOWN_COLUMNS, len(match.profile))
+    profile_axes.plot(match.stripes.profile[:columns], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
+    profile_axes.plot(match.profile[:columns], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
     # Above the axes it covers no curve.
-    above.legend(
+    profile_axes.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=7,
         borderaxespad=0.0,
     )  # fmt: skip
-    above.set_ylabel("grey level", fontsize=7)
-    above.tick_params(labelsize=7, labelbottom=False)
-    below.plot(match.residual[:shown], linewidth=0.8, color="0.3")
-    below.axhline(0.0, linewidth=0.5, color="0.0")
-    below.set_xlim(0, shown)
-    below.set_ylabel("photo − fit\n(grey levels)", fontsize=7)  # noqa: RUF001
-    below.set_xlabel("column of the lamp", fontsize=7)
-    below.tick_params(labelsize=7)
+    profile_axes.set_ylabel("grey level", fontsize=7)
+    profile_axes.tick_params(labelsize=7, labelbottom=False)
+    residual_axes.plot(match.residual[:columns], linewidth=0.8, color="0.3")
+    residual_axes.axhline(0.0, linewidth=0.5, color="0.0")
+    residual_axes.set_xlim(0, columns)
+    residual_axes.set_ylabel("photo − fit\n(grey levels)", fontsize=7)  # noqa: RUF001
+    residual_axes.set_xlabel("column of the lamp", fontsize=7)
+    residual_axes.tick_params(labelsize=7)

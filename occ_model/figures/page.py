@@ -17,9 +17,9 @@ _Kind = TypeVar("_Kind", Text, Legend)
 
 _MARGIN = 0.05  # inches between a text and the page's edge
 
-_HINTED_WIDTH_FACTOR = 1.08  # width of small letters on whole pixels, over that of outlines
+_HINTED_WIDTH_FACTOR = 1.08  # ratio of the width of small hinted letters to that of their outlines
 _MAX_LINES = 12
-_MAX_ROUNDS = 3  # of making a page higher and placing its axes anew
+_MAX_ROUNDS = 3  # how often a page is made higher and its axes are placed again
 
 _UNKNOWN_LETTER = "□"
 _POINTS = 72.0  # points per inch
@@ -31,8 +31,8 @@ def break_lines(text: str, inches: float, font: FontProperties, most: int) -> li
     lines = [text]
     while letters > 1 and max((_inches(line, font) for line in lines), default=0.0) > inches:
         widest = max(lines, key=lambda line: _inches(line, font))
-        longer = _inches(widest, font) / inches
-        letters = max(min(int(len(widest) / longer), letters - 1), 1)
+        ratio = _inches(widest, font) / inches
+        letters = max(min(int(len(widest) / ratio), letters - 1), 1)
         lines = textwrap.wrap(text, letters, max_lines=most, placeholder="…")
     return lines
 
@@ -45,13 +45,13 @@ def _inches(line: str, font: FontProperties) -> float:
 def fit_texts(figure: Figure) -> None:
     """Break lines that are too wide, narrow the legends, and make the page higher if needed."""
     for text in _find_all(figure, Text):
-        drawn, font = replace_missing_letters(text.get_text(), text.get_fontproperties())
-        text.set_text(drawn)
+        replaced, font = replace_missing_letters(text.get_text(), text.get_fontproperties())
+        text.set_text(replaced)
         text.set_fontfamily(font.get_family())
     if figure.get_layout_engine() is None:
         return
-    for room in _list_text_spaces(figure):
-        figure.set_figheight(figure.get_figheight() + room.fit())
+    for space in _list_text_spaces(figure):
+        figure.set_figheight(figure.get_figheight() + space.fit())
     for legend in _find_all(figure, Legend):
         _narrow_legend(legend, figure)
     for _ in range(_MAX_ROUNDS):
@@ -74,8 +74,8 @@ def _place_axes(figure: Figure) -> None:
 
 def _measure_overflow(figure: Figure) -> tuple[float, float]:
     """Return how many inches the figure extends beyond the page's upper and lower edge."""
-    drawn = figure.get_tightbbox()
-    return max(drawn.y1 - figure.get_figheight(), 0.0), max(-drawn.y0, 0.0)
+    box = figure.get_tightbbox()
+    return max(box.y1 - figure.get_figheight(), 0.0), max(-box.y0, 0.0)
 
 
 def _find_all(figure: Figure, kind: type[_Kind]) -> list[_Kind]:
@@ -91,14 +91,16 @@ class _TextSpace:
 
     def fit(self) -> float:
         """Break the text's lines; return the height in inches of the added ones."""
-        before = self.text.get_text().split("\n")
+        lines_before = self.text.get_text().split("\n")
         font = self.text.get_fontproperties()
         lines = [
-            line for each in before for line in break_lines(each, self.inches, font, _MAX_LINES)
+            line
+            for text in lines_before
+            for line in break_lines(text, self.inches, font, _MAX_LINES)
         ]
         self.text.set_text("\n".join(lines))
         spacing = 1.2 * float(self.text.get_fontsize()) / _POINTS
-        return max(len(lines) - len(before), 0) * spacing
+        return max(len(lines) - len(lines_before), 0) * spacing
 
 
 def _list_text_spaces(figure: Figure) -> Iterator[_TextSpace]:
@@ -107,20 +109,20 @@ def _list_text_spaces(figure: Figure) -> Iterator[_TextSpace]:
         if line is not None:
             yield _TextSpace(line, page)
     headings = [(text, _count_across(ax)) for ax in figure.axes for text in _headings(ax)]
-    # While hidden, a heading that is far too wide cannot squeeze the axes.
-    for is_shown in (False, True):
+    # Place the axes without headings, as one that is far too wide would squeeze them.
+    for is_visible in (False, True):
         for text, _ in headings:
-            text.set_visible(is_shown)
-        if not is_shown:
+            text.set_visible(is_visible)
+        if not is_visible:
             _place_axes(figure)
-    for text, across in headings:
-        yield _TextSpace(text, min(_width_to_edge(text, figure), page / across))
+    for text, axes_in_row in headings:
+        yield _TextSpace(text, min(_width_to_edge(text, figure), page / axes_in_row))
 
 
 def _headings(ax: Axes) -> Iterator[Text]:
     titles = [child for child in ax.get_children() if isinstance(child, Text)]
     for text in (*titles, ax.xaxis.label):
-        # Other texts are at places of the data.
+        # Texts in ``ax.texts`` are placed at data coordinates.
         if text.get_text() and text not in ax.texts:
             yield text
 
@@ -152,15 +154,15 @@ def _narrow_legend(legend: Legend, figure: Figure) -> None:
 
 
 def replace_missing_letters(text: str, font: FontProperties) -> tuple[str, FontProperties]:
-    """Take letters that a font lacks from other fonts, or replace them by a square."""
+    """Take letters that a font lacks from other fonts, or replace them with a square."""
     missing = set(text) - {"\n"} - _letters_of(fontManager.findfont(font))
     families = list(font.get_family())
     for entry in fontManager.ttflist if missing else ():
         # A file with several fonts, or of another kind, cannot be put into a PDF.
         if entry.fname.endswith(".ttf") and not entry.name.startswith("Last Resort"):
-            found = missing & _letters_of(entry.fname)
-            families += [entry.name] if found else []
-            missing -= found
+            replaced = missing & _letters_of(entry.fname)
+            families += [entry.name] if replaced else []
+            missing -= replaced
     font = font.copy()
     font.set_family(families)
     return "".join(_UNKNOWN_LETTER if letter in missing else letter for letter in text), font

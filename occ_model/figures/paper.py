@@ -26,7 +26,7 @@ from occ_model.simulation.render import render
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
 from occ_model.transmitter.scheme import packet
 
-_PICTURE_STEP = 8  # side in pixels of the averaged cells of a picture, as print resolves no more
+_PICTURE_STEP = 8  # side in pixels of a picture's averaged cells; print resolves nothing smaller
 
 _PACKETS_SHOWN = 2.5
 
@@ -41,8 +41,8 @@ def write_process_figure(folder: Path) -> None:
     mask = np.zeros((rows, columns), dtype=np.uint8)
     for row, (first, last) in enumerate(zip(*row_spans(frame.corners, rows, columns), strict=True)):
         mask[row, first:last] = 255
-    covered = np.broadcast_to(frame.signal, (rows, columns))
-    for ax, picture in zip(axes, (None, mask, covered, frame.image), strict=True):
+    values = np.broadcast_to(frame.signal, (rows, columns))
+    for ax, picture in zip(axes, (None, mask, values, frame.image), strict=True):
         _show_picture(ax, picture, rows, columns)
     axes[0].add_patch(Polygon(frame.corners, closed=True, fill=False, color=SIMULATION["color"]))
     axes[0].plot(*frame.corners.T, "o", color=BAND["color"], markersize=4)
@@ -54,12 +54,14 @@ def write_process_figure(folder: Path) -> None:
     title = "Figure 2: from the panel's corners to the picture"
     provenance = Provenance(title, {"phone-68us": scene}, notes=(f"corners: {places}",))
     save_figure(figure, folder, "figure-2", provenance)
-    lit = mask > 0
+    is_lit = mask > 0
     header = (
         "column", "calculated value (grey level)", "first row of the mask", "rows of the mask",
     )  # fmt: skip
     calculated = frame.signal.astype(np.int64)  # whole numbers, as there are no image effects
-    table = np.stack([np.arange(columns), calculated, lit.argmax(axis=0), lit.sum(axis=0)], axis=1)
+    table = np.stack(
+        [np.arange(columns), calculated, is_lit.argmax(axis=0), is_lit.sum(axis=0)], axis=1
+    )
     write_table(folder / "figure-2.csv", header, table.tolist(), provenance)
 
 
@@ -73,9 +75,9 @@ def _show_picture(ax: Axes, picture: np.ndarray | None, rows: int, columns: int)
     ax.set_yticks([0, rows])
     if picture is not None:
         step = _PICTURE_STEP
-        whole = picture[: rows // step * step, : columns // step * step]
+        cropped = picture[: rows // step * step, : columns // step * step]
         # Average each cell, since taking one pixel of it would show false stripes.
-        cells = whole.reshape(rows // step, step, columns // step, step).mean(axis=(1, 3))
+        cells = cropped.reshape(rows // step, step, columns // step, step).mean(axis=(1, 3))
         ax.imshow(cells, cmap="gray", vmin=0, vmax=255, extent=(0, columns, rows, 0))
 
 
@@ -83,15 +85,15 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     """Write figure 3 or 4: the profiles of the band model, the simulation and a photo."""
     scene = load_preset(preset)
     frame = render(scene, tolerance=math.inf)
-    band, undefined = None, ""
+    band, undefined_reason = None, ""
     try:
-        # As the paper counts bands; aligned ones would coincide with the simulation.
+        # Count bands as the paper does; aligned ones would coincide with the simulation.
         band = band_profile(scene.replace(band_reading="literal"))
     except BandModelUndefined as reason:
-        undefined = str(reason)
+        undefined_reason = str(reason)
     first, last = choose_columns(scene, frame)
     column = np.arange(first, last)
-    shown: dict[str, FloatArray | None] = {
+    profiles: dict[str, FloatArray | None] = {
         "band model": None if band is None else band[first:last],
         "simulation": frame.profile[first:last],
         "simulation, enhanced": frame.signal[first:last],
@@ -100,24 +102,26 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     figure = Figure(figsize=(7.2, 2.8))
     ax = figure.subplots()
     styles = (BAND, {**SIMULATION, "alpha": 0.45}, SIMULATION, PHOTO)
-    for (name, values), style in zip(shown.items(), styles, strict=True):
+    for (name, values), style in zip(profiles.items(), styles, strict=True):
         if values is not None:
             ax.plot(column, values, label=name, linewidth=1.2, **style)  # type: ignore[arg-type]
     ax.set_xlabel("column")
     ax.set_ylabel("grey level")
     ax.set_ylim(0, 262)
     figure.legend(loc="outside upper center", ncols=4, frameon=False)
-    if undefined:
-        ax.set_title(undefined, fontsize=8)
+    if undefined_reason:
+        ax.set_title(undefined_reason, fontsize=8)
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = METRE.format(scene.pose.distance)
     title = f"Figure {number}: pixel values, {preset} at {frequency} and {distance}"
-    drawn = f"photo {one_line(photo.path.name)}, drawn from column {first}" if photo else ""
-    notes = (drawn,) if drawn else ()
+    photo_note = f"photo {one_line(photo.path.name)}, drawn from column {first}" if photo else ""
+    notes = (photo_note,) if photo_note else ()
     provenance = Provenance(title, {preset: scene}, notes=notes)
     save_figure(figure, folder, f"figure-{number}", provenance)
-    names = [name for name, values in shown.items() if values is not None]
-    table = np.stack([column, *(values for values in shown.values() if values is not None)], axis=1)
+    names = [name for name, values in profiles.items() if values is not None]
+    table = np.stack(
+        [column, *(values for values in profiles.values() if values is not None)], axis=1
+    )
     header = ("column", *(f"{name} (grey level)" for name in names))
     write_table(folder / f"figure-{number}.csv", header, table.tolist(), provenance)
 

@@ -18,7 +18,7 @@ from occ_model.scene.provenance import Provenance
 _TITLE = "Room, its picture and the place found"
 _EDGE = 0.07  # half the size of a name, as a fraction of the picture's side
 _PADDING = 5  # points between a name and the edge of its box, and of the picture
-_MAX_SPACED_LAMPS = 40  # most lamps of a plan whose names are in the usual size
+_MAX_SPACED_LAMPS = 40  # number of lamps in a plan up to which their names have the usual size
 _NUMBERS = tuple(Place.__dataclass_fields__)
 
 
@@ -28,15 +28,15 @@ def room_drawing(
     """Draw a room and what was read from its picture, or from a photo of an unknown place."""
 
     def rows() -> Iterable[tuple[object, ...]]:
-        found = reading.located
-        errors = [None] * 6 if found is None else found.errors.tolist()
+        located = reading.located
+        errors = [None] * 6 if located is None else located.errors.tolist()
         for name, error in zip(_NUMBERS, errors, strict=True):
-            value = None if found is None else getattr(found.place, name)
-            true = None if is_photo else getattr(room.camera, name)
-            yield name, true, value, error, None, None
-        for read in reading.lamps:
-            column, row = read.hull.mean(axis=0).tolist()
-            yield read.name or "unnamed", None, None, None, column, row
+            value = None if located is None else getattr(located.place, name)
+            true_value = None if is_photo else getattr(room.camera, name)
+            yield name, true_value, value, error, None, None
+        for lamp in reading.lamps:
+            column, row = lamp.hull.mean(axis=0).tolist()
+            yield lamp.name or "unnamed", None, None, None, column, row
 
     header = ("what", "true (m, rad)", "found", "standard deviation", "column", "row")
     return Drawing(
@@ -55,9 +55,9 @@ def _draw(room: Room, image: ByteArray, reading: RoomReading, is_photo: bool) ->
     plan, picture = figure.subplots(1, 2)
     _draw_plan(plan, room, reading, is_photo)
     show_picture(picture, image)
-    for read in reading.lamps:
-        colour = colours.RIGHT if read.name else colours.WRONG
-        _write_name(picture, read.name or "?", read.hull.mean(axis=0).tolist(), image.shape, colour)
+    for lamp in reading.lamps:
+        colour = colours.RIGHT if lamp.name else colours.WRONG
+        _write_name(picture, lamp.name or "?", lamp.hull.mean(axis=0).tolist(), image.shape, colour)
     if reading.located is None and reading.reasons:
         picture.set_title(f"No place found: {reading.reasons[0]}", fontsize=7, parse_math=False)
     figure.legend(loc="outside upper left", ncols=4, frameon=False, fontsize=7)
@@ -96,16 +96,16 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
             outline[:, 0], outline[:, 1], facecolor="none", edgecolor=colours.SIMULATION,
             label="" if number else "lamp",
         )  # fmt: skip
-        beside = (outline[:, 0].max(), outline[:, 1].mean())
+        right_edge = (outline[:, 0].max(), outline[:, 1].mean())
         ax.annotate(
-            lamp.name, beside, (1, 0), textcoords="offset points", fontsize=size, va="center",
+            lamp.name, right_edge, (1, 0), textcoords="offset points", fontsize=size, va="center",
             parse_math=False,
         )  # fmt: skip
     height = float(np.mean([lamp.z for lamp in room.lamps]))
-    seen = seen_outline(room, height)
-    if len(seen) and not is_photo:
+    visible = seen_outline(room, height)
+    if len(visible) and not is_photo:
         ax.fill(
-            seen[:, 0], seen[:, 1], fill=False, linestyle="--", edgecolor=colours.PHOTO,
+            visible[:, 0], visible[:, 1], fill=False, linestyle="--", edgecolor=colours.PHOTO,
             label="in view",
         )  # fmt: skip
     camera = room.camera
@@ -114,9 +114,9 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
             [camera.x], [camera.y], "o", color=colours.PHOTO, fillstyle="none", label="true place"
         )
     if reading.located is not None:
-        found, errors = reading.located.place, reading.located.errors
+        place, errors = reading.located.place, reading.located.errors
         ax.errorbar(
-            [found.x], [found.y], [2.0 * errors[1]], [2.0 * errors[0]], fmt="x",
+            [place.x], [place.y], [2.0 * errors[1]], [2.0 * errors[0]], fmt="x",
             color=colours.BAND, label="found, two standard deviations",
         )  # fmt: skip
     # A corridor's plan becomes wider than its lamps, as the axis's numbers need the space.

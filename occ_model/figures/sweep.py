@@ -36,16 +36,16 @@ _TITLES = {"rate": "Success rate", "bits": "Bits a second"}
 _LABELS = {"rate": "success rate (%)", "bits": "bits a second"}
 
 _REFUSED_COLOUR = "0.75"  # grey is not among the map's colours
-_TICKS = 10  # most labels at an axis
+_TICKS = 10  # largest number of labels at an axis
 _FAILED = "a plug-in failed: see the notes in the table"
 
-_CELLS_WITH_NUMBERS = 14  # most cells on a side for which each cell shows its number
+_CELLS_WITH_NUMBERS = 14  # number of cells on a side up to which each cell shows its number
 
 
-def write_sweep_figure(path: Path, table: SweepTable, shown: ShownQuantity = "rate") -> None:
+def write_sweep_figure(path: Path, table: SweepTable, quantity: ShownQuantity = "rate") -> None:
     """Draw a table's success rates, or bits a second, in the format of the file's ending.
 
-    With one axis there is a curve for each decoder, with 95 % intervals. With two axes there is a
+    With one axis, there is a curve with 95 % intervals for each decoder. With two axes, there is a
     map for each decoder, with the first axis from left to right; points that the model refuses are
     grey.
     """
@@ -56,10 +56,10 @@ def write_sweep_figure(path: Path, table: SweepTable, shown: ShownQuantity = "ra
             f"The sweep varies {', '.join(names)}; allowed in a figure: one or two parameters."
         )
     with house_style():
-        write_figure(path, sweep_drawing(table, shown).draw(), _provenance(table, shown))
+        write_figure(path, sweep_drawing(table, quantity).draw(), _provenance(table, quantity))
 
 
-def sweep_drawing(table: SweepTable, shown: ShownQuantity = "rate") -> Drawing:
+def sweep_drawing(table: SweepTable, quantity: ShownQuantity = "rate") -> Drawing:
     """Draw a table's success rates, or bits a second, against one axis or two."""
     names = list(table.axes)
 
@@ -76,16 +76,16 @@ def sweep_drawing(table: SweepTable, shown: ShownQuantity = "rate") -> Drawing:
         "success rate (%)", "95 % from (%)", "95 % to (%)", "bits a second", "note",
     )  # fmt: skip
     title = (
-        f"{_TITLES[shown]} over {' and '.join(names)}, "
+        f"{_TITLES[quantity]} over {' and '.join(names)}, "
         f"{counted(table.request.settings.images, 'image')}"
     )
     draw = _draw_curves if len(names) == 1 else _draw_maps
-    return Drawing("map", title, lambda: draw(table, shown), header, rows)
+    return Drawing("map", title, lambda: draw(table, quantity), header, rows)
 
 
-def _provenance(table: SweepTable, shown: ShownQuantity) -> Provenance:
+def _provenance(table: SweepTable, quantity: ShownQuantity) -> Provenance:
     settings = table.request.settings
-    title = f"{_TITLES[shown]} over {' and '.join(table.axes)}"
+    title = f"{_TITLES[quantity]} over {' and '.join(table.axes)}"
     notes = (
         f"{counted(settings.images, 'image')} a point",
         f"{counted(settings.frames_a_second, 'image')} a second, or as many as can be read out",
@@ -94,88 +94,90 @@ def _provenance(table: SweepTable, shown: ShownQuantity) -> Provenance:
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
 
 
-def _values(table: SweepTable, decoder: str, shown: ShownQuantity) -> FloatArray:
-    return table.rates(decoder) if shown == "rate" else table.bits_a_second(decoder)
+def _values(table: SweepTable, decoder: str, quantity: ShownQuantity) -> FloatArray:
+    return table.rates(decoder) if quantity == "rate" else table.bits_a_second(decoder)
 
 
 def _intervals(
-    table: SweepTable, decoder: str, shown: ShownQuantity
+    table: SweepTable, decoder: str, quantity: ShownQuantity
 ) -> tuple[FloatArray, FloatArray]:
-    if shown == "rate":
+    if quantity == "rate":
         return table.intervals(decoder)
     bits, images = table.bits_a_second(decoder), table.request.settings.images
-    whole = table.whole[..., table.decoders.index(decoder)]
+    complete_images = table.whole[..., table.decoders.index(decoder)]
     # The rate if all images were read, which no interval can exceed.
-    most = np.array([_most_bits(table, point) for point in table.each_point()])
-    ends = np.array([wilson_interval(int(count), images) for count in whole.ravel()])
-    ends = ends.reshape(*bits.shape, 2) * most.reshape(bits.shape)[..., None]
+    most_bits = np.array([_most_bits(table, point) for point in table.each_point()])
+    ends = np.array([wilson_interval(int(count), images) for count in complete_images.ravel()])
+    ends = ends.reshape(*bits.shape, 2) * most_bits.reshape(bits.shape)[..., None]
     return ends[..., 0], ends[..., 1]
 
 
 def _most_bits(table: SweepTable, point: SweepPoint) -> float:
     """Return the bits a second of a point if every image were read completely."""
-    whole = (table.request.settings.images,) * len(table.decoders)
-    found = table.request.bits_a_second(replace(point, whole=whole), 0)
-    return np.nan if found is None else found
+    complete_images = (table.request.settings.images,) * len(table.decoders)
+    bits = table.request.bits_a_second(replace(point, whole=complete_images), 0)
+    return np.nan if bits is None else bits
 
 
-def _highest_value(table: SweepTable, shown: ShownQuantity) -> float:
+def _highest_value(table: SweepTable, quantity: ShownQuantity) -> float:
     """Return the upper end of the axis or of the colour scale."""
-    if shown == "rate":
+    if quantity == "rate":
         return 100.0
     bits = [_most_bits(table, point) for point in table.each_point()]
     return float(np.nanmax(bits)) if np.isfinite(bits).any() else 1.0
 
 
-def _draw_curves(table: SweepTable, shown: ShownQuantity) -> Figure:
+def _draw_curves(table: SweepTable, quantity: ShownQuantity) -> Figure:
     ((name, values),) = table.axes.items()
     figure = Figure(figsize=(6.4, 3.6))
     ax = figure.subplots()
     unit, factor = _choose_unit(name, values)
-    at, labels = _axis_positions(name, values, factor)
-    for decoder, look in zip(table.decoders, _STYLES * len(table.decoders), strict=False):
-        style = look if labels is None else {**look, "linestyle": ""}
-        rates = _values(table, decoder, shown)
-        low, high = _intervals(table, decoder, shown)
+    positions, labels = _axis_positions(name, values, factor)
+    for decoder, base_style in zip(table.decoders, _STYLES * len(table.decoders), strict=False):
+        style = base_style if labels is None else {**base_style, "linestyle": ""}
+        rates = _values(table, decoder, quantity)
+        low, high = _intervals(table, decoder, quantity)
         error = np.maximum([rates - low, high - rates], 0.0)  # rounding can make it negative
         ax.errorbar(
-            at, rates, error, label=f"{decoder} decoder", capsize=2, linewidth=1.0,
+            positions, rates, error, label=f"{decoder} decoder", capsize=2, linewidth=1.0,
             elinewidth=0.7, markerfacecolor="none", clip_on=False, **style,
         )  # fmt: skip
     if labels is not None:
-        ax.set_xticks(at[:: _label_step(len(at))], labels[:: _label_step(len(at))])
-    elif _is_log(name, at):
+        ax.set_xticks(
+            positions[:: _label_step(len(positions))], labels[:: _label_step(len(positions))]
+        )
+    elif _is_log(name, positions):
         ax.set_xscale("log")
         ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
         ax.xaxis.set_minor_formatter(NullFormatter())
-    most = _highest_value(table, shown)
-    ax.set_ylim(-0.03 * most, 1.03 * most)
-    ax.set_yticks(np.linspace(0.0, most, 6))
+    highest = _highest_value(table, quantity)
+    ax.set_ylim(-0.03 * highest, 1.03 * highest)
+    ax.set_yticks(np.linspace(0.0, highest, 6))
     ax.grid(linewidth=0.3)
     ax.set_xlabel(_axis_label(name, unit))
-    ax.set_ylabel(_LABELS[shown])
+    ax.set_ylabel(_LABELS[quantity])
     title = _FAILED if table.faults else None
     figure.legend(loc="outside upper center", ncols=len(table.decoders), frameon=False, title=title)
     return figure
 
 
-def _draw_maps(table: SweepTable, shown: ShownQuantity) -> Figure:
+def _draw_maps(table: SweepTable, quantity: ShownQuantity) -> Figure:
     (across, columns), (upwards, rows) = table.axes.items()
     width = min(3.2 * len(table.decoders) + 1.6, 12.0)
     figure = Figure(figsize=(width, 3.6))
     axes = figure.subplots(1, len(table.decoders), squeeze=False, sharex=True, sharey=True)[0]
     for ax, decoder in zip(axes, table.decoders, strict=True):
         # All cells have the same size, as the values need be neither evenly spaced nor numbers.
-        _draw_map(ax, _values(table, decoder, shown).T, _highest_value(table, shown))
+        _draw_map(ax, _values(table, decoder, quantity).T, _highest_value(table, quantity))
         _label_cells(ax.xaxis, across, columns)
         _label_cells(ax.yaxis, upwards, rows)
         ax.set_title(f"{decoder} decoder", fontsize=9)
         ax.label_outer(remove_inner_ticks=True)
     figure.supxlabel(_axis_label(across, _choose_unit(across, columns)[0]), fontsize=9)
     figure.supylabel(_axis_label(upwards, _choose_unit(upwards, rows)[0]), fontsize=9)
-    colour = ScalarMappable(Normalize(0, _highest_value(table, shown)), "cividis")
-    figure.colorbar(colour, ax=list(axes), label=_LABELS[shown])
+    colour = ScalarMappable(Normalize(0, _highest_value(table, quantity)), "cividis")
+    figure.colorbar(colour, ax=list(axes), label=_LABELS[quantity])
     remarks = []
     if (table.sent == 0).any():
         remarks.append(Patch(color=_REFUSED_COLOUR, label="no picture: see the notes in the table"))
@@ -186,10 +188,10 @@ def _draw_maps(table: SweepTable, shown: ShownQuantity) -> Figure:
     return figure
 
 
-def _draw_map(ax: Axes, grid: FloatArray, most: float) -> None:
+def _draw_map(ax: Axes, grid: FloatArray, highest: float) -> None:
     ax.set_facecolor(_REFUSED_COLOUR)
     ax.imshow(
-        grid, cmap="cividis", vmin=0, vmax=most, origin="lower", aspect="auto",
+        grid, cmap="cividis", vmin=0, vmax=highest, origin="lower", aspect="auto",
         interpolation="nearest",
     )  # fmt: skip
     ax.spines[:].set_visible(False)
@@ -197,28 +199,34 @@ def _draw_map(ax: Axes, grid: FloatArray, most: float) -> None:
         return
     for (y, x), rate in np.ndenumerate(grid):
         if not np.isnan(rate):
-            colour = "black" if rate > 0.5 * most else "white"
+            colour = "black" if rate > 0.5 * highest else "white"
             ax.text(x, y, f"{rate:.0f}", ha="center", va="center", fontsize=6, color=colour)
 
 
 def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> None:
     _, factor = _choose_unit(name, values)
     axis.set_tick_params(labelsize=7)
-    at, words = _axis_positions(name, values, factor)
-    if words is None and len(at) > _TICKS and bool(np.all(np.diff(at) > 0)):
-        axis.set_ticks(*_choose_round_ticks(at, _is_log(name, at)))
+    positions, word_labels = _axis_positions(name, values, factor)
+    if word_labels is None and len(positions) > _TICKS and bool(np.all(np.diff(positions) > 0)):
+        axis.set_ticks(*_choose_round_ticks(positions, _is_log(name, positions)))
         return
     step = _label_step(len(values))
     labels = [_format_number(value, factor) for value in values]
     axis.set_ticks(range(0, len(values), step), labels[::step])
 
 
-def _choose_round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
+def _choose_round_ticks(positions: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
     """Choose round values among the cells' increasing ones; return their positions and labels."""
     locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
-    marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
+    marks = [
+        mark
+        for mark in locator.tick_values(positions[0], positions[-1])
+        if positions[0] <= mark <= positions[-1]
+    ]
     scale = np.log if is_log else np.asarray
-    return np.interp(scale(marks), scale(at), np.arange(len(at))), [f"{mark:g}" for mark in marks]
+    return np.interp(scale(marks), scale(positions), np.arange(len(positions))), [
+        f"{mark:g}" for mark in marks
+    ]
 
 
 def _label_step(count: int) -> int:
@@ -234,13 +242,13 @@ def _axis_positions(
     return np.array([float(value) / factor for value in values]), None
 
 
-def _is_log(name: str, at: FloatArray) -> bool:
+def _is_log(name: str, values: FloatArray) -> bool:
     """Return whether values are spaced by ratios rather than by steps."""
     parameter = PARAMETERS[name]
     is_log = isinstance(parameter, Quantity) and parameter.scale == "log"
-    if not is_log or len(at) < 3 or float(at.min()) <= 0.0:
+    if not is_log or len(values) < 3 or float(values.min()) <= 0.0:
         return False
-    steps, ratios = np.diff(at), np.diff(np.log(at))
+    steps, ratios = np.diff(values), np.diff(np.log(values))
     return bool(np.std(ratios) / abs(np.mean(ratios)) < np.std(steps) / abs(np.mean(steps)))
 
 

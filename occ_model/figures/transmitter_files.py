@@ -27,43 +27,45 @@ from occ_model.scene.provenance import Provenance
 from occ_model.scene.units import SECOND
 
 
-def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path], str]:
+def write_transmitter_files(folder: Path, transmission: Transmission) -> tuple[list[Path], str]:
     """Write the files into a folder; the scene has the frequency that is actually sent.
 
-    Return their paths, and a sentence why there is no WAV file, or an empty text.
+    Return their paths and a sentence why there is no WAV file, empty if there is one.
     """
-    contents, missing = _contents(folder, sent)
+    contents, no_wav_reason = _contents(folder, transmission)
     make_folder(folder)
     for name, content in contents.items():
         write_whole(folder / name, content)
-    return [folder / name for name in contents], missing
+    return [folder / name for name in contents], no_wav_reason
 
 
-def _contents(folder: Path, sent: Transmission) -> tuple[dict[str, bytes], str]:
-    sketch, table, vcd, wav, pdf, svg, png, scene = file_names(folder, sent.board)
+def _contents(folder: Path, transmission: Transmission) -> tuple[dict[str, bytes], str]:
+    sketch, table, vcd, wav, pdf, svg, png, scene = file_names(folder, transmission.board)
     contents = {
-        sketch: write_sketch(sent).encode("utf-8"),
-        table: table_text((sent.part, *COLUMNS), edge_rows(sent), provenance(sent)).encode("utf-8"),
-        vcd: vcd_text(sent).encode("ascii"),
-        pdf: wiring_bytes(sent, "pdf"),
-        svg: wiring_bytes(sent, "svg"),
-        png: wiring_bytes(sent, "png"),
-        scene: sent.sent_scene.to_toml().encode("utf-8"),
+        sketch: write_sketch(transmission).encode("utf-8"),
+        table: table_text(
+            (transmission.part, *COLUMNS), edge_rows(transmission), provenance(transmission)
+        ).encode("utf-8"),
+        vcd: vcd_text(transmission).encode("ascii"),
+        pdf: wiring_bytes(transmission, "pdf"),
+        svg: wiring_bytes(transmission, "svg"),
+        png: wiring_bytes(transmission, "png"),
+        scene: transmission.sent_scene.to_toml().encode("utf-8"),
     }
     try:
-        contents[wav] = wav_bytes(sent)
+        contents[wav] = wav_bytes(transmission)
     except OutputError as error:
         return contents, str(error)
     return contents, ""
 
 
-def wiring_bytes(sent: Transmission, format_name: str) -> bytes:
+def wiring_bytes(transmission: Transmission, format_name: str) -> bytes:
     with house_style():
-        return figure_bytes(wiring_figure(sent), format_name, provenance(sent))
+        return figure_bytes(wiring_figure(transmission), format_name, provenance(transmission))
 
 
-def provenance(sent: Transmission) -> Provenance:
-    return Provenance(f"Transmitter: {sent.board.title}", {"sent": sent.sent_scene})
+def provenance(transmission: Transmission) -> Provenance:
+    return Provenance(f"Transmitter: {transmission.board.title}", {"sent": transmission.sent_scene})
 
 
 _SIZE = (7.6, 6.0)  # in inches
@@ -71,34 +73,34 @@ _TEXT = 8  # size of the circuits' texts, in points
 _LINE_LENGTH = 116  # characters of a line of the text below the diagram
 
 
-def wiring_figure(sent: Transmission) -> Figure:
+def wiring_figure(transmission: Transmission) -> Figure:
     """Draw the circuit; to be called in :func:`occ_model.figures.drawing.house_style`."""
     figure = Figure(figsize=_SIZE)
-    figure.suptitle(f"{sent.board.title}: wiring", fontweight="bold")
+    figure.suptitle(f"{transmission.board.title}: wiring", fontweight="bold")
     places = figure.subplot_mosaic("AAB;TTT", height_ratios=(3.4, 2.6))
-    written = places["T"]
+    text_axes = places["T"]
     for axes in places.values():
         axes.set_axis_off()
     places["A"].set_title("A: panel, switched as in the paper")
-    _draw_panel(places["A"], sent.board)
+    _draw_panel(places["A"], transmission.board)
     places["B"].set_title("B: a single LED")
-    _draw_led(places["B"], sent.board)
-    written.set_xlim(0, 1)
-    written.set_ylim(0, 1)
-    text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in circuit_notes(sent))
-    written.text(0, 1, text, va="top", ha="left", linespacing=1.35)
+    _draw_led(places["B"], transmission.board)
+    text_axes.set_xlim(0, 1)
+    text_axes.set_ylim(0, 1)
+    text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in circuit_notes(transmission))
+    text_axes.text(0, 1, text, va="top", ha="left", linespacing=1.35)
     return figure
 
 
-def circuit_notes(sent: Transmission) -> list[str]:
+def circuit_notes(transmission: Transmission) -> list[str]:
     """Explain the values of the circuit, and warn of flicker and bright light."""
-    board = sent.board
+    board = transmission.board
     edge = SECOND.format(board.rise_time, 2)
-    if isinstance(sent, LampTransmission):
-        shortest, part, light = sent.timing.lit_time, "the time lit", "light"
+    if isinstance(transmission, LampTransmission):
+        duration, part, light = transmission.timing.lit_time, "the time lit", "light"
     else:
-        shortest, part, light = sent.timing.period, "a chip", "chips"
-    fraction = 100 * board.rise_time / float(shortest)
+        duration, part, light = transmission.timing.period, "a chip", "chips"
+    fraction = 100 * board.rise_time / float(duration)
     return [
         f"A: {board.gate_resistor} Ω limit the current from the pin ({board.volts:g} V) into the "
         f"gate to {1e3 * board.volts / board.gate_resistor:.2g} mA; it may give "
@@ -110,7 +112,7 @@ def circuit_notes(sent: Transmission) -> list[str]:
         f"B, without a panel: {board.led_resistor} Ω give {1e3 * board.led_current:.2g} mA in an "
         f"LED of {LED_VOLTS:g} V (assumed, red); the target is {1e3 * LED_CURRENT:g} mA.",
         "",
-        f"Caution. {flicker_sentence(sent)} {EYES}",
+        f"Caution. {flicker_sentence(transmission)} {EYES}",
     ]
 
 

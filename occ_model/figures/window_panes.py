@@ -62,7 +62,7 @@ class Difference:
     levels: FloatArray
     # The left, right, lower and upper edge of the cells in pixels of the simulated picture
     extent: tuple[float, float, float, float]
-    gain: int  # The factor by which it is multiplied in the drawing; more than 255 is white
+    gain: int  # Factor on the levels in the drawing, where products above 255 are white
 
     @property
     def words(self) -> str:
@@ -78,8 +78,8 @@ class Difference:
         )
 
     def draw(self, ax: Axes) -> None:
-        drawn = np.minimum(self.gain * self.levels, 255.0)
-        ax.imshow(drawn, cmap="gray", vmin=0, vmax=255, extent=self.extent)
+        scaled = np.minimum(self.gain * self.levels, 255.0)
+        ax.imshow(scaled, cmap="gray", vmin=0, vmax=255, extent=self.extent)
 
 
 def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:
@@ -94,13 +94,13 @@ def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, .
     ax.set_ylim(limits[1])
 
 
-MOST_CELLS = 900  # most cells on each side of a printed picture, as print resolves no more
+MOST_CELLS = 900  # most cells on each side of a printed picture; print resolves no more
 
 _PHOTO = "photo, fitted levels"  # with the mean and the contrast of the simulation's profile
 _CAPTION_SIZE = 7  # points, of a caption's letters
 _MIN_HEIGHT = 1.3  # inches, of the figure of a flat picture with the texts above and below it
 
-_AXIS_OF_RESIDUAL = 2.0  # axis of a residual, as a multiple of the limit for most columns
+_AXIS_OF_RESIDUAL = 2.0  # range of the residual's axis, as a multiple of the usual residual
 _FREQUENCY = "switching_frequency"
 _CAPTION_PARAMETERS = ("exposure_time", _FREQUENCY, "readout_time", "distance")
 
@@ -114,12 +114,14 @@ def _caption_values(scene: Scene) -> list[str]:
 
 
 def _caption_value(scene: Scene, name: str) -> str:
-    sent = scene.transmitter
-    if name == _FREQUENCY and (sent.light != "code" or blinking_lamp(sent) is not None):
-        return describe_light(sent)
-    declared = PARAMETERS[name]
-    value = declared.format(scene.value(name))  # type: ignore[arg-type]
-    return f"{declared.in_sentence} {value}"
+    transmitter = scene.transmitter
+    if name == _FREQUENCY and (
+        transmitter.light != "code" or blinking_lamp(transmitter) is not None
+    ):
+        return describe_light(transmitter)
+    parameter = PARAMETERS[name]
+    value = parameter.format(scene.value(name))  # type: ignore[arg-type]
+    return f"{parameter.in_sentence} {value}"
 
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
@@ -149,8 +151,8 @@ def picture_drawing(
     """
     image, name = frame.picture(picture_kind), frame.picture_title(picture_kind)
     cells, size = _average_cells(image)
-    laid = "" if photo is None or layer is None else f"; {layer.words}"
-    title_of_picture = f"{name}{laid}"
+    layer_text = "" if photo is None or layer is None else f"; {layer.words}"
+    title_of_picture = f"{name}{layer_text}"
     difference = layer if isinstance(layer, Difference) else None
 
     def draw() -> Figure:
@@ -167,9 +169,9 @@ def picture_drawing(
                 _label_axes(ax)
             ax.set_title("Photo" if picture is photo else title_of_picture, fontsize=9)
         if photo is not None and isinstance(layer, PhotoLayer):
-            seen = photo[layer.first_row(len(photo)) :]
-            if len(seen):
-                lay_over(axes[0], _average_cells(seen)[0], layer, photo.shape)
+            visible = photo[layer.first_row(len(photo)) :]
+            if len(visible):
+                lay_over(axes[0], _average_cells(visible)[0], layer, photo.shape)
         if region is not None:
             corner = (region.first_column - 0.5, region.first_row - 0.5)
             style: dict[str, Any] = {"fill": False, "linewidth": 1.0, "color": colours.REGION}
@@ -204,12 +206,12 @@ def _cells_drawing(
 
 
 def _average_cells(image: ByteArray) -> tuple[FloatArray, int]:
-    """Average a picture over square cells as small as print resolves; return also their side."""
+    """Average a picture over square cells as small as print resolves; return their side, too."""
     size = -(-max(image.shape) // MOST_CELLS)
     rows, columns = image.shape[0] // size, image.shape[1] // size
-    whole = image[: rows * size, : columns * size]
-    # The mean of each cell: taking one pixel of it would show stripes that are not there.
-    cells = cv2.resize(whole, (columns, rows), interpolation=cv2.INTER_AREA)
+    cropped = image[: rows * size, : columns * size]
+    # Average each cell, since taking one pixel of it would show false stripes.
+    cells = cv2.resize(cropped, (columns, rows), interpolation=cv2.INTER_AREA)
     return np.asarray(cells, dtype=np.float64), size
 
 
@@ -249,28 +251,28 @@ def profile_drawing(  # noqa: PLR0913 - all but two have defaults
         "band model": band,
         _PHOTO: None if comparison is None else _place_profile(comparison, len(frame.profile)),
     }
-    shown = {name: values for name, values in lines.items() if values is not None}
+    profiles = {name: values for name, values in lines.items() if values is not None}
     threshold = None if decoded is None else _place_threshold(simulated, decoded, enhanced)
 
     def draw() -> Figure:
-        figure = _profile_figure(shown, undefined, comparison, columns, enhanced, threshold)
+        figure = _profile_figure(profiles, undefined, comparison, columns, enhanced, threshold)
         write_caption(figure, frame.scene, about)
         return figure
 
     def rows() -> Iterable[tuple[object, ...]]:
-        values = [one.tolist() for one in shown.values()]
+        values = [profile.tolist() for profile in profiles.values()]
         yield from zip(range(len(frame.profile)), *values, strict=True)
 
-    header = ("column", *(f"{name} (grey level)" for name in shown))
-    what = "Column profile after the receiver's enhancement" if enhanced else "Column profile"
-    return Drawing("profile", f"{what}: {_caption_with(frame.scene, about)}", draw, header, rows)
+    header = ("column", *(f"{name} (grey level)" for name in profiles))
+    pane = "Column profile after the receiver's enhancement" if enhanced else "Column profile"
+    return Drawing("profile", f"{pane}: {_caption_with(frame.scene, about)}", draw, header, rows)
 
 
 def _place_threshold(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:
-    between = threshold_levels(simulated, decoded)
-    if between is None or decoded.threshold is None:
+    levels = threshold_levels(simulated, decoded)
+    if levels is None or decoded.threshold is None:
         return None
-    return decoded.threshold if enhanced else sum(between) / 2.0
+    return decoded.threshold if enhanced else sum(levels) / 2.0
 
 
 def _profile_figure(
@@ -303,9 +305,9 @@ def _profile_figure(
         axes[1].plot(column, residual[part], linewidth=0.9, color=colours.PHOTO)
         axes[1].set_ylabel("photo minus\nsimulation")
         message = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
-        shown = max(_AXIS_OF_RESIDUAL * comparison.usual_residual, 1.0)
-        if comparison.largest_residual > shown:
-            axes[1].set_ylim(-shown, shown)
+        axis_limit = max(_AXIS_OF_RESIDUAL * comparison.usual_residual, 1.0)
+        if comparison.largest_residual > axis_limit:
+            axes[1].set_ylim(-axis_limit, axis_limit)
             message += f", at most {comparison.largest_residual:.0f}, beyond the axis"
         axes[1].set_title(message, fontsize=8)
     axes[-1].set_xlabel("column")
@@ -315,7 +317,7 @@ def _profile_figure(
 
 def _place_profile(comparison: Comparison, columns: int) -> FloatArray:
     """Place a photo's profile among all columns of the simulation, with NaN outside it."""
-    placed = np.full(columns, np.nan)
+    profile = np.full(columns, np.nan)
     first = comparison.first_column
-    placed[first : first + len(comparison.photo)] = comparison.photo
-    return placed
+    profile[first : first + len(comparison.photo)] = comparison.photo
+    return profile

@@ -56,7 +56,7 @@ class SceneInWindow(QObject):
         simulation.picture_ready.connect(parts.results_store.show_picture)
         simulation.snapshot_shown.connect(self._on_snapshot)
         simulation.failed_for.connect(parts.messages.say_failure)
-        simulation.failed.connect(parts.pins.give_up)
+        simulation.failed.connect(parts.pins.cancel_waiting)
         simulation.defer_while(self._is_map_awaited)
 
     def _is_map_awaited(self) -> bool:

@@ -65,7 +65,7 @@ def story_menu(parts: Parts) -> QMenu:
 
 
 def _before_button(pane: "PicturesPane") -> QAbstractButton:
-    return pane.view.before.chosen
+    return pane.view.before.checkbox
 
 
 class _VerdictChoice(QObject):

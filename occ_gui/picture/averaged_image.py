@@ -1,4 +1,4 @@
-"""Image item that averages the pixels under each screen pixel, which avoids false stripes."""
+"""Image item that averages the pixels under each screen pixel, which avoids aliasing."""
 
 import math
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from occ_gui.simulation.snapshot import halve
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
-_LEAST_WIDTH = 1.3  # least width of a pixel with its value in it, relative to the widest value
+_LEAST_WIDTH = 1.3  # smallest width of a pixel that shows its value, relative to the widest text
 _WIDEST_TEXT = "255"
 _MAX_VALUES = 5000  # most values that are written: no screen has room for more
 _MIDDLE_GREY = 128
@@ -23,9 +23,9 @@ _MIDDLE_GREY = 128
 class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
     """A grey image that shows the mean of the image pixels under each screen pixel.
 
-    Image items of pyqtgraph show one of these pixels instead, which turns fine stripes into coarse
-    ones that do not exist. An image pixel that is larger than a screen pixel is drawn as a
-    rectangle; ``with_values`` writes its grey level into it where there is room.
+    Image items of pyqtgraph show only one of these pixels, so that fine stripes alias to coarse
+    ones. An image pixel that is larger than a screen pixel is drawn as a rectangle;
+    ``with_values`` writes its grey level into it if there is room.
     """
 
     def __init__(self, *, with_values: bool = False) -> None:
@@ -35,7 +35,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self.halves: tuple[ByteArray, ...] = ()
         self._rect = QRectF()
         self._first_row, self._last_column = -math.inf, math.inf
-        self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
+        self._cache: tuple[QRect, tuple[int, int], QImage] | None = None
 
     def set_image(
         self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
@@ -51,7 +51,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             self.prepareGeometryChange()
             self._rect = rect
         self.image, self.halves = image, tuple(halves)
-        self._drawn = None
+        self._cache = None
         self.update()
 
     def show_within(self, first_row: float = -math.inf, last_column: float = math.inf) -> None:
@@ -67,38 +67,38 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     def paint(
         self, painter: QPainter, _option: QStyleOptionGraphicsItem, _widget: QWidget | None = None
     ) -> None:
-        part, shown = self._visible_part(), QRectF(self._rect)
-        shown.setTop(max(shown.top(), self._first_row))
-        shown.setRight(min(shown.right(), self._last_column))
-        if part.isEmpty() or shown.isEmpty():
+        part, clip = self._visible_part(), QRectF(self._rect)
+        clip.setTop(max(clip.top(), self._first_row))
+        clip.setRight(min(clip.right(), self._last_column))
+        if part.isEmpty() or clip.isEmpty():
             return
-        target = self._place_of_part(part)
+        target = self._rect_of_part(part)
         on_screen = painter.deviceTransform().mapRect(target)
         size = (max(1, math.ceil(on_screen.width())), max(1, math.ceil(on_screen.height())))
-        if self._drawn is None or self._drawn[:2] != (part, size):
-            self._drawn = (part, size, self._average(part, size))
+        if self._cache is None or self._cache[:2] != (part, size):
+            self._cache = (part, size, self._average(part, size))
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
-        if shown != self._rect:
-            painter.setClipRect(shown, Qt.ClipOperation.IntersectClip)
-        painter.drawImage(target, self._drawn[2])
+        if clip != self._rect:
+            painter.setClipRect(clip, Qt.ClipOperation.IntersectClip)
+        painter.drawImage(target, self._cache[2])
         if self._with_values:
             _draw_values(painter, self.image, part, target)
 
     def _visible_part(self) -> QRect:
         rows, columns = self.image.shape
         view = self.viewRect()
-        seen = QRectF() if view is None else view.intersected(self._rect)
-        if seen.isEmpty():
+        visible = QRectF() if view is None else view.intersected(self._rect)
+        if visible.isEmpty():
             return QRect()
         x_scale, y_scale = columns / self._rect.width(), rows / self._rect.height()
-        left = math.floor((seen.left() - self._rect.left()) * x_scale)
-        top = math.floor((seen.top() - self._rect.top()) * y_scale)
-        right = math.ceil((seen.right() - self._rect.left()) * x_scale)
-        bottom = math.ceil((seen.bottom() - self._rect.top()) * y_scale)
-        whole = QRect(0, 0, columns, rows)
-        return QRect(left, top, right - left, bottom - top).intersected(whole)
+        left = math.floor((visible.left() - self._rect.left()) * x_scale)
+        top = math.floor((visible.top() - self._rect.top()) * y_scale)
+        right = math.ceil((visible.right() - self._rect.left()) * x_scale)
+        bottom = math.ceil((visible.bottom() - self._rect.top()) * y_scale)
+        full_image = QRect(0, 0, columns, rows)
+        return QRect(left, top, right - left, bottom - top).intersected(full_image)
 
-    def _place_of_part(self, part: QRect) -> QRectF:
+    def _rect_of_part(self, part: QRect) -> QRectF:
         rows, columns = self.image.shape
         x_scale, y_scale = self._rect.width() / columns, self._rect.height() / rows
         return QRectF(
@@ -123,8 +123,10 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
 
     def _choose_smallest(self, columns: int, rows: int) -> ByteArray:
         """Return the smallest of the image and its halves with at least this many pixels."""
-        large = [h for h in self.halves if h.shape[0] >= rows and h.shape[1] >= columns]
-        return large[-1] if large else self.image
+        candidates = [
+            half for half in self.halves if half.shape[0] >= rows and half.shape[1] >= columns
+        ]
+        return candidates[-1] if candidates else self.image
 
 
 def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
@@ -144,8 +146,8 @@ def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
 def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> None:
     """Write the grey levels of some pixels into them, if they are large enough."""
     to_screen = painter.worldTransform()
-    place = to_screen.mapRect(target)
-    width, height = place.width() / part.width(), place.height() / part.height()
+    on_screen = to_screen.mapRect(target)
+    width, height = on_screen.width() / part.width(), on_screen.height() / part.height()
     metrics = QFontMetricsF(painter.font())
     least = _LEAST_WIDTH * metrics.horizontalAdvance(_WIDEST_TEXT)
     is_crowded = part.width() * part.height() > _MAX_VALUES
@@ -153,13 +155,15 @@ def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRect
         return
     painter.save()
     painter.setWorldTransform(QTransform())
-    flipped = to_screen.m22() < 0.0
+    is_flipped = to_screen.m22() < 0.0
     for row in range(part.height()):
-        line = part.height() - 1 - row if flipped else row
+        screen_row = part.height() - 1 - row if is_flipped else row
         for column in range(part.width()):
             level = int(image[part.top() + row, part.left() + column])
             painter.setPen(Qt.GlobalColor.black if level >= _MIDDLE_GREY else Qt.GlobalColor.white)
-            corner = QPointF(place.left() + column * width, place.top() + line * height)
+            corner = QPointF(
+                on_screen.left() + column * width, on_screen.top() + screen_row * height
+            )
             box = QRectF(corner.x(), corner.y(), width, height)
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(level))
     painter.restore()

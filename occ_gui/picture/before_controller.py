@@ -1,4 +1,4 @@
-"""Controller of the comparison with before: keeps the results from before the latest step."""
+"""Controller that keeps the results from before the latest step, to compare with them."""
 
 from collections.abc import Callable
 
@@ -15,29 +15,29 @@ class BeforeController(QObject):
 
     def __init__(self, store: Store, show: Callable[[Snapshot], None]) -> None:
         super().__init__()
-        self._store, self._tell = store, show
-        self._wanted: Scene | None = None
-        self._shown: Snapshot | None = None
+        self._store, self._show_before = store, show
+        self._awaited_scene: Scene | None = None
+        self._shown_snapshot: Snapshot | None = None
         self.before: Snapshot | None = None
         store.step_begun.connect(self._begin_step)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        self._shown = snapshot
-        # A gesture can begin before the picture of the scene that it changes is shown.
+        self._shown_snapshot = snapshot
+        # A gesture can change a scene before the picture of that scene is shown.
         before = self.before
-        if snapshot.frame.scene == self._wanted and before is not None:
-            if before.frame.scene != self._wanted:
-                self._show(snapshot)
-            self._wanted = None
+        if snapshot.frame.scene == self._awaited_scene and before is not None:
+            if before.frame.scene != self._awaited_scene:
+                self._keep(snapshot)
+            self._awaited_scene = None
 
-    def _begin_step(self, left: Workspace) -> None:
+    def _begin_step(self, previous: Workspace) -> None:
         now = self._store.workspace
-        if (left.scene, left.settings) == (now.scene, now.settings):
+        if (previous.scene, previous.settings) == (now.scene, now.settings):
             return  # the step does not change the picture
-        self._wanted = left.scene
-        if self._shown is not None:
-            self._show(self._shown)
+        self._awaited_scene = previous.scene
+        if self._shown_snapshot is not None:
+            self._keep(self._shown_snapshot)
 
-    def _show(self, snapshot: Snapshot) -> None:
+    def _keep(self, snapshot: Snapshot) -> None:
         self.before = snapshot
-        self._tell(snapshot)
+        self._show_before(snapshot)

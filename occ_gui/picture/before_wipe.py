@@ -31,19 +31,19 @@ class BeforeWipe(QObject):
         self.picture = AveragedImage()
         self.line = pg.InfiniteLine(angle=90, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._follow_line)
-        self._names = (
+        self._labels = (
             pg.TextItem("before", color=_INK, fill=_PAPER, anchor=(1.0, 0.0)),
             pg.TextItem("now", color=_INK, fill=_PAPER, anchor=(0.0, 0.0)),
         )
         # Above the current picture, below a photo that lies on it.
-        for depth, item in enumerate((self.picture, self.line, *self._names)):
+        for depth, item in enumerate((self.picture, self.line, *self._labels)):
             item.setZValue(5 + depth)
             item.hide()
             box.addItem(item, ignoreBounds=True)
         self._make_controls()
 
     def _make_controls(self) -> None:
-        self.chosen = check_box(
+        self.checkbox = check_box(
             "Before",
             "Show the picture before the latest change to the left of a line, and the present "
             "picture to the right of it. The line can be dragged.",
@@ -58,32 +58,32 @@ class BeforeWipe(QObject):
         self.slider.valueChanged.connect(self._follow_slider)
         self.slider.hide()
         self.controls = QWidget()
-        fill(QHBoxLayout(self.controls), self.slider, self.chosen, margins=0)
+        fill(QHBoxLayout(self.controls), self.slider, self.checkbox, margins=0)
 
     def show_before(self, snapshot: Snapshot) -> None:
         self._frame = snapshot.frame
-        self._take_picture()
+        self._update_picture()
 
     def choose_picture(self, picture_kind: str) -> None:
         self._picture_kind = picture_kind
-        self._take_picture()
+        self._update_picture()
 
-    def _take_picture(self) -> None:
+    def _update_picture(self) -> None:
         self._image = None if self._frame is None else self._frame.picture(self._picture_kind)
-        if self.chosen.isChecked():
+        if self.checkbox.isChecked():
             self._arrange()
 
     def _arrange(self) -> None:
-        image, shown = self._image, self.chosen.isChecked()
-        self.slider.setVisible(shown)
-        for item in (self.picture, self.line, *self._names):
-            item.setVisible(shown and image is not None)
-        if shown and image is not None:
+        image, is_on = self._image, self.checkbox.isChecked()
+        self.slider.setVisible(is_on)
+        for item in (self.picture, self.line, *self._labels):
+            item.setVisible(is_on and image is not None)
+        if is_on and image is not None:
             self.picture.set_image(image)
             self.line.setBounds((-0.5, image.shape[1] - 0.5))
-            self._place()
+            self._place_line()
 
-    def _place(self) -> None:
+    def _place_line(self) -> None:
         """Place the line and the labels at the chosen fraction of the width."""
         if self._image is None:
             return
@@ -92,14 +92,14 @@ class BeforeWipe(QObject):
             self.line.setValue(column)
             self.slider.setValue(round(self._fraction * _SLIDER_STEPS))
         self.picture.show_within(last_column=column)
-        for name in self._names:
-            name.setPos(column, -0.5)
+        for label in self._labels:
+            label.setPos(column, -0.5)
 
     def _follow_line(self) -> None:
         if self._image is not None:
             self._fraction = (float(self.line.value()) + 0.5) / self._image.shape[1]
-            self._place()
+            self._place_line()
 
-    def _follow_slider(self, percent: int) -> None:
-        self._fraction = percent / _SLIDER_STEPS
-        self._place()
+    def _follow_slider(self, position: int) -> None:
+        self._fraction = position / _SLIDER_STEPS
+        self._place_line()

@@ -28,7 +28,7 @@ _MODES = {
     "split": "Split",
     "difference": "Difference",
 }
-_MEANINGS = (
+_MODE_MEANINGS = (
     "Side by side: each picture in its own view.\n"
     "Blended: the photo over the simulation, with the opacity of the slider.\n"
     "Split: the simulation above a line that can be dragged, the photo below it; matching "
@@ -70,7 +70,7 @@ class ImageView(QWidget):
         panes.setChildrenCollapsible(False)
         panes.setSizes([500, 500])
         self._make_controls()
-        fill(QVBoxLayout(self), (panes, 1), self._row, margins=4)
+        fill(QVBoxLayout(self), (panes, 1), self._controls_row, margins=4)
         self._arrange()
 
     def _make_switch(self) -> None:
@@ -84,7 +84,7 @@ class ImageView(QWidget):
         self.switch.chosen.connect(self.choose_picture)
 
     def _make_controls(self) -> None:
-        self.mode = KeyedComboBox("How photo and simulation are shown", _MEANINGS, _MODES)
+        self.mode = KeyedComboBox("How photo and simulation are shown", _MODE_MEANINGS, _MODES)
         # The words must not be cut off, because some begin alike.
         self.mode.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.mode.chosen.connect(self.mode_chosen)
@@ -104,8 +104,9 @@ class ImageView(QWidget):
         self.gain.setMinimumContentsLength(len(f"× {max(_GAINS)}"))  # noqa: RUF001
         self.overlay.difference.set_gain(_FIRST_GAIN)
         self.gain.chosen.connect(self._set_gain)
-        self._row = QWidget()
-        fill(QHBoxLayout(self._row), self.mode, (self.opacity, 2), self.gain, (None, 1), margins=0)
+        self._controls_row = QWidget()
+        row = QHBoxLayout(self._controls_row)
+        fill(row, self.mode, (self.opacity, 2), self.gain, (None, 1), margins=0)
 
     def _caption(self) -> str:
         frame, mode = self.frame, self._mode
@@ -144,8 +145,8 @@ class ImageView(QWidget):
         if frame.rows_step == 1:
             self.overlay.set_simulated(image)
         elif self.shown_photo is not None:
-            whole = np.repeat(image, frame.rows_step, axis=0)[: frame.scene.camera.rows]
-            self.overlay.set_simulated(whole)
+            full_image = np.repeat(image, frame.rows_step, axis=0)[: frame.scene.camera.rows]
+            self.overlay.set_simulated(full_image)
         self._show_caption()
 
     def rows_per_pixel(self) -> float:
@@ -201,9 +202,9 @@ class ImageView(QWidget):
         self.photo.fit()
 
     def _arrange(self) -> None:
-        there = self.shown_photo is not None
-        self.photo.setVisible(there and self._mode == "beside")
-        self._row.setVisible(there)
+        has_photo = self.shown_photo is not None
+        self.photo.setVisible(has_photo and self._mode == "beside")
+        self._controls_row.setVisible(has_photo)
         self.opacity.setVisible(self._mode == "blend")
         self.gain.setVisible(self._mode == "difference")
         self._show_caption()

@@ -40,7 +40,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
     """The absolute difference of two images where they overlap, black where they are equal.
 
     Both images are first averaged over the pixels of the screen, so that only the visible part is
-    computed and stripes finer than a screen pixel do not appear as coarser ones.
+    computed and stripes finer than a screen pixel are not aliased.
     """
 
     def __init__(self) -> None:
@@ -83,9 +83,9 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         painter.drawImage(grid, image)
 
     def _average(self, layer: int, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
-        known = self._means.get(layer)
-        if known is not None and known[:2] == (grid, shape):
-            return known[2]
+        cached = self._means.get(layer)
+        if cached is not None and cached[:2] == (grid, shape):
+            return cached[2]
         means = cell_means(*self._layers[layer], grid, shape)
         self._means[layer] = (QRectF(grid), shape, means)
         return means
@@ -94,7 +94,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArray, QRectF] | None:
     """Return the absolute difference of two images in grey levels, and their common rectangle.
 
-    It is averaged over at most ``most`` cells a side, none smaller than a unit of the rectangles.
+    It is averaged over at most ``most`` cells per side, each at least one unit of the rectangles.
     Returns None if the images do not overlap.
     """
     grid = first[1].intersected(second[1])
@@ -109,7 +109,7 @@ def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, i
     """Average an image over the cells of a grid of this shape, in grey levels.
 
     Each cell is the exact mean of the pixels under it, weighted by the common area, so that images
-    of different sizes are compared without false stripes.
+    of different sizes are compared without aliasing.
     """
     rows, columns = image.shape
     x = _edges(grid.left() - rect.left(), grid.width(), columns / rect.width(), shape[1], columns)
@@ -118,7 +118,7 @@ def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, i
     left, top = min(int(x[0]), columns - 1), min(int(y[0]), rows - 1)
     right, bottom = max(int(np.ceil(x[-1])), left + 1), max(int(np.ceil(y[-1])), top + 1)
     pixels = image[top:bottom, left:right]
-    pixels, x, y = _halve(pixels, x - left, y - top)
+    pixels, x, y = _halve_while_fine(pixels, x - left, y - top)
     # The running integral is bilinear within each pixel, so this interpolation is exact.
     integral = cv2.integral(np.ascontiguousarray(pixels), sdepth=cv2.CV_64F)
     total = _interpolate(_interpolate(np.asarray(integral, dtype=np.float64), y).T, x).T
@@ -132,24 +132,24 @@ def _edges(start: float, width: float, scale: float, cells: int, pixels: int) ->
     return np.asarray(np.clip(edges, 0.0, pixels), dtype=np.float64)
 
 
-def _halve(
+def _halve_while_fine(
     pixels: ByteArray, x: FloatArray, y: FloatArray
 ) -> tuple[ByteArray, FloatArray, FloatArray]:
     """Halve an image, which is fast, while a cell spans at least four of its pixels."""
-    while min(_span(x), _span(y)) >= 4.0 and min(pixels.shape) >= 2:
+    while min(_mean_cell_size(x), _mean_cell_size(y)) >= 4.0 and min(pixels.shape) >= 2:
         pixels = halve(pixels)
         rows, columns = pixels.shape
         x, y = np.minimum(x / 2, columns), np.minimum(y / 2, rows)
     return pixels, x, y
 
 
-def _span(edges: FloatArray) -> float:
+def _mean_cell_size(edges: FloatArray) -> float:
     return float(edges[-1] - edges[0]) / (len(edges) - 1)
 
 
-def _interpolate(values: FloatArray, places: FloatArray) -> FloatArray:
-    below = np.minimum(places.astype(np.intp), len(values) - 2)
-    fraction = (places - below)[:, None]
+def _interpolate(values: FloatArray, positions: FloatArray) -> FloatArray:
+    below = np.minimum(positions.astype(np.intp), len(values) - 2)
+    fraction = (positions - below)[:, None]
     return np.asarray(
         values[below] * (1 - fraction) + values[below + 1] * fraction, dtype=np.float64
     )
@@ -166,18 +166,18 @@ class PhotoOverlay(QObject):
         self._photo: ByteArray | None = None
         self.placement = Placement()
         self.mode = MODES[0]
-        self._movable = False
-        self._updating_frame = False
-        self._over, self.difference = AveragedImage(), DifferenceImage()
+        self._is_movable = False
+        self._is_updating_frame = False
+        self._photo_item, self.difference = AveragedImage(), DifferenceImage()
         self.line = pg.InfiniteLine(angle=0, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._split)
-        self.line.sigDragged.connect(self._keep_line)
+        self.line.sigDragged.connect(self._release_line)
         self._line_is_centred = True
         self.frame = pg.ROI((0, 0), (1, 1), pen=_FRAME_PEN, rotatable=False)
         self.frame.addScaleHandle((1, 1), (0, 0), lockAspect=True)
         self.frame.addScaleHandle((0, 0), (1, 1), lockAspect=True)
         self.frame.sigRegionChanged.connect(self._follow_frame)
-        for depth, item in enumerate((self._over, self.difference, self.line, self.frame)):
+        for depth, item in enumerate((self._photo_item, self.difference, self.line, self.frame)):
             item.setZValue(10 + depth)
             box.addItem(item, ignoreBounds=True)
         self.opacity = 0.5
@@ -208,7 +208,7 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_movable(self, movable: bool) -> None:
-        self._movable = movable
+        self._is_movable = movable
         self._arrange()
 
     @property
@@ -217,38 +217,38 @@ class PhotoOverlay(QObject):
 
     def _arrange(self) -> None:
         photo = self._photo
-        over = photo is not None and self.mode != "beside"
-        self._over.setVisible(over and self.mode != "difference")
-        self._over.setOpacity(self.opacity if self.mode == "blend" else 1.0)
-        self.line.setVisible(over and self.mode == "split")
-        self.difference.setVisible(over and self.mode == "difference")
-        self.frame.setVisible(over and self._movable)
-        if photo is None or not over:
+        is_over = photo is not None and self.mode != "beside"
+        self._photo_item.setVisible(is_over and self.mode != "difference")
+        self._photo_item.setOpacity(self.opacity if self.mode == "blend" else 1.0)
+        self.line.setVisible(is_over and self.mode == "split")
+        self.difference.setVisible(is_over and self.mode == "difference")
+        self.frame.setVisible(is_over and self._is_movable)
+        if photo is None or not is_over:
             return
         rect = rect_of(photo, self.placement)
-        self._over.set_image(photo, rect)
+        self._photo_item.set_image(photo, rect)
         if self._line_is_centred:
             self.line.setValue(rect.center().y())
         self._split()
         if self.mode == "difference":
             self.difference.set_image(1, photo, rect)
             self._compare()
-        self._updating_frame = True
+        self._is_updating_frame = True
         self.frame.setPos(rect.topLeft(), update=False)
         self.frame.setSize((rect.width(), rect.height()))
-        self._updating_frame = False
+        self._is_updating_frame = False
 
     def _compare(self) -> None:
         self.difference.set_image(0, self.simulated, rect_of(self.simulated, Placement()))
 
     def _split(self) -> None:
-        self._over.show_within(self.line.value() if self.mode == "split" else -math.inf)
+        self._photo_item.show_within(self.line.value() if self.mode == "split" else -math.inf)
 
-    def _keep_line(self) -> None:
+    def _release_line(self) -> None:
         self._line_is_centred = False
 
     def _follow_frame(self) -> None:
-        if self._updating_frame or self._photo is None:
+        if self._is_updating_frame or self._photo is None:
             return
         corner: QPointF = self.frame.pos()
         scale = float(self.frame.size().x()) / self._photo.shape[1]

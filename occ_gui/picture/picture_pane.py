@@ -57,9 +57,13 @@ class PicturePane(QWidget):
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows * rows_step)
         self._picture.set_image(image, rect, halves)
-        before, self._image = self._image, image
-        step, self._rows_step = self._rows_step, rows_step
-        if before is None or before.shape[1] != columns or _differ(before, step, image, rows_step):
+        last_image, self._image = self._image, image
+        last_step, self._rows_step = self._rows_step, rows_step
+        if (
+            last_image is None
+            or last_image.shape[1] != columns
+            or _differ_in_height(last_image, last_step, image, rows_step)
+        ):
             self.fit()
 
     def rows_per_pixel(self) -> float:
@@ -92,7 +96,9 @@ class PicturePane(QWidget):
         self.box.setRange(self._picture.boundingRect(), padding=0.01)
 
 
-def _differ(one: ByteArray, step: int, other: ByteArray, other_step: int) -> bool:
+def _differ_in_height(
+    first: ByteArray, first_step: int, second: ByteArray, second_step: int
+) -> bool:
     """Return whether two pictures differ in height, beyond the last row of a draft."""
-    difference: int = abs(one.shape[0] * step - other.shape[0] * other_step)
-    return difference >= max(step, other_step)
+    difference: int = abs(first.shape[0] * first_step - second.shape[0] * second_step)
+    return difference >= max(first_step, second_step)

@@ -20,7 +20,7 @@ from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.plot import LineLegend, new_plot
 
-_LEAST_TABLE = 250
+_LEAST_TABLE_WIDTH = 250  # pixels
 
 
 class CompareView(QWidget):
@@ -34,9 +34,9 @@ class CompareView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._pinned = PinnedPair()
-        self._drawn: PinnedPair | None = None
+        self._drawn_pair: PinnedPair | None = None
         self._is_visible = False
-        self.pins = {
+        self.pin_buttons = {
             name: push_button(
                 f"Pin {name}",
                 f"Keep the present scene as {name}, to compare it (Ctrl+Shift+{name}).",
@@ -44,7 +44,7 @@ class CompareView(QWidget):
             )
             for name in ("A", "B")
         }
-        self.returns = {
+        self.return_buttons = {
             name: push_button(
                 f"Take me to {name}",
                 f"Return to the scene of {name}, as one step that can be undone.",
@@ -65,7 +65,7 @@ class CompareView(QWidget):
         self.table.setHorizontalHeaderLabels(["Difference", "A", "B"])
         # A row with a long sentence can be higher than the table.
         self.table.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
-        self.table.setMinimumWidth(_LEAST_TABLE)
+        self.table.setMinimumWidth(_LEAST_TABLE_WIDTH)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         for column in (1, 2):
@@ -93,7 +93,9 @@ class CompareView(QWidget):
         self.curves = {name: self.plot.add_curve(pen) for name, pen in pens.items()}
 
     def _lay_out(self) -> None:
-        buttons = (each[name] for name in ("A", "B") for each in (self.pins, self.returns))
+        buttons = (
+            group[name] for name in ("A", "B") for group in (self.pin_buttons, self.return_buttons)
+        )
         row = fill(QHBoxLayout(), *buttons, self.clear, (None, 1), self.legend)
         panes = self._panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.table)
@@ -104,7 +106,7 @@ class CompareView(QWidget):
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible
-        if visible and self._drawn is not self._pinned:
+        if visible and self._drawn_pair is not self._pinned:
             self._redraw()
 
     def show_pinned(self, pinned: PinnedPair) -> None:
@@ -113,21 +115,21 @@ class CompareView(QWidget):
             self._redraw()
 
     def _redraw(self) -> None:
-        pinned = self._drawn = self._pinned
+        pinned = self._drawn_pair = self._pinned
         pins: dict[str, Pin | None] = {"A": pinned.a, "B": pinned.b}
         for name, pin in pins.items():
-            self.returns[name].setEnabled(pin is not None)
+            self.return_buttons[name].setEnabled(pin is not None)
             self.legend.show_line(name, pin is not None)
             self.curves[name].setData([] if pin is None else pin.profile)
-        present = [pin for pin in pins.values() if pin is not None]
-        self.clear.setEnabled(bool(present))
+        existing = [pin for pin in pins.values() if pin is not None]
+        self.clear.setEnabled(bool(existing))
         self.hint.setText(self._describe_next_step(pinned))
         self.hint.setVisible(bool(self.hint.text()))
-        self._panes.setVisible(bool(present))
-        self.table.setVisible(len(present) == len(pins))
+        self._panes.setVisible(bool(existing))
+        self.table.setVisible(len(existing) == len(pins))
         self._fill(pinned)
-        if present:
-            self._fit(present)
+        if existing:
+            self._fit_ranges(existing)
 
     def _describe_next_step(self, pinned: PinnedPair) -> str:
         if pinned.a is None and pinned.b is None:
@@ -137,10 +139,10 @@ class CompareView(QWidget):
             )
         if pinned.a is None or pinned.b is None:
             name = "A" if pinned.a is None else "B"
-            kept = "B" if name == "A" else "A"
+            pinned_name = "B" if name == "A" else "A"
             return (
-                f"{kept} is kept. Change the scene with the sliders, and press Pin {name}: the "
-                "differences are listed here."
+                f"{pinned_name} is pinned. Change the scene with the sliders, and press Pin "
+                f"{name}: the differences are listed here."
             )
         return "" if pinned.inputs else "A and B are the same scene."
 
@@ -156,27 +158,27 @@ class CompareView(QWidget):
         self.table.resizeRowsToContents()
 
     def _add_title(self, title: str) -> None:
-        place = self.table.rowCount()
-        self.table.insertRow(place)
+        row = self.table.rowCount()
+        self.table.insertRow(row)
         item = QTableWidgetItem(title)
         font = item.font()
         font.setBold(True)
         item.setFont(font)
         item.setFlags(Qt.ItemFlag.ItemIsEnabled)
-        self.table.setItem(place, 0, item)
-        self.table.setSpan(place, 0, 1, 3)
+        self.table.setItem(row, 0, item)
+        self.table.setSpan(row, 0, 1, 3)
 
     def _add_row(self, row: DifferenceRow) -> None:
-        place = self.table.rowCount()
-        self.table.insertRow(place)
-        for column, text in enumerate((row.what, row.a, row.b)):
+        index = self.table.rowCount()
+        self.table.insertRow(index)
+        for column, text in enumerate((row.name, row.a, row.b)):
             item = QTableWidgetItem(text)
             item.setToolTip(in_tool_tip(row.meaning if column == 0 else text))
             item.setTextAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
-            self.table.setItem(place, column, item)
+            self.table.setItem(index, column, item)
 
-    def _fit(self, pins: list[Pin]) -> None:
-        """Set the ranges to the first packets of both scenes, and to their levels from black."""
+    def _fit_ranges(self, pins: list[Pin]) -> None:
+        """Show the first packets of both scenes, and levels from black to the largest."""
         first = min(pin.first_column for pin in pins)
         last = max(pin.first_column + PACKETS_IN_VIEW * pin.period_columns for pin in pins)
         last = min(last, max(len(pin.profile) - 1.0 for pin in pins))

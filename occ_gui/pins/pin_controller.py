@@ -33,7 +33,7 @@ class Pin:
     # The first column of the panel, and the columns of one period of the signal sent
     first_column: float
     period_columns: float
-    outputs: tuple[tuple[str, str, str], ...]
+    outputs: tuple[tuple[str, str, str], ...]  # the name, text and meaning of each
 
     @property
     def scene(self) -> Scene:
@@ -46,7 +46,7 @@ class Pin:
 
 @dataclass(frozen=True, slots=True)
 class DifferenceRow:
-    what: str
+    name: str
     a: str
     b: str
     meaning: str
@@ -78,46 +78,48 @@ class PinController(QObject):
     ) -> None:
         super().__init__()
         self._is_present = is_present
-        self._waiting = ""
+        self._waiting_name = ""
         self._scenes, self._store = scenes, scenes.store
         self._snapshot: Snapshot | None = None
-        self._found: dict[str, Pin] = {}
+        self._pins: dict[str, Pin] = {}
         self._may_simulate = False
         self.pinned = PinnedPair()
         self.runner: Task[dict[str, SimulationRequest], None] = Task(
             _simulate_all, "comparison", impatient=True
         )
-        self.runner.reported.connect(self._take)
+        self.runner.reported.connect(self._take_snapshot)
         self.runner.finished.connect(self._forget_missing)
         self.runner.failed.connect(self._forget_missing)
-        self._store.select(lambda workspace: workspace.pins).changed.connect(self._on_pins)
+        self._store.select(lambda workspace: workspace.pins).changed.connect(self._follow_pins)
 
     @property
-    def _kept(self) -> dict[str, PinnedScene]:
+    def _pinned_scenes(self) -> dict[str, PinnedScene]:
         pins = zip(_NAMES, self._store.workspace.pins, strict=True)
         return {name: pin for name, pin in pins if pin is not None}
 
     @property
     def _missing(self) -> dict[str, SimulationRequest]:
         """Pins from an earlier session that are not simulated yet."""
-        return {name: pin.request for name, pin in self._kept.items() if name not in self._found}
+        return {
+            name: pin.request for name, pin in self._pinned_scenes.items() if name not in self._pins
+        }
 
     @property
     def is_idle(self) -> bool:
         return not self._missing
 
-    def _keep(self, name: str, pin: PinnedScene | None) -> None:
+    def _store_pin(self, name: str, pin: PinnedScene | None) -> None:
         workspace = self._store.workspace
         a, b = workspace.pins
         pins = (pin, b) if name == "A" else (a, pin)
         self._store.put(replace(workspace, pins=pins))
 
-    def _on_pins(self, _pins: Pins) -> None:
-        kept = self._kept
-        self._found = {
+    def _follow_pins(self, _pins: Pins) -> None:
+        scenes = self._pinned_scenes
+        self._pins = {
             name: pin
-            for name, pin in self._found.items()
-            if name in kept and kept[name].request == pin.request
+            for name, pin in self._pins.items()
+            if name in scenes and scenes[name].request == pin.request
         }
         self._compare()
         self._simulate()
@@ -127,29 +129,29 @@ class PinController(QObject):
         if self._missing and self._may_simulate and self.runner.is_idle:
             self.runner.ask(self._missing)
 
-    def _take(self, result: tuple[str, Snapshot]) -> None:
+    def _take_snapshot(self, result: tuple[str, Snapshot]) -> None:
         name, snapshot = result
         if self._missing.get(name) == snapshot.request:
-            self._found[name] = self._pin_of(snapshot)
+            self._pins[name] = self._pin_of(snapshot)
             self._compare()
 
     def _forget_missing(self, _result: object) -> None:
         for name in self._missing:
-            self._keep(name, None)
+            self._store_pin(name, None)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Use these results for the next pin, or for a pin that waits for them."""
         self._snapshot, self._may_simulate = snapshot, True
         self._simulate()
-        if self._waiting and self._is_present(snapshot):
-            self.pin(self._waiting)
+        if self._waiting_name and self._is_present(snapshot):
+            self.pin(self._waiting_name)
 
-    def give_up(self) -> None:
+    def cancel_waiting(self) -> None:
         """Cancel a waiting pin, because the present scene has no picture."""
         self._may_simulate = True
         self._simulate()
-        if self._waiting:
-            name, self._waiting = self._waiting, ""
+        if self._waiting_name:
+            name, self._waiting_name = self._waiting_name, ""
             self.status_message.emit(f"{name} is not pinned: this scene has no picture.")
 
     def pin(self, name: str) -> None:
@@ -158,15 +160,15 @@ class PinController(QObject):
             self.status_message.emit("There is no picture to pin yet.")
             return
         if not self._is_present(snapshot):
-            self._waiting = name
+            self._waiting_name = name
             self.status_message.emit(f"{name} will be pinned as soon as this scene is computed.")
             return
-        self._waiting = ""
-        self._found[name] = self._pin_of(snapshot)
-        self._keep(name, PinnedScene(snapshot.request, self._store.workspace.preset))
+        self._waiting_name = ""
+        self._pins[name] = self._pin_of(snapshot)
+        self._store_pin(name, PinnedScene(snapshot.request, self._store.workspace.preset))
         self._compare()
         pinned = f"Pinned the present scene as {name}"
-        if len(self._found) < len(_NAMES):
+        if len(self._pins) < len(_NAMES):
             other = "B" if name == "A" else "A"
             self.status_message.emit(f"{pinned}. Change it, and pin it as {other}.")
             return
@@ -179,7 +181,7 @@ class PinController(QObject):
 
     def go_to(self, name: str) -> None:
         """Replace the scene by that of A or B, as one undo step."""
-        pin = self._kept.get(name)
+        pin = self._pinned_scenes.get(name)
         if pin is None:
             self.status_message.emit(f"Nothing is pinned as {name} yet.")
             return
@@ -188,7 +190,7 @@ class PinController(QObject):
         self._scenes.put(scene, title, new_gesture(), force=force, preset=pin.preset)
 
     def _compare(self) -> None:
-        a, b = (self._found.get(name) for name in _NAMES)
+        a, b = (self._pins.get(name) for name in _NAMES)
         inputs: tuple[DifferenceRow, ...] = ()
         outputs: tuple[DifferenceRow, ...] = ()
         if a is not None and b is not None:
@@ -204,11 +206,11 @@ class PinController(QObject):
         ]
         inputs.append((TOLERANCE, a.settings.tolerance, b.settings.tolerance))
         rows = []
-        for declared, one, other in inputs:
-            if one != other:
-                texts = format_distinctly(declared, one, other)
+        for parameter, value_a, value_b in inputs:
+            if value_a != value_b:
+                texts = format_distinctly(parameter, value_a, value_b)
                 first, second = (text or "none" for text in texts)
-                rows.append(DifferenceRow(declared.label, first, second, explain(declared)))
+                rows.append(DifferenceRow(parameter.label, first, second, explain(parameter)))
         if a.settings.force != b.settings.force:
             labels = self._scenes.settings.effect_labels
             forced = (forced_text(pin.settings.force, labels) for pin in (a, b))
@@ -218,13 +220,13 @@ class PinController(QObject):
         return rows
 
     def _compare_outputs(self, a: Pin, b: Pin) -> Iterator[DifferenceRow]:
-        """Compare outputs by name; a slow decoder or a plug-in reads only if it was chosen."""
-        texts = [{what: text for what, text, _ in pin.outputs} for pin in (a, b)]
-        meanings = {what: meaning for what, _, meaning in (*a.outputs, *b.outputs)}
-        for what, meaning in meanings.items():
-            one, other = (found.get(what, "not read") for found in texts)
-            if one != other:
-                yield DifferenceRow(what, one, other, meaning)
+        """Compare outputs by name; slow decoders and plug-ins have one only if they were chosen."""
+        texts = [{name: text for name, text, _ in pin.outputs} for pin in (a, b)]
+        meanings = {name: meaning for name, _, meaning in (*a.outputs, *b.outputs)}
+        for name, meaning in meanings.items():
+            text_a, text_b = (texts_of_pin.get(name, "not read") for texts_of_pin in texts)
+            if text_a != text_b:
+                yield DifferenceRow(name, text_a, text_b, meaning)
 
     def _pin_of(self, snapshot: Snapshot) -> Pin:
         frame = snapshot.frame
@@ -238,7 +240,11 @@ class PinController(QObject):
 
     def _measure_outputs(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
         frame = snapshot.frame
-        shown = {d.effect: d.label for d in frame.plan.decisions if d.included}
+        included = {
+            decision.effect: decision.label
+            for decision in frame.plan.decisions
+            if decision.included
+        }
         return [
             (
                 "Contrast",
@@ -248,7 +254,7 @@ class PinController(QObject):
             *_measure_periods(snapshot),
             (
                 "Effects simulated",
-                ", ".join(shown.values()) or "none",
+                ", ".join(included.values()) or "none",
                 "The effects that the plan includes.",
             ),
             (
@@ -265,8 +271,8 @@ class PinController(QObject):
             name = f"Decoder “{decoder}”"
             rows.append((name, self._describe_code(result, snapshot), "The code that it read."))
             if decoder != PAPER_DECODER:
-                sure = result.confidence
-                text = "none" if sure is None else f"{sure:.3f}"
+                confidence = result.confidence
+                text = "none" if confidence is None else f"{confidence:.3f}"
                 meaning = "Lead of the best code over the second best, 0 to 1."
                 rows.append((f"Confidence, “{decoder}”", text, meaning))
         return rows
@@ -285,7 +291,7 @@ class PinController(QObject):
 
 
 def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
-    """Return the columns of a chip, and the chips of an exposure, or those of a light's period."""
+    """Return columns per chip and chips per exposure; for other lights, those of the period."""
     camera, sent = snapshot.scene.camera, snapshot.scene.transmitter
     seconds, unit, name = snapshot.light_period, "period", "The light's period"
     if has_chips(sent):
@@ -310,7 +316,7 @@ def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
 
 
 def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:
-    """Simulate the pictures of pins, and leave out pins that have none."""
+    """Simulate the pictures of pins, except those of scenes that have none."""
     for name, pin in pins.items():
         with suppress(OccError):
             report((name, explain_failures(snapshot_of(pin, render_with(pin.scene, pin.settings)))))

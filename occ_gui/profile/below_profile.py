@@ -1,4 +1,4 @@
-"""What is shown below the profile of a photo: the residual, and the chips that were read."""
+"""Parts below the profile of a photo: the residual, and the chips that were read."""
 
 from typing import TYPE_CHECKING
 
@@ -20,16 +20,16 @@ from occ_model.results.match import ChipReading, Comparison
 if TYPE_CHECKING:
     from occ_model.photo.reading.load import Photo
 
-_LEAST_HEIGHT = 56
+_LEAST_HEIGHT = 56  # pixels
 
 _PADDING = 0.2  # room beyond the outermost ticks of the axis, as a fraction of their distance
 
 _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
-"""Grey levels at which the axis can end; there are only a few, so that it rarely changes."""
+"""Grey levels at which the axis can end; they are few, so that the axis rarely changes."""
 
 
 _CERTAIN_PROBABILITY = 0.95
-"""Chips are drawn in full colour from this probability that all of them are right."""
+"""Smallest probability that all chips are right at which they are drawn in full colour."""
 
 
 class ResidualPlot(QWidget):
@@ -49,23 +49,23 @@ class ResidualPlot(QWidget):
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
         # pyqtgraph's own link would shift one plot if their frames are not aligned on the screen.
-        linked.getViewBox().sigXRangeChanged.connect(self._follow)
+        linked.getViewBox().sigXRangeChanged.connect(self._follow_columns)
         self._linked = linked
-        self._follow(linked.getViewBox(), linked.viewRange()[0])
+        self._follow_columns(linked.getViewBox(), linked.viewRange()[0])
         self.plot.getViewBox().sigRangeChangedManually.connect(self._move_linked_plot)
         zero = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, Qt.PenStyle.DashDotLine))
         self.plot.addItem(zero, ignoreBounds=True)
         self.curve = self.plot.add_curve(thin(PHOTO))
         self._photo: Photo | None = None
         self._limit = _STEPS[0]
-        """Limit of the axis; it only grows for the same photo, so that a smaller residual shows."""
+        """Limit of the axis; for one photo it never shrinks, so that a smaller residual shows."""
         fill(QVBoxLayout(self), self.numbers, (self.plot, 1), margins=0, spacing=1)
 
-    def _follow(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
+    def _follow_columns(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
         self.plot.setXRange(*columns, padding=0)
 
     def _move_linked_plot(self) -> None:
-        # As if the user had moved the other plot, which then no longer follows panel or packets.
+        # Move the other plot as the user would, so that it no longer follows panel or packets.
         self._linked.setXRange(*self.plot.viewRange()[0], padding=0)
         box = self._linked.getViewBox()
         box.sigRangeChangedManually.emit(box.mouseEnabled())
@@ -91,30 +91,30 @@ class ResidualPlot(QWidget):
         self.plot.getAxis("left").setTicks([ticks])
         self.numbers.set_full_text(self._describe(comparison, (1.0 + 2.0 * _PADDING) * limit))
 
-    def _describe(self, comparison: Comparison, shown: float) -> str:
+    def _describe(self, comparison: Comparison, axis_limit: float) -> str:
         text = (
             "Residual, photo minus simulation of the present scene: in this position, correlation "
             f"{comparison.correlation:.4f} and RMSE {comparison.rmse:.2f} grey levels"
         )
-        if comparison.largest_residual > shown:
+        if comparison.largest_residual > axis_limit:
             text += f"; largest residual {comparison.largest_residual:.0f}, outside the axis"
         return text
 
 
 class ChipStrip(QWidget):
-    """The chips as cells, filled where the LED is on; left of them, a button to copy them.
+    """The chips as cells, filled where the LED is on, to the right of a button that copies them.
 
-    ``left``: the width of the button in pixels.
+    ``button_width``: in pixels.
     """
 
     copied = Signal(str)  # a text was copied: a sentence that says so
 
-    def __init__(self, plot: Plot, left: int) -> None:
+    def __init__(self, plot: Plot, button_width: int) -> None:
         super().__init__()
         self.copy = QToolButton()
         self.copy.setText("Copy")
         self.copy.setToolTip("Copy the chips read from the photo as text.")
-        self.copy.setFixedWidth(left)
+        self.copy.setFixedWidth(button_width)
         self.copy.clicked.connect(self._copy)
         self.cells = _Cells(plot)
         fill(QHBoxLayout(self), self.copy, self.cells, margins=0, spacing=0)
@@ -151,9 +151,9 @@ class _Cells(QWidget):
         self.placement = (0.0, 1.0)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName("Chips read from the photo")
-        plot.getViewBox().sigXRangeChanged.connect(self._follow)
+        plot.getViewBox().sigXRangeChanged.connect(self._follow_columns)
 
-    def _follow(self) -> None:
+    def _follow_columns(self) -> None:
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -164,20 +164,20 @@ class _Cells(QWidget):
             return []
         first, scale = self.placement
         start, step = first + self.reading.start * scale, self.reading.columns_per_chip * scale
-        found = []
-        for place, chip in enumerate(self.reading.chips.tolist()):
-            left, right = (self._pixel(start + (place + side) * step) for side in (0, 1))
+        cells = []
+        for index, chip in enumerate(self.reading.chips.tolist()):
+            left, right = (self._pixel(start + edge * step) for edge in (index, index + 1))
             if right > 0.0 and left < self.width():
-                found.append((chip, QRectF(left, 1.0, right - left, self.height() - 2.0)))
-        return found
+                cells.append((chip, QRectF(left, 1.0, right - left, self.height() - 2.0)))
+        return cells
 
     def _pixel(self, column: float) -> float:
-        at = self._plot.getViewBox().mapViewToScene(QPointF(column, 0.0))
-        in_plot = self._plot.mapFromScene(at)
+        point = self._plot.getViewBox().mapViewToScene(QPointF(column, 0.0))
+        in_plot = self._plot.mapFromScene(point)
         return float(self.mapFromGlobal(self._plot.mapToGlobal(in_plot)).x())
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
-        certain = self.reading is not None and self.reading.confidence >= _CERTAIN_PROBABILITY
-        draw_chips(painter, self.rectangles(), QColor(PHOTO), self.palette(), certain)
+        is_certain = self.reading is not None and self.reading.confidence >= _CERTAIN_PROBABILITY
+        draw_chips(painter, self.rectangles(), QColor(PHOTO), self.palette(), is_certain)

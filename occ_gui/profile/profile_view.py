@@ -28,14 +28,14 @@ _LONGEST_LEVEL, _AXIS_GAPS = "-200", 14
 
 _SHADE = 20  # opacity, of 255, of the shade over the columns that are not read
 
-_BEYOND_ANY_PICTURE = 1e7
+_BEYOND_ANY_PICTURE = 1e7  # a column
 
 
 class ProfileView(QWidget):
     """Grey level over column: the simulation, the band model or why it is undefined, and the photo.
 
     The plot follows the first packets of the panel, or the whole panel, until the user moves it.
-    Below it is the residual: an open photo minus the simulation.
+    Below it is the residual, the open photo minus the simulation.
     """
 
     enhanced_chosen = Signal(bool)  # whether the user chose the enhanced columns
@@ -44,7 +44,7 @@ class ProfileView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.reading: Reading | None = None
-        self._is_behind = False
+        self._must_redraw = False
         self._photo: PhotoProfile | None = None
         self.photo_levels: FloatArray | None = None
         self._before: Snapshot | None = None
@@ -52,7 +52,7 @@ class ProfileView(QWidget):
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
         self.plot = new_plot("Column profile", "column", "grey level", self.palette())
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        # Of several columns in one pixel, the smallest and largest values are drawn.
+        # Where several columns share a pixel, their smallest and largest values are drawn.
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
         self.legend = LineLegend()
@@ -83,8 +83,10 @@ class ProfileView(QWidget):
         self.photo = self.plot.add_curve(pens["photo"][1])
         self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
         # As in the story, the columns that the decoder does not read are shaded.
-        self.outside = tuple(pg.LinearRegionItem(pen=pg.mkPen(None), movable=False) for _ in "lr")
-        for item in (*self.outside, self.threshold):
+        self.shades = tuple(
+            pg.LinearRegionItem(pen=pg.mkPen(None), movable=False) for _ in range(2)
+        )
+        for item in (*self.shades, self.threshold):
             item.setZValue(-10)
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
@@ -93,7 +95,7 @@ class ProfileView(QWidget):
     def _dress(self, palette: QPalette) -> None:
         shade = palette.color(QPalette.ColorRole.Text)
         shade.setAlpha(_SHADE)
-        for item in self.outside:
+        for item in self.shades:
             item.setBrush(shade)
 
     def _make_controls(self) -> None:
@@ -149,30 +151,30 @@ class ProfileView(QWidget):
     def _arrange_plots(self) -> None:
         if self._photo is None and "residual" not in vars(self):
             return  # no photo has been opened yet
-        below = self._photo is not None and self._photo.comparison is not None
+        has_residual = self._photo is not None and self._photo.comparison is not None
         self.residual.setVisible(self._photo is not None)
         # A sentence in place of the residual needs only the height of a line.
         policy = self.residual.sizePolicy()
-        vertical = QSizePolicy.Policy.Preferred if below else QSizePolicy.Policy.Maximum
+        vertical = QSizePolicy.Policy.Preferred if has_residual else QSizePolicy.Policy.Maximum
         policy.setVerticalPolicy(vertical)
         self.residual.setSizePolicy(policy)
-        self.plot.name_bottom(not below)
-        self.plot.getAxis("bottom").setStyle(showValues=not below)
+        self.plot.name_bottom(not has_residual)
+        self.plot.getAxis("bottom").setStyle(showValues=not has_residual)
 
     def show_reading(self, reading: Reading) -> None:
-        """Show a reading; a hidden pane skips one that the exact picture will soon replace."""
+        """Show a reading; a hidden pane waits for the one of the exact picture."""
         self.reading = reading
         text, tip = first_periods(reading.scene.transmitter)
         if text != self._packets.text():  # Qt lays the row out again even if the text is the same
             self._packets.setText(text)
             self._packets.setToolTip(tip)
-        self._is_behind = reading.source != "picture" and not self.isVisible()
-        if not self._is_behind:
+        self._must_redraw = reading.source != "picture" and not self.isVisible()
+        if not self._must_redraw:
             self._redraw()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
-        if self._is_behind:
+        if self._must_redraw:
             self._redraw()
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
@@ -201,7 +203,7 @@ class ProfileView(QWidget):
             self._fit_columns(self.reading)
 
     def _redraw(self) -> None:
-        reading, self._is_behind = self.reading, False
+        reading, self._must_redraw = self.reading, False
         if reading is None:
             return
         paper = reading.results.get(PAPER_DECODER)
@@ -214,12 +216,12 @@ class ProfileView(QWidget):
         self.reason.setText(reading.band_undefined or drift_sentence(reading))
         self.reason.setVisible(bool(self.reason.text()))
         region = reading.region
-        for item in self.outside:
+        for item in self.shades:
             item.setVisible(region is not None)
         if region is not None:
-            low, high = self.outside
-            low.setRegion((-_BEYOND_ANY_PICTURE, region.first_column))
-            high.setRegion((region.last_column, _BEYOND_ANY_PICTURE))
+            left, right = self.shades
+            left.setRegion((-_BEYOND_ANY_PICTURE, region.first_column))
+            right.setRegion((region.last_column, _BEYOND_ANY_PICTURE))
         self.threshold.setVisible(enhanced and threshold is not None)
         if threshold is not None:
             self.threshold.setValue(threshold)
@@ -240,9 +242,9 @@ class ProfileView(QWidget):
 
     def _update_before(self) -> None:
         """Show the curve from before the latest step, unless a photo is compared."""
-        shown = self._before is not None and self.photo_levels is None
-        self.before.setVisible(shown)
-        self.legend.show_line("before", shown)
+        is_visible = self._before is not None and self.photo_levels is None
+        self.before.setVisible(is_visible)
+        self.legend.show_line("before", is_visible)
 
     def _draw_before(self) -> None:
         if self._before is not None:
@@ -253,7 +255,9 @@ class ProfileView(QWidget):
         """Set the range from black to the largest value, rounded up so that it rarely changes."""
         before = self._before_levels if self.photo_levels is None else None
         profiles = (*self._simulated_levels, before, self.photo_levels)
-        largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
+        largest = max(
+            (float(profile.max()) for profile in profiles if profile is not None), default=0.0
+        )
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
 
@@ -262,12 +266,12 @@ class ProfileView(QWidget):
             return
         first, last = reading.panel_columns
         if self._packets.isChecked():
-            first = self._start_at_photo(first, last)
+            first = self._find_start(first, last)
             last = min(last, first + PACKETS_IN_VIEW * reading.period_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
-    def _start_at_photo(self, first: float, last: float) -> float:
-        """Return the photo's first column if it lies further right, where both are compared."""
+    def _find_start(self, first: float, last: float) -> float:
+        """Return the first column in view: the photo's, if it lies to the right of ``first``."""
         comparison = None if self._photo is None else self._photo.comparison
         if comparison is None or not first < comparison.first_column < last:
             return first
@@ -304,6 +308,6 @@ def _draw(
         columns, values = np.empty(0), np.empty(0)
     else:
         columns = first_column + scale * np.arange(len(values), dtype=np.float64)
-    shown = curve.getOriginalDataset()
-    if shown[0] is None or not all(map(np.array_equal, shown, (columns, values))):
+    drawn = curve.getOriginalDataset()
+    if drawn[0] is None or not all(map(np.array_equal, drawn, (columns, values))):
         curve.setData(columns, values)

@@ -256,7 +256,7 @@ class SharedWindow:
         kept.view("photo").form._shown = None
         kept.view("photo").form.show_choice(home.choice, {}, {})
         kept.story.show_whole_picture(False)
-        kept.view("picture").before.chosen.setChecked(False)
+        kept.view("picture").before.checkbox.setChecked(False)
         for pages in kept.controls.findChildren(QTabWidget):
             pages.setCurrentIndex(0)
         kept.controls.end_refusals()

@@ -89,7 +89,7 @@ def test_the_whole_picture_opens_by_thumbnail_or_comparison_and_closes_again(
     qtbot.mouseClick(story.whole, Qt.MouseButton.LeftButton)
     assert story.rows.isVisible()
     assert not application.view("picture").isVisible()
-    story, before = application.story, application.view("picture").before.chosen
+    story, before = application.story, application.view("picture").before.checkbox
     before.setChecked(True)
     assert story.shows_whole_picture
     before.setChecked(False)

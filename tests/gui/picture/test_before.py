@@ -167,14 +167,14 @@ def test_a_wipe_before_any_change_or_that_is_off_draws_nothing(
     pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
 ) -> None:
     _, wipe = pane_with_wipe
-    wipe.chosen.setChecked(True)
+    wipe.checkbox.setChecked(True)
     wipe.slider.setValue(10)
     assert not wipe.picture.isVisible()
-    wipe.chosen.setChecked(False)
+    wipe.checkbox.setChecked(False)
     wipe.show_before(snapshot_of())
     assert not wipe.picture.isVisible()
     assert wipe.picture.boundingRect().isEmpty()
-    wipe.chosen.setChecked(True)
+    wipe.checkbox.setChecked(True)
     assert wipe.picture.isVisible()
 
 
@@ -187,7 +187,7 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     before = BeforeController(bench.store, bench.results_store.show_before)
     bench.hear_first.append(before.show_snapshot)
     bench.simulate()
-    image.before.chosen.setChecked(True)
+    image.before.checkbox.setChecked(True)
     _, start = curves.simulation.getOriginalDataset()
     for exposure in (80e-6, 90e-6, 100e-6):
         bench.scenes.change(7, exposure_time=exposure)

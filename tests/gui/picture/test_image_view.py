@@ -264,7 +264,7 @@ def test_before_is_of_the_same_picture_as_now(view: ImageView, snapshot_of: Snap
     before = snapshot_of(iso=400.0)
     view.show_snapshot(snapshot_of())
     view.before.show_before(before)
-    view.before.chosen.setChecked(True)
+    view.before.checkbox.setChecked(True)
     assert view.before.picture.image is before.frame.camera_image
     view.choose_picture("receiver")
     assert view.before.picture.image is before.frame.image

@@ -32,11 +32,11 @@ def pin_two(pins: PinController, a: Snapshot, b: Snapshot) -> None:
 
 
 def inputs(pinned: PinnedPair) -> dict[str, tuple[str, str]]:
-    return {row.what: (row.a, row.b) for row in pinned.inputs}
+    return {row.name: (row.a, row.b) for row in pinned.inputs}
 
 
 def outputs(pinned: PinnedPair) -> dict[str, tuple[str, str]]:
-    return {row.what: (row.a, row.b) for row in pinned.outputs}
+    return {row.name: (row.a, row.b) for row in pinned.outputs}
 
 
 def test_only_inputs_that_differ_are_listed_in_units_of_display_and_alike_ones_with_all_digits(
@@ -145,13 +145,13 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
 ) -> None:
     assert "press Pin A" in view.hint.text()
     assert not view.table.isVisible()
-    assert not view.returns["A"].isEnabled()
+    assert not view.return_buttons["A"].isEnabled()
     pins.show_snapshot(bare_snapshot_of())
     pins.pin("A")
     view.show_pinned(pins.pinned)
-    assert view.hint.text().startswith("A is kept.")
+    assert view.hint.text().startswith("A is pinned.")
     assert "press Pin B" in view.hint.text()
-    assert view.returns["A"].isEnabled()
+    assert view.return_buttons["A"].isEnabled()
     pins.show_snapshot(bare_snapshot_of(iso=200.0))
     pins.pin("B")
     view.show_pinned(pins.pinned)
@@ -229,7 +229,7 @@ def test_states_are_pinned_compared_and_restored_in_one_step(
     bench.choose("pin_b")
     assert ["ISO speed", "100", "200"] in texts(bench.view.table)
     steps = bench.scenes.undo_stack.count()
-    bench.view.returns["A"].click()
+    bench.view.return_buttons["A"].click()
     assert bench.scenes.scene == small_scene
     assert bench.scenes.undo_stack.count() == steps + 1
     bench.scenes.undo_stack.undo()
@@ -265,7 +265,7 @@ def test_a_pin_waits_for_the_results_of_the_present_scene_if_it_has_a_picture(be
     bench.pins.clear()
     bench.scenes.change(distance=0.1, yaw=1.2)
     bench.choose("pin_a")
-    bench.pins.give_up()
+    bench.pins.cancel_waiting()
     assert "no picture" in bench.said[-1]
     bench.scenes.undo_stack.undo()
     bench.simulate()

@@ -302,7 +302,7 @@ def test_the_columns_in_view_are_some_of_the_picture(view: ProfileView, snapshot
 def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     view: ProfileView, snapshot: Snapshot
 ) -> None:
-    before, after = view.outside
+    before, after = view.shades
     read = not_none(snapshot.results["threshold"].region)
     assert (before.isVisible(), after.isVisible()) == (True, True)
     assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column

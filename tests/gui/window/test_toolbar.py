@@ -35,8 +35,8 @@ def test_a_click_does_what_the_entry_does(application: Application) -> None:
     buttons["undo"].click()
     assert application.store.scene.value("iso") == 100.0
     buttons["before"].click()
-    assert application.view("picture").before.chosen.isChecked()
-    application.view("picture").before.chosen.click()
+    assert application.view("picture").before.checkbox.isChecked()
+    application.view("picture").before.checkbox.click()
     assert not buttons["before"].isChecked()
 
 

@@ -143,7 +143,7 @@ def test_the_old_picture_is_left_of_the_line_in_the_picture_the_new_one_right(
     pane.show_picture(now.frame.image)
     wipe.show_before(then)
     assert 50 not in picture(pane)
-    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    qtbot.keyClick(wipe.checkbox, Qt.Key.Key_Space)
     qtbot.waitUntil(lambda: 50 in picture(pane))
     line = picture(pane)
     left, right = np.flatnonzero(line == 50), np.flatnonzero(line == 200)
@@ -154,10 +154,10 @@ def test_the_old_picture_is_left_of_the_line_in_the_picture_the_new_one_right(
     assert np.mean(line == 50) == pytest.approx(np.mean(line == 200) / 3, abs=0.02)
     wipe.line.setValue(299.5)
     assert wipe.slider.value() == 75
-    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    qtbot.keyClick(wipe.checkbox, Qt.Key.Key_Space)
     assert 50 not in picture(pane)
     assert not wipe.slider.isVisible()
-    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    qtbot.keyClick(wipe.checkbox, Qt.Key.Key_Space)
     for asked, shown in ((1e4, 399.5), (-1e4, -0.5)):
         wipe.line.setValue(asked)
         assert wipe.line.value() == shown

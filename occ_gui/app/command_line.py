@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_gui.app.system_libraries import missing_libraries, sentence_about
 from occ_gui.core.workspace import Workspace
-from occ_gui.values.choices import MODES as OVERLAYS
+from occ_gui.values.choices import OVERLAYS
 from occ_gui.values.modes import MODES
 from occ_model.commands.options import (
     Parser,

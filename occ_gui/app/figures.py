@@ -10,7 +10,7 @@ from occ_gui.shell.feature import Draw, Figure, NothingToDraw, later
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import cause_in
-from occ_gui.values.choices import MODES, Placement
+from occ_gui.values.choices import OVERLAYS, Placement
 from occ_model.receiver.decode import QUICK_DECODERS
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
     from occ_model.photo.reading.load import Photo
 
-_BESIDE, _BLENDED, _SPLIT, _DIFFERENCE = MODES
+_BESIDE, _BLENDED, _SPLIT, _DIFFERENCE = OVERLAYS
 
 _OVERLAY_FILE = "picture-with-photo"
 

@@ -26,7 +26,7 @@ from occ_gui.scene.scene_editor import BrightnessHold, SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import (
     ResultsStore,
-    Until,
+    StateSelector,
     make_remark,
     next_change,
     next_photo,
@@ -79,7 +79,7 @@ class StatusMessages(QObject):
         if failure is not None:
             self._controls.show_problem(failure.sentence, failure.parameters)
 
-    def say(self, sentence: str, until: Until = next_sentence) -> None:
+    def say(self, sentence: str, until: StateSelector = next_sentence) -> None:
         results = self._results_store.results
         last = make_remark(sentence, until, self._store.workspace, results)
         self._results_store.put(replace(results, remark=last))
@@ -101,7 +101,7 @@ class StatusMessages(QObject):
     def accept(self) -> None:
         """Remove refusals, because an allowed value was entered."""
         last = self._results_store.results.remark
-        if last is not None and last.until is next_change:
+        if last is not None and last.select_state is next_change:
             self._results_store.put(replace(self._results_store.results, remark=None))
         self._controls.end_refusals(name for name in PARAMETERS if name not in self._failed_fields)
 

@@ -196,7 +196,7 @@ class StripLegend(QWidget):
 
 
 class SliderStrips(QObject):
-    seen = Signal(bool)  # whether the strips have become visible or hidden
+    visibility_changed = Signal(bool)  # whether the strips have become visible or hidden
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -212,7 +212,7 @@ class SliderStrips(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
-            self.seen.emit(event.type() == QEvent.Type.Show)
+            self.visibility_changed.emit(event.type() == QEvent.Type.Show)
         return super().eventFilter(watched, event)
 
     def set_shown(self, shown: bool) -> None:

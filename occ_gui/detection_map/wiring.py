@@ -55,7 +55,7 @@ class BackgroundRates(QObject):
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
         self._start.timeout.connect(self._begin)
-        strips.seen.connect(self._follow_strips)
+        strips.visibility_changed.connect(self._follow_strips)
 
     @cached_property
     def queue(self) -> "WorkQueue":

@@ -14,9 +14,9 @@ from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
 from occ_gui.files.preferences import text_of
 from occ_gui.values.choices import (
     FRAMES,
-    KNOWN,
-    MODES,
-    SENT,
+    KNOWN_PARAMETERS,
+    OVERLAYS,
+    SENT_SOURCES,
     FilmChoice,
     LoadOptions,
     MatchChoice,
@@ -51,7 +51,7 @@ _MOST_OF_HISTORY = 1_000_000  # most characters of stored steps; the oldest step
 _VIEW: Mapping[str, tuple[object, ...]] = {
     "decoder": tuple(DECODERS),
     "picture_kind": PICTURES,
-    "overlay": MODES,
+    "overlay": OVERLAYS,
     "is_enhanced": (False, True),
     "shown": SHOWN_QUANTITIES,
 }
@@ -126,7 +126,7 @@ def _pin_record(pin: PinnedScene) -> dict[str, Any]:
     return {
         "scene": pin.request.scene.to_toml(),
         "settings": asdict(pin.request.settings),
-        "decoders": list(pin.request.more),
+        "decoders": list(pin.request.more_decoders),
         "preset": pin.preset,
     }
 
@@ -217,7 +217,8 @@ def _photo(values: Any, region: Any) -> PhotoChoice:
         quantity("lamp_frequency").check(form.lamp_frequency)
         _check(
             options.scan_axis in SCAN_AXES and options.channel in CHANNELS
-            and form.sent in SENT and form.estimate in ESTIMATES and certain.keys() <= {*KNOWN}
+            and form.sent in SENT_SOURCES and form.estimate in ESTIMATES
+            and certain.keys() <= {*KNOWN_PARAMETERS}
             and isinstance(form.fit_gamma, bool)
         )  # fmt: skip
         return replace(photo, load_options=options, form=form, certain=certain)
@@ -283,7 +284,7 @@ def _pins(values: Any) -> Pins:
 def _pin(values: Any) -> PinnedScene:
     scene, settings = _scene(values["scene"]), _settings(values["settings"])
     _check(isinstance(values["decoders"], list))
-    request = SimulationRequest(scene, settings, more=tuple(map(str, values["decoders"])))
+    request = SimulationRequest(scene, settings, more_decoders=tuple(map(str, values["decoders"])))
     return PinnedScene(request, _preset(values.get("preset")))
 
 

@@ -13,7 +13,7 @@ from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import ResultsStore
 from occ_gui.values.choices import MatchChoice
-from occ_gui.values.photo_results import FoundMatch, MatchRequest
+from occ_gui.values.photo_results import MatchOutcome, MatchRequest
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
@@ -62,7 +62,7 @@ class MatchController(QObject):
         super().__init__()
         self._scenes, self._store, self._results_store = scenes, scenes.store, results_store
         self._photos = photos
-        self.task: Task[MatchRequest, FoundMatch] = Task(
+        self.task: Task[MatchRequest, MatchOutcome] = Task(
             match, "match of the photo", impatient=True
         )
         self.task.finished.connect(self._take_match)
@@ -97,7 +97,7 @@ class MatchController(QObject):
         self._photos.edit(lambda each: replace(each, form=choice))
         scene = self._store.workspace.scene
         request = MatchRequest(document.photo, scene, choice, self._shown_photo.part, apply)
-        self._photos.put(replace(document, requested=request))
+        self._photos.put(replace(document, match_request=request))
         self.task.ask(request)
 
     def cancel(self) -> None:
@@ -105,29 +105,30 @@ class MatchController(QObject):
         document = self._photos.document
         if document is not None and not self.task.is_idle:
             self.task.cancel()
-            self._photos.put(replace(document, requested=None))
+            self._photos.put(replace(document, match_request=None))
 
-    def _take_match(self, found: FoundMatch) -> None:
+    def _take_match(self, outcome: MatchOutcome) -> None:
         document = self._photos.document
-        if document is None or document.requested is None:
+        if document is None or document.match_request is None:
             return
-        if found.refusal:
-            self._show_refusal(*found.refusal)
+        if outcome.refusal:
+            self._show_refusal(*outcome.refusal)
             return
-        self._photos.put(replace(document, requested=None, found=found))
+        self._photos.put(replace(document, match_request=None, outcome=outcome))
         # The user's placement belongs to the picture before the match.
-        self._photos.edit(lambda each: replace(each, placed=None))
-        if document.requested.applies_result:
+        self._photos.edit(lambda each: replace(each, placed_photo=None))
+        if document.match_request.applies_result:
             self.apply()
 
     def _show_refusal(self, *reasons: str) -> None:
         """Show why there is no match; the photo's last match stays."""
         document = self._photos.document
-        if document is None or document.requested is None:
+        if document is None or document.match_request is None:
             return
-        part = document.requested.part
-        found = document.found or FoundMatch(part, None, ("", 0.0))
-        self._photos.put(replace(document, requested=None, found=found.with_refusal(reasons, part)))
+        part = document.match_request.part
+        outcome = document.outcome or MatchOutcome(part, None, ("", 0.0))
+        outcome = outcome.with_refusal(reasons, part)
+        self._photos.put(replace(document, match_request=None, outcome=outcome))
         self.failed.emit(reasons[0])  # the verdict bar contains it, even in its short form
 
     def apply_camera_settings(self) -> None:

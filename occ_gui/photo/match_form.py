@@ -10,7 +10,7 @@ from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import new_gesture
-from occ_gui.values.choices import KNOWN, MatchChoice
+from occ_gui.values.choices import KNOWN_PARAMETERS, MatchChoice
 from occ_gui.widgets.building import (
     KeyedComboBox,
     check_box,
@@ -92,7 +92,7 @@ class MatchForm(QWidget):
         """Make the fields of the known values, which can also be edited here."""
         self.known: dict[str, QuantityEdit] = {}
         note = "A known value of the photo; entering it changes the scene."
-        for name in KNOWN:
+        for name in KNOWN_PARAMETERS:
             declared = quantity(name)
             tip = f"{note}\n\n{explain(declared)}"
             field = name_widget(QuantityEdit(declared), f"Known: {declared.label}", tip)

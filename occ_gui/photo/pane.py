@@ -24,7 +24,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import ResultsStore, make_remark, next_match
-from occ_gui.values.choices import MODES, MatchChoice, Placed, Placement
+from occ_gui.values.choices import OVERLAYS, MatchChoice, PlacedPhoto, Placement
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -162,8 +162,8 @@ class PhotoPane(Pane[ShownPhoto]):
     def _show_match(self, part: ShownPhoto, last: ShownPhoto) -> None:
         view, is_new = self.view, part.match is not last.match
         if is_new:
-            view.show_match(part.found, None if part.match is None else cure_of_match(part.match))
-            is_own = part.found is not None and not part.found.is_listed
+            view.show_match(part.outcome, None if part.match is None else cure_of_match(part.match))
+            is_own = part.outcome is not None and not part.outcome.is_listed
             own_path = part.photo.path if part.photo is not None and is_own else None
             view.many.rows.mark_earlier(own_path)
         if part.match is not None and (is_new or part.validity != last.validity):
@@ -181,7 +181,7 @@ class PhotoPane(Pane[ShownPhoto]):
             self.matching.cancel()
             if part.part is not None:
                 # Lamps and regions are drawn on the photo beside the picture.
-                self._set_overlay(MODES[0])
+                self._set_overlay(OVERLAYS[0])
         inputs = comparison_inputs(self._shown)
         if inputs != self._comparison_inputs:
             self._comparison_inputs = inputs
@@ -217,8 +217,8 @@ class PhotoPane(Pane[ShownPhoto]):
     def _place(self, placement: Placement | None) -> None:
         document = self._results_store.results.document
         if document is not None:
-            placed = None if placement is None else Placed(document.source, placement)
-            self.photos.edit(lambda choice: replace(choice, placed=placed))
+            placed = None if placement is None else PlacedPhoto(document.source, placement)
+            self.photos.edit(lambda choice: replace(choice, placed_photo=placed))
 
     def _reset_placement(self) -> None:
         self._place(None)
@@ -226,16 +226,16 @@ class PhotoPane(Pane[ShownPhoto]):
     def _apply_cure(self) -> None:
         """Show the simulation at a shutter speed without bars next to the photo."""
         self.matching.cure()
-        self._set_overlay(MODES[0])
+        self._set_overlay(OVERLAYS[0])
 
     def _set_overlay(self, mode: str) -> None:
         self._store.put(replace(self._store.workspace, overlay=mode))
 
     def _set_movable(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
-        if by_mouse and self._store.workspace.overlay == MODES[0]:
+        if by_mouse and self._store.workspace.overlay == OVERLAYS[0]:
             # A photo beside the picture cannot be moved over it.
-            self._set_overlay(MODES[1])
+            self._set_overlay(OVERLAYS[1])
 
     def _click(self, event: MouseClickEvent) -> None:
         self.outlines.click(self._image.photo.box.mapSceneToView(event.scenePos()))

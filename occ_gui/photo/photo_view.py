@@ -13,7 +13,7 @@ from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_verdict import EARLIER, PhotoSteps, PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.values.choices import PhotoChoice
-from occ_gui.values.photo_results import FoundMatch
+from occ_gui.values.photo_results import MatchOutcome
 from occ_gui.widgets.building import (
     ElidedLabel,
     KeyedComboBox,
@@ -245,20 +245,20 @@ class PhotoView(QWidget):
         else:
             self.verdict.end_match(why_not)
 
-    def show_match(self, found: FoundMatch | None, cure: Cure | None = None) -> None:
+    def show_match(self, outcome: MatchOutcome | None, cure: Cure | None = None) -> None:
         """Show a match with the remedy for its bars, or that there is none."""
-        match = None if found is None else found.match
+        match = None if outcome is None else outcome.match
         self.result.setVisible(match is not None)
         self._match, self._is_outdated = match, False
         self.verdict.show_match(match)
         self._show_steps()
-        if found is None or match is None or cure is None or self._photo is None:
+        if outcome is None or match is None or cure is None or self._photo is None:
             return
         bar = self._scroll.verticalScrollBar()
         scroll_position, photo = bar.value(), self._photo
-        self.result.show_match(match, photo.exposure_time, found.given, cure, turned=photo.turned)
+        self.result.show_match(match, photo.exposure_time, outcome.given, cure, turned=photo.turned)
         self._bring_into_view(self.result)
-        if found.is_listed:  # the table stays where it was
+        if outcome.is_listed:  # the table stays where it was
             bar.setValue(scroll_position)
 
     def show_match_outdated(self, why: str, usable: bool) -> None:

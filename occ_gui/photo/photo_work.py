@@ -12,7 +12,7 @@ from occ_gui.photo.shown_photo import Part, ShownPhoto, part_of
 from occ_gui.shell.results import Results, ResultsStore, ResultUpdater
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.choices import MatchChoice
-from occ_gui.values.photo_results import FoundMatch, MatchRequest, PhotoProfile, StripeSearch
+from occ_gui.values.photo_results import MatchOutcome, MatchRequest, PhotoProfile, StripeSearch
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
@@ -76,11 +76,11 @@ def find_lamps(photo: Photo, report: Report) -> tuple[Lamp, ...]:
     return occ.find_lamps(photo, report)  # imports its modules only now
 
 
-def match(request: MatchRequest, report: Report) -> FoundMatch:
+def match(request: MatchRequest, report: Report) -> MatchOutcome:
     report(0.0)
     choice = request.choice
     scene, sent = put_known_values(request.scene, choice)
-    found = FoundMatch(request.part, None, known_value(choice.estimate, request.scene))
+    outcome = MatchOutcome(request.part, None, known_value(choice.estimate, request.scene))
     try:
         match = occ.match_photo(  # imports its modules only now, so that the window starts sooner
             request.photo,
@@ -92,8 +92,8 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
             progress=report,
         )
     except MatchError as error:
-        return found.with_refusal(error.reasons, request.part)
-    return replace(found, match=match)
+        return outcome.with_refusal(error.reasons, request.part)
+    return replace(outcome, match=match)
 
 
 def put_known_values(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:

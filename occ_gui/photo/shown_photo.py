@@ -10,7 +10,7 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.values.choices import PhotoChoice, PhotoFrame, Placement
-from occ_gui.values.photo_results import FoundMatch, PhotoDocument, StripeSearch
+from occ_gui.values.photo_results import MatchOutcome, PhotoDocument, StripeSearch
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within
 from occ_model.results.decoding import Region
@@ -45,18 +45,18 @@ def lies_within(photo: Photo, region: Region) -> bool:
     return True
 
 
-def find_match(results: Results) -> FoundMatch | None:
+def find_match(results: Results) -> MatchOutcome | None:
     """Return the match of the open photo: its own, or the one in its row of the table."""
     document, listed = results.document, results.listed
     if document is None:
         return None
-    found = document.found
-    if listed is not None and (found is None or found.match is None):
+    outcome = document.outcome
+    if listed is not None and (outcome is None or outcome.match is None):
         row = listed.match_of(document)
-        if row is not None and found is not None:
-            row = row.with_refusal(found.refusal, found.part)
-        return row or found
-    return found
+        if row is not None and outcome is not None:
+            row = row.with_refusal(outcome.refusal, outcome.part)
+        return row or outcome
+    return outcome
 
 
 def automatic_placement(
@@ -80,7 +80,7 @@ class ShownPhoto:
     choice: PhotoChoice
     document: PhotoDocument | None = None
     part: Part = None
-    found: FoundMatch | None = None
+    outcome: MatchOutcome | None = None
     stripe_search: StripeSearch | None = None
     placement: Placement = field(default_factory=Placement)
     is_placed_by_hand: bool = False  # whether the user has placed the photo
@@ -93,7 +93,7 @@ class ShownPhoto:
         shown = cls(workspace.scene, reading, choice)
         if document is None:
             return shown
-        placed, placement = choice.placed, Placement()
+        placed, placement = choice.placed_photo, Placement()
         is_placed_by_hand = placed is not None and placed.source == document.source
         if placed is not None and is_placed_by_hand:
             placement = placed.placement.within_limits()
@@ -103,7 +103,7 @@ class ShownPhoto:
             shown,
             document=document,
             part=part_of(choice, results),
-            found=find_match(results),
+            outcome=find_match(results),
             stripe_search=results.stripes,
             placement=placement,
             is_placed_by_hand=is_placed_by_hand,
@@ -122,7 +122,7 @@ class ShownPhoto:
     @property
     def is_matching(self) -> bool:
         """Whether a match is running."""
-        return self.document is not None and self.document.requested is not None
+        return self.document is not None and self.document.match_request is not None
 
     @property
     def search(self) -> tuple[tuple[Lamp, ...], bool, str]:
@@ -153,19 +153,19 @@ class ShownPhoto:
 
     @property
     def match(self) -> Match | None:
-        return None if self.found is None else self.found.match
+        return None if self.outcome is None else self.outcome.match
 
     @property
     def refusal(self) -> tuple[str, ...]:
         """The reasons why the match was refused; empty if it was not."""
-        return () if self.found is None else self.found.refusal_of(self.part)
+        return () if self.outcome is None else self.outcome.refusal_of(self.part)
 
     @property
     def why_unusable(self) -> str:
         """Why the match belongs to another photo or part and cannot be used; empty if it can."""
         if self.is_loading:
             return "of the previous photo: the next one is being loaded"
-        if self.found is not None and self.found.part != self.part:
+        if self.outcome is not None and self.outcome.part != self.part:
             return "of another part of the photo: match again"
         return ""
 

@@ -13,7 +13,7 @@ from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.shell.feature import PiecesPane
 from occ_gui.shell.results import of_picture
 from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
-from occ_gui.values.choices import MODES, Placement
+from occ_gui.values.choices import OVERLAYS, Placement
 from occ_gui.widgets.building import KeyedComboBox, fill
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
@@ -41,14 +41,14 @@ _MODE_MEANINGS = (
 class ImageView(QWidget):
     """The simulated picture with the decoder's region, and the photo beside or over it."""
 
-    mode_chosen = Signal(str)  # how the photo is to be shown, one of MODES
+    mode_chosen = Signal(str)  # how the photo is to be shown, one of OVERLAYS
     picture_chosen = Signal(str)  # the kind of picture that is shown from now on, one of PICTURES
 
     def __init__(self) -> None:
         super().__init__()
         self.shown_photo: Photo | None = None
         self.frame: Frame | None = None
-        self._mode = MODES[0]
+        self._mode = OVERLAYS[0]
         self.picture_kind = PICTURES[0]
         self.simulation = PicturePane("Simulated picture")
         self.photo = PicturePane("Photo")
@@ -186,7 +186,7 @@ class ImageView(QWidget):
         self.overlay.set_placement(placement)
 
     def set_mode(self, mode: str) -> None:
-        """Set how the photo is shown, one of MODES."""
+        """Set how the photo is shown, one of OVERLAYS."""
         self._mode = mode
         self.mode.show_key(mode)
         self.overlay.set_mode(mode)

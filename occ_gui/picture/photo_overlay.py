@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import halve
-from occ_gui.values.choices import MODES, Placement
+from occ_gui.values.choices import OVERLAYS, Placement
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray
@@ -165,7 +165,7 @@ class PhotoOverlay(QObject):
         self.simulated = _NO_IMAGE
         self._photo: ByteArray | None = None
         self.placement = Placement()
-        self.mode = MODES[0]
+        self.mode = OVERLAYS[0]
         self._is_movable = False
         self._is_updating_frame = False
         self._photo_item, self.difference = AveragedImage(), DifferenceImage()
@@ -199,7 +199,7 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_mode(self, mode: str) -> None:
-        """Set how the photo is shown, one of MODES; in the first, nothing lies on the picture."""
+        """Set how the photo is shown, one of OVERLAYS; the first leaves the picture uncovered."""
         self.mode = mode
         self._arrange()
 

@@ -67,7 +67,7 @@ class Results:
     @property
     def code_chips(self) -> "ChipReading | None":
         """The chips that were read from the photo, unless its match is of a lamp, without any."""
-        found = None if self.document is None else self.document.found
+        found = None if self.document is None else self.document.outcome
         match = None if found is None else found.match
         return self.chips if match is None or match.lamp is None else None
 
@@ -128,7 +128,7 @@ class ResultsStore(QObject):
         self.put(replace(self.results, switched=switched))
 
 
-Until: TypeAlias = Callable[[Workspace, Results], object]
+StateSelector: TypeAlias = Callable[[Workspace, Results], object]
 """Returns the part of the state that a sentence is about: it holds until that part changes."""
 
 
@@ -157,17 +157,19 @@ def next_photo(_workspace: Workspace, results: Results) -> object:
 
 def next_match(_workspace: Workspace, results: Results) -> object:
     document = results.document
-    return None if document is None else (document.photo, document.found)
+    return None if document is None else (document.photo, document.outcome)
 
 
-def make_remark(sentence: str, until: Until, workspace: Workspace, results: Results) -> Remark:
-    return Remark(sentence, until, until(workspace, results))
+def make_remark(
+    sentence: str, select_state: StateSelector, workspace: Workspace, results: Results
+) -> Remark:
+    return Remark(sentence, select_state, select_state(workspace, results))
 
 
 def status_message(workspace: Workspace, results: Results) -> str:
     """Return the sentence of the status line; empty where none holds any more."""
     last = results.remark
-    if last is None or last.until(workspace, results) != last.state:
+    if last is None or last.select_state(workspace, results) != last.state:
         return ""
     return last.sentence
 

@@ -86,7 +86,7 @@ def reading_by_profile(
     """Read a scene without its picture; None if the reading needs pixels."""
     decoders: tuple[str, ...] = ()
     if request.scene.transmitter.light == "code":
-        decoders = (*QUICK_DECODERS, *filter(_is_usable, request.more))
+        decoders = (*QUICK_DECODERS, *filter(_is_usable, request.more_decoders))
     view = None if planned is None else planned.view
     profile = read_profile(request.scene, request.settings, decoders, view)
     if profile is None:
@@ -114,7 +114,7 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     """Read a draft of a picture, with rows counted in the whole one."""
     scene = frame.scene
-    of_draft = _decode_by_all(frame, request.more)
+    of_draft = _decode_by_all(frame, request.more_decoders)
     results = {name: _scale_rows(result, frame) for name, result in of_draft.items()}
     fields = _common_fields(request, scene, frame, results)
     return Reading(source="draft", error=frame.plan.error, **fields)
@@ -132,7 +132,7 @@ def _scale_rows(result: DecodeResult, draft: Frame) -> DecodeResult:
 def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     scene = frame.scene
     start = perf_counter()
-    results = _decode_by_all(frame, request.more)
+    results = _decode_by_all(frame, request.more_decoders)
     seconds = perf_counter() - start
     fields = _common_fields(request, scene, frame, results)
     if fields["bars"] is None and not has_chips(scene.transmitter):

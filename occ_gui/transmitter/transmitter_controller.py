@@ -18,7 +18,7 @@ from occ_model.errors import OccError, OutputError, one_line
 from occ_model.files.writing import make_folder
 from occ_model.scene.scene import Scene
 
-# matplotlib takes half a second to import, so that functions import what needs it when called.
+# Importing Matplotlib takes half a second, so functions that need it import it when called.
 
 MOST_FOLDERS = 1000
 
@@ -27,7 +27,7 @@ MOST_FOLDERS = 1000
 class WiringDrawing:
     """The wiring as a PNG picture, and a description of it in words."""
 
-    sent: Transmission
+    transmission: Transmission
     png: bytes
     text: str
 
@@ -38,29 +38,31 @@ class SavedFiles:
 
     folder: Path
     files: int
-    missing: str
+    why_no_wav: str
 
 
-def draw_wiring(sent: Transmission) -> WiringDrawing:
+def draw_wiring(transmission: Transmission) -> WiringDrawing:
     from occ_model.figures.transmitter_files import circuit_notes, wiring_bytes
 
-    return WiringDrawing(sent, wiring_bytes(sent, "png"), "\n".join(circuit_notes(sent)))
+    return WiringDrawing(
+        transmission, wiring_bytes(transmission, "png"), "\n".join(circuit_notes(transmission))
+    )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SaveJob:
-    """What is sent, and the parent of its new folder."""
+    """What to send, and the parent of its new folder."""
 
-    sent: Transmission
+    transmission: Transmission
     parent: Path
 
 
 def save_files(job: SaveJob) -> SavedFiles:
     from occ_model.figures.transmitter_files import write_transmitter_files
 
-    folder = new_folder(job.parent, f"blink-{job.sent.board.name}")
-    paths, missing = write_transmitter_files(folder, job.sent)
-    return SavedFiles(folder, len(paths), missing)
+    folder = new_folder(job.parent, f"blink-{job.transmission.board.name}")
+    paths, why_no_wav = write_transmitter_files(folder, job.transmission)
+    return SavedFiles(folder, len(paths), why_no_wav)
 
 
 def new_folder(parent: Path, name: str) -> Path:
@@ -76,7 +78,7 @@ def new_folder(parent: Path, name: str) -> Path:
     )
 
 
-_BOARD = "transmitter/board"  # key of the preference that stores the board
+_BOARD_KEY = "transmitter/board"  # preference that stores the board
 
 
 class TransmitterController(Service):
@@ -85,8 +87,8 @@ class TransmitterController(Service):
         self._window = window
         self._store = store
         self._preferences = preferences
-        self._sent: Transmission | None = None
-        stored = preferences.recall(_BOARD)
+        self._transmission: Transmission | None = None
+        stored = preferences.recall(_BOARD_KEY)
         self._board = stored if stored in BOARDS else DEFAULT_BOARD
         self.dialog: TransmitterDialog | None = None
         self.drawing: Task[Transmission, WiringDrawing] = Task(
@@ -98,8 +100,8 @@ class TransmitterController(Service):
         self.tasks = (self.drawing, self.saving)
         self.drawing.finished.connect(self._show_wiring)
         self.drawing.failed.connect(self._show_drawing_failure)
-        self.saving.finished.connect(self._report)
-        self.saving.failed.connect(self._say)
+        self.saving.finished.connect(self._report_files)
+        self.saving.failed.connect(self._show_note)
         store.changed.connect(self._follow)
 
     def show(self) -> None:
@@ -107,21 +109,21 @@ class TransmitterController(Service):
             titles = {name: board.title for name, board in BOARDS.items()}
             self.dialog = TransmitterDialog(titles, self._window)
             self.dialog.board.show_key(self._board)
-            self.dialog.board_chosen.connect(self._choose)
+            self.dialog.board_chosen.connect(self._choose_board)
             self.dialog.frequency_asked.connect(self._take_frequency)
             self.dialog.save_asked.connect(self.ask_to_save)
-            self.dialog.finished.connect(self._forget)
+            self.dialog.finished.connect(self._forget_dialog)
             self._follow(self._store.scene)
         self.dialog.show()
         self.dialog.activateWindow()
 
-    def _forget(self) -> None:
+    def _forget_dialog(self) -> None:
         self.dialog = None
-        self._sent = None
+        self._transmission = None
 
-    def _choose(self, board: str) -> None:
+    def _choose_board(self, board: str) -> None:
         self._board = board
-        self._preferences.keep(_BOARD, board)
+        self._preferences.keep(_BOARD_KEY, board)
         self._follow(self._store.scene)
 
     def _follow(self, scene: Scene) -> None:
@@ -129,27 +131,27 @@ class TransmitterController(Service):
             return
         self.dialog.note.setText("")
         try:
-            self._sent = prepare_transmission(scene, board_named(self._board))
+            self._transmission = prepare_transmission(scene, board_named(self._board))
         except OccError as error:
-            self._sent = None
+            self._transmission = None
             self.dialog.show_refusal(str(error))
             return
-        facts = " ".join(frequency_lines(self._sent))
-        self.dialog.show_sent(facts, differs=not self._sent.is_as_asked)
-        self.drawing.ask(self._sent)
+        facts = " ".join(frequency_lines(self._transmission))
+        self.dialog.show_transmission(facts, is_rounded=not self._transmission.is_as_asked)
+        self.drawing.ask(self._transmission)
 
-    def _show_wiring(self, drawn: WiringDrawing) -> None:
+    def _show_wiring(self, drawing: WiringDrawing) -> None:
         # A drawing for an earlier scene or board is not shown.
-        if self.dialog is not None and drawn.sent is self._sent:
-            self.dialog.show_wiring(drawn.png, drawn.text)
+        if self.dialog is not None and drawing.transmission is self._transmission:
+            self.dialog.show_wiring(drawing.png, drawing.text)
 
     def _show_drawing_failure(self, sentence: str) -> None:
         if self.dialog is not None:
-            self.dialog.say_of_wiring(sentence)
+            self.dialog.replace_wiring(sentence)
 
     def _take_frequency(self) -> None:
-        if self._sent is not None:
-            self._store.change(NO_GESTURE, **self._sent.sent_values)
+        if self._transmission is not None:
+            self._store.change(NO_GESTURE, **self._transmission.sent_values)
 
     def ask_to_save(self) -> None:
         """Ask where to make the new folder, and save the files there."""
@@ -159,17 +161,17 @@ class TransmitterController(Service):
             self.save(Path(folder))
 
     def save(self, parent: Path) -> None:
-        if self._sent is not None:
-            self._say("Writing…")
-            self.saving.ask(SaveJob(self._sent, parent))
+        if self._transmission is not None:
+            self._show_note("Writing…")
+            self.saving.ask(SaveJob(self._transmission, parent))
 
-    def _report(self, saved: SavedFiles) -> None:
+    def _report_files(self, saved: SavedFiles) -> None:
         self._preferences.visit(saved.folder)
         folder = one_line(str(saved.folder))
         text = f"Saved {saved.files} files in {folder}; scene.toml has the frequency that is sent."
-        self._say(f"{text} {saved.missing}".strip())
+        self._show_note(f"{text} {saved.why_no_wav}".strip())
 
-    def _say(self, text: str) -> None:
+    def _show_note(self, text: str) -> None:
         if self.dialog is not None:
             self.dialog.note.setText(text)
         else:

@@ -21,7 +21,7 @@ _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportion
 class TransmitterDialog(QDialog):
     board_chosen = Signal(str)
 
-    frequency_asked = Signal()  # the user sets the scene to the frequency that the board sends
+    frequency_asked = Signal()  # the user sets the scene to the sent frequency
 
     save_asked = Signal()
 
@@ -58,17 +58,17 @@ class TransmitterDialog(QDialog):
         buttons.rejected.connect(self.reject)
         return buttons
 
-    def show_sent(self, facts: str, differs: bool) -> None:
+    def show_transmission(self, facts: str, is_rounded: bool) -> None:
         self.facts.setText(facts)
-        self.take.setEnabled(differs)
+        self.take.setEnabled(is_rounded)
         self.save.setEnabled(True)
-        self.say_of_wiring("Drawing the wiring…")
+        self.replace_wiring("Drawing the wiring…")
 
     def show_refusal(self, sentence: str) -> None:
         self.facts.setText(sentence)
         self.take.setEnabled(False)
         self.save.setEnabled(False)
-        self.say_of_wiring("")
+        self.replace_wiring("")
 
     def show_wiring(self, png: bytes, text: str) -> None:
         image = QImage.fromData(png)
@@ -76,7 +76,7 @@ class TransmitterDialog(QDialog):
         self.wiring.setPixmap(QPixmap.fromImage(image))
         self.wiring.setAccessibleDescription(text)
 
-    def say_of_wiring(self, text: str) -> None:
+    def replace_wiring(self, text: str) -> None:
         self.wiring.clear()  # setting an empty text would not remove the picture
         self.wiring.setText(text)
         self.wiring.setAccessibleDescription("")

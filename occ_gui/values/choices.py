@@ -1,4 +1,4 @@
-"""What the user has set about rooms, films and photos: which one is open, and how it is used."""
+"""The user's choices of room, film and photos, and how each is used."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -61,24 +61,24 @@ class RoomChoice:
     focal_length: float | None = None
 
 
-MODES = ("beside", "blend", "split", "difference")
+OVERLAYS = ("beside", "blend", "split", "difference")
 """Ways of showing a photo with the simulated picture."""
 
 LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
 
-KNOWN = ("switching_frequency", "lamp_frequency", "pulse_frequency", "readout_time")
+KNOWN_PARAMETERS = ("switching_frequency", "lamp_frequency", "pulse_frequency", "readout_time")
 """Stripes determine only the product of a frequency and the readout time: one must be known to
 estimate the other."""
 
-SENT = ("auto", "scene", "lamp", "read")
+SENT_SOURCES = ("auto", "scene", "lamp", "read")
 """Sources of what was sent: found automatically, the scene, a lamp of any duty, or the stripes."""
 
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
-    sent: str = "auto"  # what was sent, one of SENT
+    sent: str = "auto"  # what was sent, one of SENT_SOURCES
     lamp_frequency: float = 1000.0  # cycles per second of the lamp, in Hz, if one was sent
-    # The one of ESTIMATES that is estimated; the other one is known
+    # What is estimated, one of ESTIMATES; the other one is known
     estimate: str = "readout_time"
     fit_gamma: bool = False  # whether gamma is estimated too
 
@@ -118,7 +118,7 @@ class PhotoFrame:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedPhoto:
     """Where the user has put a photo on the picture."""
 
     source: PhotoSource
@@ -127,7 +127,7 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class PhotoChoice:
-    """What the user has set about photos; a setting for a photo that is not shown has no effect."""
+    """The user's choices for photos; a setting for a photo that is not shown has no effect."""
 
     path: Path | None = None  # the photo that is open, or is being loaded; None for none
     load_options: LoadOptions = field(default_factory=LoadOptions)
@@ -140,7 +140,7 @@ class PhotoChoice:
     certain: Mapping[str, float] = field(default_factory=dict)
     forgotten: Mapping[str, float] = field(default_factory=dict)
     listed: tuple[Path, ...] = ()
-    placed: Placed | None = None  # where the user has placed a photo
+    placed_photo: PlacedPhoto | None = None
     is_match_wanted: bool = (
         False  # whether to match the photo and apply the match once it is loaded
     )
@@ -177,12 +177,12 @@ class PhotoChoice:
         return replace(self, certain={}, forgotten={**self.forgotten, **self.certain})
 
     def with_certain(self, name: str, value: float | None) -> Self:
-        others = {known: other for known, other in self.certain.items() if known != name}
-        forgotten = {known: other for known, other in self.forgotten.items() if known != name}
+        others = {key: known for key, known in self.certain.items() if key != name}
+        forgotten = {key: known for key, known in self.forgotten.items() if key != name}
         certain = others if value is None else {**others, name: value}
         return replace(self, certain=certain, forgotten=forgotten)
 
     def with_part(self, frame: PhotoFrame, part: "Lamp | Region | None") -> Self:
-        former = (frame, PhotoFrame(frame.path))
-        parts = {known: each for known, each in self.parts.items() if known not in former}
+        replaced_frames = (frame, PhotoFrame(frame.path))
+        parts = {key: other for key, other in self.parts.items() if key not in replaced_frames}
         return replace(self, parts=parts if part is None else {**parts, frame: part})

@@ -37,7 +37,7 @@ class PanePlace:
     """Where a mode shows a pane at first, as a tab beside the others of that side."""
 
     side: Side
-    is_main: bool = False  # whether this is the mode's main pane, which is in front at first
+    is_main: bool = False  # whether this is the mode's main pane, at first in front
     width: int = 0  # first size in pixels; 0 if it does not matter
     height: int = 0
 

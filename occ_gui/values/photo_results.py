@@ -31,16 +31,16 @@ class MatchRequest:
     scene: Scene
     choice: MatchChoice
     part: "Lamp | Region | None"  # None for all of the photo
-    applies_result: bool = False  # whether the match is applied to the scene as soon as it is found
+    applies_result: bool = False  # whether the match is applied to the scene as soon as it is ready
 
 
 @dataclass(frozen=True, slots=True)
-class FoundMatch:
+class MatchOutcome:
     part: "Lamp | Region | None"  # what was matched; None for all of the photo
-    # The match; with a refusal, the match before it, or None if there was none
+    # The match; after a refusal, the previous match, or None if there was none
     match: "Match | None"
     given: tuple[str, float]  # the known value of the scene at the request: its name, in SI units
-    # Why the latest match was refused, a sentence for each reason, and the part that it was of
+    # Why the latest match was refused, a sentence for each reason, and the part to be matched
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None
     is_listed: bool = False
@@ -56,15 +56,15 @@ class FoundMatch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PhotoDocument:
-    """A photo that was loaded, the requests for it, and what was found in it."""
+    """A photo that was loaded, the requests for it, and their results."""
 
     photo: "Photo"
     source: PhotoSource
     is_searched: bool = False  # whether it is being searched for lamps
     lamps: "tuple[Lamp, ...]" = ()
-    why_no_lamps: str = ""  # a sentence where the search has failed
-    requested: MatchRequest | None = None  # the match that is running
-    found: FoundMatch | None = None  # the result of the last match
+    why_no_lamps: str = ""  # why the search failed; empty if it did not
+    match_request: MatchRequest | None = None  # the match that is running
+    outcome: MatchOutcome | None = None  # of the last match
 
     @property
     def frame(self) -> PhotoFrame:
@@ -72,28 +72,28 @@ class PhotoDocument:
 
     def without_work(self) -> Self:
         """Return the document without running work, which ends when another photo is opened."""
-        return replace(self, is_searched=False, requested=None)
+        return replace(self, is_searched=False, match_request=None)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ListedRows:
-    """What has been found so far in the photos of the table, and how they were loaded."""
+    """The results so far for the photos of the table, and how the photos were loaded."""
 
     rows: "tuple[PhotoRow, ...]"
     load_options: LoadOptions
     given: tuple[str, float]  # the known value of the scene when they were matched, as above
 
-    def match_of(self, document: PhotoDocument) -> FoundMatch | None:
+    def match_of(self, document: PhotoDocument) -> MatchOutcome | None:
         rows = (row for row in self.rows if row.path == document.photo.path)
         row = next(rows, None)
         if row is None or row.match is None or document.source.load_options != self.load_options:
             return None
-        return FoundMatch(None, row.match, self.given, is_listed=True)
+        return MatchOutcome(None, row.match, self.given, is_listed=True)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PhotoProfile:
-    # Both profiles compared, None if ``sentence`` says why that is impossible
+    # The comparison of both profiles; None if ``sentence`` says why that is impossible
     comparison: "Comparison | None"
     # Shape (columns of the photo,): mean of each column of the whole photo, in grey levels
     raw: FloatArray
@@ -103,4 +103,4 @@ class PhotoProfile:
     # Why there is no comparison; empty while the photo is being searched for stripes
     sentence: str = ""
     photo: "Photo | None" = None
-    is_outdated: bool = False  # whether the simulation is of another scene than the present one
+    is_outdated: bool = False  # whether the simulation shows an earlier scene

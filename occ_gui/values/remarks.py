@@ -7,9 +7,9 @@ from dataclasses import dataclass
 @dataclass(frozen=True, eq=False, slots=True)
 class Remark:
     sentence: str
-    until: Callable[..., object]
-    """Takes workspace and results; returns the part that, once changed, ends the remark."""
-    state: object  # that part at the time of the remark
+    select_state: Callable[..., object]
+    """Takes workspace and results; returns the value whose change ends the remark."""
+    state: object  # that value at the time of the remark
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -18,7 +18,7 @@ class SimulationRequest:
     picture_kind: str = field(default=PICTURES[0], compare=False)
     # A draft simulates one of this many rows of the picture
     draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
-    more: tuple[str, ...] = field(default=(), compare=False)
+    more_decoders: tuple[str, ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)

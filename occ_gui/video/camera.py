@@ -103,7 +103,7 @@ class CameraSource:
         self.title, self.axis = device.name, "lines"
         self._device = device
         self._capture: cv2.VideoCapture | None = None
-        self._began = 0.0
+        self._open_time = 0.0
 
     def open(self) -> None:
         """Open the camera in full HD, or in the nearest size that it has."""
@@ -122,15 +122,15 @@ class CameraSource:
             capture.set(cv2.CAP_PROP_FRAME_WIDTH, _WIDTH)
             capture.set(cv2.CAP_PROP_FRAME_HEIGHT, _HEIGHT)
             capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
-        self._capture, self._began = capture, monotonic()
+        self._capture, self._open_time = capture, monotonic()
 
     def read(self) -> LivePicture | None:
         if self._capture is None:
             return None
-        is_there, pixels = self._capture.read()
-        if not is_there or pixels is None or pixels.dtype != np.uint8:
+        has_picture, pixels = self._capture.read()
+        if not has_picture or pixels is None or pixels.dtype != np.uint8:
             return None
-        return LivePicture(monotonic() - self._began, np.asarray(pixels, dtype=np.uint8))
+        return LivePicture(monotonic() - self._open_time, np.asarray(pixels, dtype=np.uint8))
 
     def lock_exposure(self, on: bool) -> bool:
         """Lock the present exposure time, or let the camera choose it."""
@@ -140,13 +140,13 @@ class CameraSource:
         is_v4l = capture.getBackendName() == "V4L2"
         manual = _V4L_MANUAL if is_v4l else _MANUAL
         automatic = _V4L_AUTOMATIC if is_v4l else _AUTOMATIC
-        before = capture.get(cv2.CAP_PROP_EXPOSURE)
-        wanted = manual if on else automatic
-        if not capture.set(cv2.CAP_PROP_AUTO_EXPOSURE, wanted):
+        exposure = capture.get(cv2.CAP_PROP_EXPOSURE)
+        mode = manual if on else automatic
+        if not capture.set(cv2.CAP_PROP_AUTO_EXPOSURE, mode):
             return False
         if on:
-            capture.set(cv2.CAP_PROP_EXPOSURE, before)
-        return abs(capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) - wanted) < 0.01
+            capture.set(cv2.CAP_PROP_EXPOSURE, exposure)
+        return abs(capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) - mode) < 0.01
 
     def close(self) -> None:
         if self._capture is not None:

@@ -15,7 +15,7 @@ from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, process_frame
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.results.video import USUAL_RATE, Video, VideoFrame
 
-_TURN_MS = 33  # least milliseconds between two frames on the screen
+_INTERVAL_MS = 33  # least milliseconds between two frames on the screen
 
 _DRAFT_STEP = 8  # while a film plays, a draft simulates one of this many rows
 
@@ -23,7 +23,7 @@ _DRAFT_STEP = 8  # while a film plays, a draft simulates one of this many rows
 class FilmPlayer(QObject):
     """Plays a film at its own speed, skipping frames that would be late."""
 
-    wanted = Signal(int)  # the index of the frame to show
+    frame_requested = Signal(int)  # the index of the frame to show
 
     playing_changed = Signal(bool)
 
@@ -32,15 +32,15 @@ class FilmPlayer(QObject):
         self.index = 0  # index of the frame that is shown or requested
         self.count = 0  # number of frames, as far as it is known
         self._rate = USUAL_RATE
-        self._began_at = 0
+        self._start_index = 0
         self._clock = clock or QElapsedTimer()
-        self._turns = QTimer(self)
-        self._turns.setInterval(_TURN_MS)
-        self._turns.timeout.connect(self.advance)
+        self._timer = QTimer(self)
+        self._timer.setInterval(_INTERVAL_MS)
+        self._timer.timeout.connect(self.advance)
 
     @property
     def is_playing(self) -> bool:
-        return self._turns.isActive()
+        return self._timer.isActive()
 
     def set_film(self, count: int, rate: float | None) -> None:
         """Stop, and take another film with this number of frames and frame rate."""
@@ -65,19 +65,19 @@ class FilmPlayer(QObject):
             return
         if self.index >= self.count - 1:
             self._show(0)
-        self._began_at = self.index
+        self._start_index = self.index
         self._clock.start()
-        self._turns.start()
+        self._timer.start()
         self.playing_changed.emit(True)
 
     def pause(self) -> None:
         if self.is_playing:
-            self._turns.stop()
+            self._timer.stop()
             self.playing_changed.emit(False)
 
     def seek(self, index: int) -> None:
         index = min(max(index, 0), max(self.count - 1, 0))
-        self._began_at = index
+        self._start_index = index
         self._clock.start()
         if self.count and index != self.index:
             self._show(index)
@@ -87,8 +87,8 @@ class FilmPlayer(QObject):
         self.seek(self.index + frames)
 
     def advance(self) -> None:
-        passed = 1e-3 * self._clock.elapsed()
-        index = min(self._began_at + int(passed * self._rate), self.count - 1)
+        seconds = 1e-3 * self._clock.elapsed()
+        index = min(self._start_index + int(seconds * self._rate), self.count - 1)
         if index > self.index:
             self._show(index)
         if self.index >= self.count - 1:
@@ -96,7 +96,7 @@ class FilmPlayer(QObject):
 
     def _show(self, index: int) -> None:
         self.index = index
-        self.wanted.emit(index)
+        self.frame_requested.emit(index)
 
 
 def _open(source: FilmSource, report: Report) -> Video:
@@ -109,7 +109,7 @@ class FilmController(QObject):
 
     opened = Signal(object)  # the open Video; None for the simulated film
 
-    failed = Signal(str)  # why a film cannot be opened; what was open stays
+    failed = Signal(str)  # why a film cannot be opened; the open film stays
 
     frame_shown = Signal(object)
 
@@ -118,15 +118,15 @@ class FilmController(QObject):
     def __init__(self, scenes: SceneStore, results_store: ResultsStore) -> None:
         super().__init__()
         self._scenes, self._store = scenes, scenes.store
-        self._settled = replace(self.choice, path=None)
+        self._shown_choice = replace(self.choice, path=None)
         """The choices for the film that is shown; those for a film that is still loading differ."""
         self.film: Video | None = None  # the open film; None for the simulated film
         self.is_live = False  # whether the film comes from a camera, which keeps no frames
-        self.last_live: VideoFrame | None = None
+        self.live_frame: VideoFrame | None = None
         """The last frame of a camera; it stays when the camera is gone."""
         self._is_visible = False
         self.player = FilmPlayer(self)
-        self.player.wanted.connect(self.show)
+        self.player.frame_requested.connect(self.show)
         self.opener = ResultUpdater(
             scenes.store, results_store, Task(_open, "opening of the film", impatient=True),
             lambda workspace, _: workspace.film.source,
@@ -179,28 +179,28 @@ class FilmController(QObject):
 
     def edit(self, change: Callable[[FilmChoice], FilmChoice]) -> None:
         if self.opener.task.is_idle:
-            self._settled = self.choice
+            self._shown_choice = self.choice
         workspace = self._store.workspace
         self._store.put(replace(workspace, film=change(workspace.film)))
 
     def _settle(self, film: Video | None) -> None:
-        self._settled = self.choice
+        self._shown_choice = self.choice
         if not self.is_live or film is not None:
             self.put(film)
 
     def _fail(self, sentence: str) -> None:
-        shown = self._settled  # what was open stays
-        changes = {"path": shown.path, "axis": shown.axis, "opening": shown.opening}
-        self.edit(lambda choice: replace(choice, **changes))  # type: ignore[arg-type]  # its own
+        choice = self._shown_choice  # the open film stays
+        changes = {"path": choice.path, "axis": choice.axis, "opening": choice.opening}
+        self.edit(lambda choice: replace(choice, **changes))  # type: ignore[arg-type]
         self.failed.emit(sentence)
 
     def put(self, film: Video | None, is_live: bool = False) -> None:
-        self.film, self.is_live, self.last_live = film, is_live, None
+        self.film, self.is_live, self.live_frame = film, is_live, None
         self.player.set_film(0 if is_live else self.count, self.rate)
         self.opened.emit(film)
         self.show()
 
-    def put_live(self, film: Video) -> None:
+    def show_live_film(self, film: Video) -> None:
         self.is_live = True
         self.edit(lambda choice: choice.open(None))
         self.put(film, is_live=True)
@@ -213,18 +213,18 @@ class FilmController(QObject):
             self.put(None)
 
     def show_live(self, frame: VideoFrame) -> None:
-        self.last_live = frame
+        self.live_frame = frame
         if self.loader.is_idle:  # else this frame is skipped
             self.show()
 
     def show(self) -> None:
-        if not self._is_visible or (self.is_live and self.last_live is None):
+        if not self._is_visible or (self.is_live and self.live_frame is None):
             return
         is_fast = self.player.is_playing or self.is_live
         self.loader.ask(
             FrameRequest(
                 film=self.film,
-                live=self.last_live,
+                live=self.live_frame,
                 index=0 if self.is_live else self.player.index,
                 scene=self._scenes.scene,
                 settings=self._scenes.settings.settings,
@@ -237,7 +237,7 @@ class FilmController(QObject):
         if not playing:
             self.show()
 
-    def take_recording(self) -> None:
+    def apply_recording(self) -> None:
         if self.film is None:
             index = self.player.index
             self.player.set_film(self.count, self.rate)

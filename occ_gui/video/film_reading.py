@@ -61,9 +61,9 @@ def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: fl
     if not len(starts):
         return Marks()
     steps = np.append(np.diff(starts), last)
-    ahead = steps[steps > 0.0]
-    usual = float(np.median(ahead)) if ahead.size else last
-    # What lies in a gap of the times is unknown.
+    forward_steps = steps[steps > 0.0]
+    usual = float(np.median(forward_steps)) if forward_steps.size else last
+    # Nothing is known about the time in a gap.
     steps = np.where((steps < 0.0) | (steps > LEAST_BREAK * usual), usual, steps)
     return Marks(starts, starts + steps, states)
 
@@ -84,7 +84,7 @@ class FilmReading:
 class MarkLook:
     state: State
     pattern: Qt.BrushStyle
-    height: float  # as a fraction of its row; tells states apart where marks are too narrow
+    height: float  # as a fraction of its row; tells states apart in narrow marks
     name: str
     meaning: str
     spoken: str  # what a screen reader says about a frame

@@ -18,7 +18,7 @@ from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.video.read_frame import read_by_itself
 
-_MOST_DRAFT_PIXELS = 1_000_000  # up to this size, the exact picture is as fast as a draft
+_MOST_DRAFT_PIXELS = 1_000_000  # up to this size, an exact picture takes no longer than a draft
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,7 +39,7 @@ class ShownFrame:
     time: float | None  # when the frame began, in seconds; None if there is no frame
     film: ShownPicture | None
     simulated: ShownPicture | None
-    instead: str
+    refusal: str  # why there is no simulated picture; empty if there is one
     story: FrameStory | None
 
 
@@ -53,21 +53,22 @@ def process_frame(request: FrameRequest) -> ShownFrame:
         title = "" if request.film is None else request.film.title
         story = _make_story(frame, request.scene, None, title)
         film = _make_picture(frame.image, story, f"{title}: {_describe_time(frame)}")
-    simulated, instead, own = None, "", None
+    simulated, refusal, simulated_frame = None, "", None
     start = None if story is None else start_of(story.reading.results[PAPER_DECODER], request.scene)
     try:
-        own = _simulate(request, start)
+        simulated_frame = _simulate(request, start)
     except OccError as error:
-        instead = str(error)
-    if own is not None and own.scene is not None:
-        step = len(range(0, request.scene.camera.rows, request.draft_step))
-        is_draft = step != request.scene.camera.rows
-        seen = _make_story(own, own.scene, request, "Simulated")
-        when = _describe_time(own) if start is None else "in phase with the film"
-        simulated = _make_picture(own.image, seen, f"Simulated{' (draft)' * is_draft}: {when}")
-        story = story or seen
-    time = frame.time if frame is not None else None if own is None else own.time
-    return ShownFrame(request, time, film, simulated, instead, story)
+        refusal = str(error)
+    if simulated_frame is not None and simulated_frame.scene is not None:
+        is_draft = request.draft_step > 1 and request.scene.camera.rows > 1
+        simulated_story = _make_story(simulated_frame, simulated_frame.scene, request, "Simulated")
+        when = _describe_time(simulated_frame) if start is None else "in phase with the film"
+        caption = f"Simulated{' (draft)' * is_draft}: {when}"
+        simulated = _make_picture(simulated_frame.image, simulated_story, caption)
+        story = story or simulated_story
+    first_frame = simulated_frame if frame is None else frame
+    time = None if first_frame is None else first_frame.time
+    return ShownFrame(request, time, film, simulated, refusal, story)
 
 
 def _describe_time(frame: VideoFrame) -> str:
@@ -94,9 +95,9 @@ def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
     # between the levels shifts rising and falling edges in opposite directions; their mean stays.
     columns = region.first_column + starts[changes] - 0.5
     chips = changes - decoded.headers[0]
-    begin = float(np.mean(columns * camera.readout_time - chips * period))
+    packet_start = float(np.mean(columns * camera.readout_time - chips * period))
     # The level crosses the threshold when half of the exposure lies behind the edge.
-    return float(-(begin + camera.exposure_time / 2.0) % (len(occ.packet(scene)) * period))
+    return float(-(packet_start + camera.exposure_time / 2.0) % (len(occ.packet(scene)) * period))
 
 
 def _simulate(request: FrameRequest, start: float | None) -> VideoFrame:
@@ -129,24 +130,24 @@ def _make_story(
     decoded, is_enhanced = read_by_itself(image, scene)
     region = decoded.region or Region(0, image.shape[0], 0, image.shape[1])
     profile = column_means(image, Region(region.first_row, region.last_row, 0, image.shape[1]))
-    shown = _with_size(scene, image, step)
-    decoded = _scale_to_picture(decoded, step, shown.camera.rows)
-    region = decoded.region or Region(0, shown.camera.rows, 0, image.shape[1])
-    corners = _corners(region)
+    picture_scene = _resize_scene(scene, image, step)
+    decoded = _scale_to_picture(decoded, step, picture_scene.camera.rows)
+    region = decoded.region or Region(0, picture_scene.camera.rows, 0, image.shape[1])
+    corners = _corners_of(region)
     transmitter = scene.transmitter
     has_payload = transmitter.light == "code" and not transmitter.pattern
     reading = ColumnView(
-        scene=shown, profile=profile, signal=profile, corners=corners,
+        scene=picture_scene, profile=profile, signal=profile, corners=corners,
         results={decoded.decoder: decoded},
         sent=transmitter.payload_bits if request is not None and has_payload else (),
         period_columns=period_columns(scene),
     )  # fmt: skip
-    rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
-    picture = PictureView(image, rows, size, corners, image)
+    size = picture_scene.camera.rows, picture_scene.camera.columns
+    picture = PictureView(image, range(0, size[0], step), size, corners, image)
     # Without this note, its threshold would seem to contradict that in the mode Explore.
-    how = "enhanced" if is_enhanced else "not enhanced"
+    treatment = "enhanced" if is_enhanced else "not enhanced"
     place = f"{source_name}, frame {frame.index + 1}"
-    title = f"{place}, read by itself, {how}: {_describe_result(decoded)}"
+    title = f"{place}, read by itself, {treatment}: {_describe_result(decoded)}"
     if transmitter.light != "code":
         title = f"{place}: {describe_light(transmitter)}"
     return FrameStory(picture, reading, request is not None, title)
@@ -158,7 +159,7 @@ def _describe_result(decoded: DecodeResult) -> str:
     return f"{decoded.payload or f'code {decoded.code}'} read."
 
 
-def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
+def _resize_scene(scene: Scene, image: ByteArray, step: int) -> Scene:
     rows, columns = image.shape
     rows = scene.camera.rows if step > 1 else rows
     if (rows, columns) == (scene.camera.rows, scene.camera.columns):
@@ -175,7 +176,7 @@ def _scale_to_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResu
     return replace(decoded, region=region)
 
 
-def _corners(region: Region) -> FloatArray:
+def _corners_of(region: Region) -> FloatArray:
     left, right = region.first_column - 0.5, region.last_column - 0.5
     top, bottom = region.first_row - 0.5, region.last_row - 0.5
     return np.array([[left, top], [right, top], [right, bottom], [left, bottom]])

@@ -26,7 +26,7 @@ _LEAST = QSize(140, 90)
 class ShownPicture:
     image: ByteArray  # shape (rows, columns)
     halves: tuple[ByteArray, ...]
-    region: Region | None  # the part that was read; None if nothing was found
+    region: Region | None  # the part that was read; None if there is none
     caption: str
     rows_step: int = 1  # height of a row in pixels; more than 1 in a draft
 
@@ -37,17 +37,17 @@ class _Side(QStackedWidget):
     def __init__(self, name: str) -> None:
         super().__init__()
         self.pane = PicturePane(name)
-        self.instead = paragraph(name=name)
-        self.instead.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.instead.setMargin(12)
-        self.addWidget(self.instead)
+        self.placeholder = paragraph(name=name)
+        self.placeholder.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.placeholder.setMargin(12)
+        self.addWidget(self.placeholder)
         self.addWidget(self.pane)
         self.setMinimumSize(_LEAST)
 
-    def show_picture(self, picture: ShownPicture | None, instead: str) -> None:
+    def show_picture(self, picture: ShownPicture | None, placeholder: str) -> None:
         if picture is None:
-            self.instead.setText(instead)
-            self.setCurrentWidget(self.instead)
+            self.placeholder.setText(placeholder)
+            self.setCurrentWidget(self.placeholder)
             return
         self.pane.caption.set_full_text(picture.caption)
         self.pane.show_picture(picture.image, picture.halves, picture.rows_step)
@@ -55,7 +55,7 @@ class _Side(QStackedWidget):
         self.setCurrentWidget(self.pane)
 
     @property
-    def is_shown(self) -> bool:
+    def has_picture(self) -> bool:
         return self.currentWidget() is self.pane
 
 
@@ -72,15 +72,15 @@ class FilmPictures(QWidget):
             self.split.addWidget(side)
         fill(QVBoxLayout(self), self.split, margins=0)
 
-    def show_film(self, picture: ShownPicture | None, instead: str = "") -> None:
-        self._film.show_picture(picture, instead)
+    def show_film(self, picture: ShownPicture | None, placeholder: str = "") -> None:
+        self._film.show_picture(picture, placeholder)
 
-    def show_simulated(self, picture: ShownPicture | None, instead: str = "") -> None:
-        self._simulated.show_picture(picture, instead)
+    def show_simulated(self, picture: ShownPicture | None, placeholder: str = "") -> None:
+        self._simulated.show_picture(picture, placeholder)
 
     @property
-    def shown(self) -> tuple[bool, bool]:
-        return self._film.is_shown, self._simulated.is_shown
+    def are_visible(self) -> tuple[bool, bool]:
+        return self._film.has_picture, self._simulated.has_picture
 
     def fit(self) -> None:
         self.film.fit()
@@ -112,10 +112,10 @@ class FrameRows(QWidget):
         fill(QVBoxLayout(self), line, (self.rows, 1), margins=(0, 4, 0, 0), spacing=2)
         self.show_story(None)
 
-    def show_story(self, story: FrameStory | None, instead: str = "") -> None:
+    def show_story(self, story: FrameStory | None, placeholder: str = "") -> None:
         self.rows.setVisible(story is not None)
         if story is None:
-            self.title.set_full_text(instead)
+            self.title.set_full_text(placeholder)
             return
         self.title.set_full_text(story.title)
         # For a frame that was filmed, only what its columns gathered is known, not the light.

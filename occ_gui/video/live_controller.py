@@ -25,7 +25,7 @@ from occ_model.scene.scene import Scene
 
 _JOIN_SECONDS = 5.0  # longest wait in seconds for a device that does not respond
 
-_TURN_MS = 30  # milliseconds between two pictures on the screen
+_INTERVAL_MS = 30  # milliseconds between two pictures on the screen
 
 
 class LiveVideo(Video):
@@ -34,26 +34,26 @@ class LiveVideo(Video):
     A thread of its own opens, reads and closes the source, so that decoding never delays the next
     pictures and a device that hangs never blocks the window.
 
-    ``axis``: the axis that the shutter scans, one of AXES. ``after``: the previous film, which
+    ``axis``: the axis that the shutter scans, one of AXES. ``previous``: the previous film, which
     must release its device first.
     """
 
     def __init__(
-        self, source: CameraDriver, axis: str = AXES[0], after: "LiveVideo | None" = None
+        self, source: CameraDriver, axis: str = AXES[0], previous: "LiveVideo | None" = None
     ) -> None:
         self.title = source.title
         self.shape = (0, 0)
         self.frame_rate = self.frame_count = None
         self.source = source
         self.axis = axis
-        self._after = after
-        self._changed = Condition()
+        self._previous = previous
+        self._condition = Condition()
         self._newest: LivePicture | None = None
-        self.arrived = 0
+        self.picture_count = 0
         self.has_ended = self._is_stopped = False
-        self.last: VideoFrame | None = None
+        self.last_frame: VideoFrame | None = None
         self._problem: str | None = None
-        self._orders: list[Callable[[], None]] = []
+        self._commands: list[Callable[[], None]] = []
         self.thread = Thread(target=self._film, name="camera", daemon=True)
 
     @property
@@ -70,25 +70,25 @@ class LiveVideo(Video):
 
     def end(self) -> None:
         """End filming; the device is released as soon as it responds."""
-        with self._changed:
+        with self._condition:
             self._is_stopped = self.has_ended = True
             self._newest = None
-            self._changed.notify_all()
+            self._condition.notify_all()
 
     def join(self) -> None:
         """Wait until the device is released, but only for some seconds, as a driver may hang."""
         if self.thread.ident is not None:
             self.thread.join(_JOIN_SECONDS)
 
-    def lock_exposure(self, on: bool, answer: Callable[[bool], None]) -> None:
+    def lock_exposure(self, on: bool, report: Callable[[bool], None]) -> None:
         """Lock or release the exposure between two pictures.
 
-        ``answer`` is called from another thread; its argument says whether that was possible.
+        ``report`` is called from another thread; its argument tells whether that was possible.
         """
-        with self._changed:
-            self._orders.append(lambda: answer(self.source.lock_exposure(on)))
+        with self._condition:
+            self._commands.append(lambda: report(self.source.lock_exposure(on)))
 
-    def frames(self, first: int = 0) -> Iterator[VideoFrame]:  # noqa: ARG002 - as of any film
+    def frames(self, first: int = 0) -> Iterator[VideoFrame]:  # noqa: ARG002 - part of Video
         """Yield the newest picture whenever one is requested, each only once; ignores ``first``."""
         while (frame := self._next()) is not None:
             yield frame
@@ -98,16 +98,16 @@ class LiveVideo(Video):
         raise VideoError(f"Frame {index} of {self.title} is not kept: it is a live film.")
 
     def _next(self) -> VideoFrame | None:
-        with self._changed:
-            self._changed.wait_for(lambda: self._newest is not None or self.has_ended)
+        with self._condition:
+            self._condition.wait_for(lambda: self._newest is not None or self.has_ended)
             picture, self._newest = self._newest, None
-            index = self.arrived - 1
+            index = self.picture_count - 1
         if picture is None:
             return None
         grey = self._grey(picture.pixels)
         self.shape = (grey.shape[0], grey.shape[1])
-        self.last = VideoFrame(index, picture.time, grey)
-        return self.last
+        self.last_frame = VideoFrame(index, picture.time, grey)
+        return self.last_frame
 
     def _grey(self, pixels: ByteArray) -> ByteArray:
         """Return the luma with the scan axis as columns, as for a film from a file."""
@@ -119,9 +119,9 @@ class LiveVideo(Video):
 
     def _film(self) -> None:
         problem: str | None = None
-        after, self._after = self._after, None
-        if after is not None:
-            after.join()
+        previous, self._previous = self._previous, None
+        if previous is not None:
+            previous.join()
         try:
             self.source.open()
             while not self._is_stopped:
@@ -136,23 +136,23 @@ class LiveVideo(Video):
             problem = f"{self.title} delivers no more pictures ({type(error).__name__}: {error})."
         finally:
             self.source.close()
-            with self._changed:
+            with self._condition:
                 self.has_ended = True
                 self._problem = None if self._is_stopped else problem
-                self._changed.notify_all()
+                self._condition.notify_all()
 
     def _put(self, picture: LivePicture) -> None:
-        with self._changed:
-            orders, self._orders = self._orders, []
+        with self._condition:
+            commands, self._commands = self._commands, []
             if not self._is_stopped:
                 self._newest = picture
-                self.arrived += 1
-                self._changed.notify_all()
-        for order in orders:
-            order()
+                self.picture_count += 1
+                self._condition.notify_all()
+        for command in commands:
+            command()
 
 
-def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
+def _find_devices(_request: None, report: Report) -> tuple[CameraDevice, ...]:
     report(None)
     return find_cameras()
 
@@ -163,7 +163,7 @@ class LiveController(QObject):
     ended = Signal(str)  # why there are no more pictures; empty if the user stopped the camera
     exposure_refused = Signal(str)  # why the exposure is not locked or released
 
-    _answered = Signal(bool, bool)
+    _exposure_set = Signal(bool, bool)
 
     def __init__(
         self, films: FilmController, readings: FilmReader, scene: Callable[[], Scene]
@@ -172,16 +172,16 @@ class LiveController(QObject):
         self._films, self._readings, self._scene = films, readings, scene
         self.video: LiveVideo | None = None  # the film of the camera that is filming
         self.finder: Task[None, tuple[CameraDevice, ...]] = Task(
-            _find, "search for cameras", impatient=True
+            _find_devices, "search for cameras", impatient=True
         )
         self.finder.finished.connect(self.devices_found)
         self.finder.failed.connect(self.ended)
-        self._turns = QTimer(self)
-        self._turns.setInterval(_TURN_MS)
-        self._turns.timeout.connect(self._show)
-        self._answered.connect(self._on_answer, Qt.ConnectionType.QueuedConnection)
-        self._shown = -1
-        self._last: LiveVideo | None = None
+        self._timer = QTimer(self)
+        self._timer.setInterval(_INTERVAL_MS)
+        self._timer.timeout.connect(self._show)
+        self._exposure_set.connect(self._on_exposure_set, Qt.ConnectionType.QueuedConnection)
+        self._shown_index = -1
+        self._last_video: LiveVideo | None = None
 
     @property
     def is_filming(self) -> bool:
@@ -197,12 +197,12 @@ class LiveController(QObject):
     def start(self, source: CameraDriver, axis: str = "") -> None:
         """Open a source in place of the film; ``axis`` is by default the source's usual axis."""
         self.stop_filming()
-        self.video = LiveVideo(source, axis or source.axis, self._last)
-        self._shown = -1
-        self._films.put_live(self.video)
+        self.video = LiveVideo(source, axis or source.axis, self._last_video)
+        self._shown_index = -1
+        self._films.show_live_film(self.video)
         self.video.start()
         self.read()
-        self._turns.start()
+        self._timer.start()
 
     def scan_along(self, axis: str) -> None:
         """Set the axis that the shutter scans, and reopen the camera."""
@@ -215,31 +215,31 @@ class LiveController(QObject):
 
     def lock_exposure(self, on: bool) -> None:
         if self.video is not None:
-            self.video.lock_exposure(on, lambda done: self._answered.emit(on, done))
+            self.video.lock_exposure(on, lambda is_set: self._exposure_set.emit(on, is_set))
 
     def stop_filming(self) -> None:
         """Release the camera; its last picture stays."""
-        self._turns.stop()
+        self._timer.stop()
         video, self.video = self.video, None
         if video is not None:
             self._readings.cancel()
             video.end()
-            self._last = video
+            self._last_video = video
 
     def _show(self) -> None:
         video = self.video
         if video is None:
             return
-        if video.last is not None and video.last.index != self._shown:
-            self._shown = video.last.index
-            self._films.show_live(video.last)
+        if video.last_frame is not None and video.last_frame.index != self._shown_index:
+            self._shown_index = video.last_frame.index
+            self._films.show_live(video.last_frame)
         if video.has_ended:
             problem = video.problem or ""
             self.stop_filming()
             self.ended.emit(problem)
 
-    def _on_answer(self, on: bool, done: bool) -> None:
-        if not done:
+    def _on_exposure_set(self, on: bool, is_set: bool) -> None:
+        if not is_set:
             self.exposure_refused.emit(
                 "The exposure of this camera cannot be held."
                 if on
@@ -248,5 +248,5 @@ class LiveController(QObject):
 
     def release(self) -> None:
         self.stop_filming()
-        if self._last is not None:
-            self._last.join()
+        if self._last_video is not None:
+            self._last_video.join()

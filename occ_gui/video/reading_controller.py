@@ -19,8 +19,8 @@ from occ_model.study.reading_facts import film_facts
 
 _INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
 _LIVE_INTERVAL = 0.03  # seconds between two reports of a camera, which also show its picture
-_LOOK_INTERVAL = 1.0  # least seconds between two readings of all frames together
-_LOOK_FRACTION = 0.2  # largest fraction of the time spent on reading all frames together
+_JOINT_INTERVAL = 1.0  # least seconds between two readings of all frames together
+_JOINT_FRACTION = 0.2  # largest fraction of the time spent on reading all frames together
 MOST_LIVE = 900  # frames of a live film that are kept: half a minute at 30 frames a second
 MOST_MARKS = 1_000_000  # up to this number of packets, each has a mark of its own
 
@@ -48,16 +48,16 @@ def read_film(request: ReadingRequest, report: Report) -> FilmReading:
 
 class _Collector:
     def __init__(self, request: ReadingRequest) -> None:
-        most = MOST_LIVE if request.is_live else None
+        most_frames = MOST_LIVE if request.is_live else None
         self._request = request
-        self._times: deque[float] = deque(maxlen=most)
-        self._states: deque[int] = deque(maxlen=most)
+        self._times: deque[float] = deque(maxlen=most_frames)
+        self._states: deque[int] = deque(maxlen=most_frames)
         self._reader = self._new_reader()
         self._frames = 0
-        self._known: FilmProgress | None = None
-        self._whole: VideoReading | None = None
-        self._packets = self._before = Marks()
-        self._next_look = monotonic() + _LOOK_INTERVAL
+        self._progress: FilmProgress | None = None
+        self._joint_reading: VideoReading | None = None
+        self._packets = self._earlier_packets = Marks()
+        self._next_joint_reading = monotonic() + _JOINT_INTERVAL
 
     def _new_reader(self) -> occ.VideoReader:
         reader = occ.VideoReader(self._request.scene)
@@ -69,44 +69,44 @@ class _Collector:
             # A new reader, because the memory of the old one grows with every frame.
             self.read_together()
             self._reader, self._frames = self._new_reader(), 0
-            self._before = self._packets
-        self._known = self._reader.add(frame)
+            self._earlier_packets = self._packets
+        self._progress = self._reader.add(frame)
         self._frames += 1
         self._times.append(frame.time)
-        self._states.append(state_of_frame(self._known.frame))
-        if monotonic() >= self._next_look:
+        self._states.append(state_of_frame(self._progress.frame))
+        if monotonic() >= self._next_joint_reading:
             self.read_together()
 
     def read_together(self) -> None:
         """Read all frames together, because later frames tell the places of earlier ones."""
         if not self._frames:
             return
-        began = monotonic()
-        self._whole = self._reader.reading()
-        for place, frame in enumerate(reversed(self._whole.frames), 1):
+        start = monotonic()
+        self._joint_reading = self._reader.reading()
+        for place, frame in enumerate(reversed(self._joint_reading.frames), 1):
             if place > len(self._states):
                 break
             self._states[-place] = state_of_frame(frame)
-        found = marks_of_packets(self._whole.packets)
-        self._packets = _join_marks(self._before, found, self._times[0])
-        took = monotonic() - began
-        self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_FRACTION)
+        new_packets = marks_of_packets(self._joint_reading.packets)
+        self._packets = _join_marks(self._earlier_packets, new_packets, self._times[0])
+        duration = monotonic() - start
+        self._next_joint_reading = monotonic() + max(_JOINT_INTERVAL, duration / _JOINT_FRACTION)
 
     def summarize(self) -> FilmReading:
-        known = self._known
-        if known is None:
+        progress = self._progress
+        if progress is None:
             problem = self._request.film.problem
             return FilmReading(sentences=(problem,) if problem else ())
-        whole, text = self._whole, known.payload
-        if whole is not None and whole.payload and len(whole.frames) == known.frames:
-            text = whole.payload
+        reading, text = self._joint_reading, progress.payload
+        if reading is not None and reading.payload and len(reading.frames) == progress.frames:
+            text = reading.payload
         return FilmReading(
             times=np.array(self._times, dtype=np.float64),
             states=np.array(self._states, dtype=np.uint8),
             packets=self._packets,
             text=text,
-            facts=film_facts(known, whole),
-            sentences=sentences_of(known, whole, self._request.film.problem),
+            facts=film_facts(progress, reading),
+            sentences=sentences_of(progress, reading, self._request.film.problem),
         )
 
 
@@ -125,14 +125,16 @@ def state_of_packet(packet: PacketReading) -> MarkState:
 
 def marks_of_packets(packets: SentPackets) -> Marks:
     """Return a mark for each packet; if there are very many, lost packets share a mark."""
-    shown = np.array([packet.number for packet in packets.in_view], dtype=np.int64)
+    numbers = np.array([packet.number for packet in packets.in_view], dtype=np.int64)
     if len(packets) <= MOST_MARKS:
         edges = np.arange(len(packets) + 1)
     else:
         ends = np.cumsum([0, *(part.count for part in packets.parts)])
-        edges = np.unique(np.concatenate([shown, shown + 1, ends]))
+        edges = np.unique(np.concatenate([numbers, numbers + 1, ends]))
     states = np.full(len(edges) - 1, MarkState.LOST, dtype=np.uint8)
-    states[np.searchsorted(edges, shown)] = [state_of_packet(one) for one in packets.in_view]
+    states[np.searchsorted(edges, numbers)] = [
+        state_of_packet(packet) for packet in packets.in_view
+    ]
     starts, last = packets.starts(edges[:-1]), packets.starts(edges[1:] - 1)
     return Marks(starts, last + packets.steps(edges[:-1]), states)
 
@@ -142,37 +144,37 @@ def _join_marks(before: Marks, after: Marks, first: float) -> Marks:
     if not len(before):
         return after
     last = float(after.starts[0]) if len(after) else np.inf
-    kept = (before.ends > first) & (before.starts < last)
+    is_kept = (before.ends > first) & (before.starts < last)
     return Marks(
-        np.concatenate([before.starts[kept], after.starts]),
-        np.concatenate([before.ends[kept], after.ends]),
-        np.concatenate([before.states[kept], after.states]),
+        np.concatenate([before.starts[is_kept], after.starts]),
+        np.concatenate([before.ends[is_kept], after.ends]),
+        np.concatenate([before.states[is_kept], after.states]),
     )
 
 
 def sentences_of(
-    known: FilmProgress, whole: VideoReading | None, problem: str | None
+    progress: FilmProgress, reading: VideoReading | None, problem: str | None
 ) -> tuple[str, ...]:
-    said = [problem] if problem else []
-    if whole is not None and whole.failure is not None:
-        said.append(whole.failure)
-    if whole is not None:
-        said += [*whole.problems, *filter(None, [whole.faults])]
-    elif known.clock is not None:
-        said += known.clock.problems
-    if whole is not None and whole.cut_off:
-        said.append(_explain_losses(known, whole))
-    return tuple(dict.fromkeys(said))
+    sentences = [problem] if problem else []
+    if reading is not None and reading.failure is not None:
+        sentences.append(reading.failure)
+    if reading is not None:
+        sentences += [*reading.problems, *filter(None, [reading.faults])]
+    elif progress.clock is not None:
+        sentences += progress.clock.problems
+    if reading is not None and reading.cut_off:
+        sentences.append(_explain_losses(progress, reading))
+    return tuple(dict.fromkeys(sentences))
 
 
-def _explain_losses(known: FilmProgress, whole: VideoReading) -> str:
+def _explain_losses(progress: FilmProgress, reading: VideoReading) -> str:
     """Explain which packets were lost; their bits do not count as wrong."""
     where = "sent in the gap between two frames, or cut off by a frame's edge"
-    if unplaced := known.frames - known.placed:
+    if unplaced := progress.frames - progress.placed:
         where += f", or in {counted(unplaced, 'frame')} without a known place"
-    lost = f"{whole.cut_off} of {counted(whole.lost, 'lost packet')}"
-    text = f"{lost} {'is' if whole.cut_off == 1 else 'are'} not whole in any frame: {where}."
-    if misread := whole.lost - whole.cut_off:
+    lost = f"{reading.cut_off} of {counted(reading.lost, 'lost packet')}"
+    text = f"{lost} {'is' if reading.cut_off == 1 else 'are'} not complete in any frame: {where}."
+    if misread := reading.lost - reading.cut_off:
         text += f" {misread} {'was' if misread == 1 else 'were'} in view and misread."
     return text + " The bit error rate counts only bits of packets in view."
 
@@ -180,7 +182,7 @@ def _explain_losses(known: FilmProgress, whole: VideoReading) -> str:
 class FilmReader(QObject):
     """Reads one film at a time; the result grows while the film is read."""
 
-    changed = Signal()  # more has been read, the reading has ended, or there is another film
+    changed = Signal()  # there is more to show, the reading has ended, or the film is another one
     failed = Signal(str)  # why the rest of a film cannot be read; what was read stays
 
     def __init__(self) -> None:

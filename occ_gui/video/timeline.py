@@ -37,7 +37,7 @@ _STEPS = {
 class Timeline(QWidget):
     """Frames and packets over time; a click, a drag or a key shows another frame."""
 
-    sought = Signal(int)  # the frame that the user wants to see
+    frame_chosen = Signal(int)  # the frame that the user wants to see
     play_asked = Signal()  # the user starts or stops the film by the space bar
 
     def __init__(self) -> None:
@@ -45,7 +45,7 @@ class Timeline(QWidget):
         self.frames, self.packets = Marks(), Marks()
         self.index = 0
         self._first = self._last = 0.0  # the ends of the film, in seconds
-        self._drawn: QPixmap | None = None
+        self._pixmap: QPixmap | None = None
         self.setAccessibleName("Timeline")
         self.setToolTip(
             "Frames and packets over time. Click or drag to see a frame; Left and Right step "
@@ -78,7 +78,7 @@ class Timeline(QWidget):
             self.update()
 
     def _redraw(self) -> None:
-        self._drawn = None
+        self._pixmap = None
         self._describe()
         self.update()
 
@@ -111,7 +111,7 @@ class Timeline(QWidget):
         return area.left() + ((time - self._first) / span * area.width() if span > 0.0 else 0.0)
 
     def frame_at(self, x: float) -> int:
-        """Return the frame at a pixel, clamped to the film."""
+        """Return the index of the frame at a pixel, limited to those of the film."""
         area = self._area()
         time = self._first + (x - area.left()) / area.width() * (self._last - self._first)
         order = np.argsort(self.frames.starts, kind="stable")  # the times of some films go back
@@ -123,21 +123,21 @@ class Timeline(QWidget):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         ratio = self.devicePixelRatioF()
-        if self._drawn is None or self._drawn.devicePixelRatioF() != ratio:
-            self._drawn = self._picture(ratio)
+        if self._pixmap is None or self._pixmap.devicePixelRatioF() != ratio:
+            self._pixmap = self._draw_pixmap(ratio)
         painter = QPainter(self)
-        painter.drawPixmap(QPoint(0, 0), self._drawn)
+        painter.drawPixmap(QPoint(0, 0), self._pixmap)
         self._draw_index(painter)
         if self.hasFocus():
             painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Highlight), 2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(QRectF(self.rect()).adjusted(1, 1, -1, -1))
 
-    def _picture(self, ratio: float) -> QPixmap:
-        picture = QPixmap(self.size() * ratio)
-        picture.setDevicePixelRatio(ratio)
-        picture.fill(self.palette().color(QPalette.ColorRole.Window))
-        painter = QPainter(picture)
+    def _draw_pixmap(self, ratio: float) -> QPixmap:
+        pixmap = QPixmap(self.size() * ratio)
+        pixmap.setDevicePixelRatio(ratio)
+        pixmap.fill(self.palette().color(QPalette.ColorRole.Window))
+        painter = QPainter(pixmap)
         painter.setFont(self.font())
         area = self._area()
         for name, marks, top, height in (
@@ -146,27 +146,27 @@ class Timeline(QWidget):
         ):
             place = QRectF(area.left(), top, area.width(), height)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-            beside = QRectF(0, place.top(), area.left() - _NAME_PADDING, place.height())
+            name_place = QRectF(0, place.top(), area.left() - _NAME_PADDING, place.height())
             flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-            painter.drawText(beside, flags, name)
+            painter.drawText(name_place, flags, name)
             painter.fillRect(place, self.palette().color(QPalette.ColorRole.Base))
             self._draw_marks(painter, place, marks)
         self._draw_ticks(painter, area)
         painter.end()
-        return picture
+        return pixmap
 
     def _draw_marks(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
         if not len(marks):
             return
-        shown = (marks.ends > self._first) & (marks.starts < self._last)
-        if place.width() / max(int(shown.sum()), 1) < _LEAST_MARK:
+        is_visible = (marks.ends > self._first) & (marks.starts < self._last)
+        if place.width() / max(int(is_visible.sum()), 1) < _LEAST_MARK:
             self._draw_bins(painter, place, marks)
             return
         palette = self.palette()
         for start, end, state in zip(
-            marks.starts[shown].tolist(),
-            marks.ends[shown].tolist(),
-            marks.states[shown].tolist(),
+            marks.starts[is_visible].tolist(),
+            marks.ends[is_visible].tolist(),
+            marks.states[is_visible].tolist(),
             strict=True,
         ):
             left, right = self.x_of(start), self.x_of(end)
@@ -230,7 +230,7 @@ class Timeline(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._drawn = None
+        self._pixmap = None
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -265,13 +265,13 @@ class Timeline(QWidget):
         index = min(max(index, 0), len(self.frames) - 1)
         if index >= 0 and index != self.index:
             self.show_index(index)
-            self.sought.emit(index)
+            self.frame_chosen.emit(index)
 
 
 def tick_step(span: float, width: float) -> tuple[float, int]:
     """Return the step between ticks in seconds, and the number of its decimals.
 
-    ``span``: the time in view, in seconds, more than zero. ``width``: the pixels it takes.
+    ``span``: the time in view, in seconds, more than zero. ``width``: its length in pixels.
     """
     step = round_step(span * _LEAST_SPACING / max(width, 1.0) * 0.999)
     return step, max(0, -math.floor(math.log10(step * 1.001)))

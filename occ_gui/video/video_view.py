@@ -62,7 +62,7 @@ class FilmBar(QWidget):
         self.axis = KeyedComboBox(
             "What the shutter scans",
             "Whether the shutter scans the picture line by line or column by column.\n"
-            "For a film, this is found from its first frames; change it if it is wrong.",
+            "For a film, its first frames determine this; change it if it is wrong.",
             dict(zip(AXES, ("line by line", "column by column"), strict=True)),
             is_fixed=True,
         )
@@ -123,19 +123,19 @@ class Transport(QWidget):
     """Buttons to play and step, and the number and time of the frame that is shown."""
 
     play_asked = Signal()  # the user starts or stops the film
-    step_asked = Signal(int)  # the number of frames that the user steps forward; negative for back
+    step_asked = Signal(int)  # the number of frames to step forward; negative for back
 
     def __init__(self) -> None:
         super().__init__()
-        self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
+        self.back = TransportButton("step-back", "Step back", "Show the previous frame (Left).")
         self.play = TransportButton("play", "", "")
-        self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")
+        self.forward = TransportButton("step-on", "Step on", "Show the next frame (Right).")
         self.place = name_widget(ElidedLabel(), "Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        parts = (self.back, self.play, self.on, 6, (self.place, 1))
+        parts = (self.back, self.play, self.forward, 6, (self.place, 1))
         fill(QHBoxLayout(self), *parts, margins=0, spacing=2)
         self.back.clicked.connect(lambda: self.step_asked.emit(-1))
-        self.on.clicked.connect(lambda: self.step_asked.emit(1))
+        self.forward.clicked.connect(lambda: self.step_asked.emit(1))
         self.play.clicked.connect(self.play_asked)
         self.show_playing(False)
 
@@ -154,7 +154,7 @@ class Transport(QWidget):
         self.place.set_full_text(f"frame {index + 1}{of_all}, {time:.4f} s")
 
     def set_usable(self, usable: bool) -> None:
-        for button in (self.back, self.play, self.on):
+        for button in (self.back, self.play, self.forward):
             button.setEnabled(usable)
 
 
@@ -194,18 +194,18 @@ class DataView(QWidget):
         self.sentences.setVisible(bool(reading.sentences))
 
     def _show_text(self, text: str) -> None:
-        shown = self.text.toPlainText()
-        if text == shown:
+        old_text = self.text.toPlainText()
+        if text == old_text:
             return
         bar = self.text.verticalScrollBar()
-        follows, place = bar.value() >= bar.maximum(), bar.value()
-        if shown and text.startswith(shown):  # a selection stays
+        is_at_end, place = bar.value() >= bar.maximum(), bar.value()
+        if old_text and text.startswith(old_text):  # a selection stays
             cursor = QTextCursor(self.text.document())
             cursor.movePosition(QTextCursor.MoveOperation.End)
-            cursor.insertText(text[len(shown) :])
+            cursor.insertText(text[len(old_text) :])
         else:
             self.text.setPlainText(text)
-        bar.setValue(bar.maximum() if follows else place)
+        bar.setValue(bar.maximum() if is_at_end else place)
 
     def _show_facts(self, facts: tuple[Fact, ...]) -> None:
         while len(self.rows) < len(facts):

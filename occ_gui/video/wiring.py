@@ -84,9 +84,9 @@ class VideoWiring(Pane[FilmChoice]):
         films.failed.connect(self.status_message)
         films.frame_shown.connect(self._show_frame)
         films.frame_failed.connect(self._on_frame_failure)
-        player.wanted.connect(view.timeline.show_index)
+        player.frame_requested.connect(view.timeline.show_index)
         player.playing_changed.connect(view.transport.show_playing)
-        view.timeline.sought.connect(player.seek)
+        view.timeline.frame_chosen.connect(player.seek)
         view.transport.step_asked.connect(player.step)
         for control in (view.timeline, view.transport):
             control.play_asked.connect(player.toggle)
@@ -114,8 +114,8 @@ class VideoWiring(Pane[FilmChoice]):
     @property
     def is_idle(self) -> bool:
         """Whether the frame is shown and the film is read; the reading of a camera never ends."""
-        endless = self.readings.runner if self.live.is_filming else None
-        return all(task.is_idle for task in self.tasks if task is not endless)
+        endless_task = self.readings.runner if self.live.is_filming else None
+        return all(task.is_idle for task in self.tasks if task is not endless_task)
 
     def set_visible(self, visible: bool) -> None:
         """Show frames while the pane is visible; release the camera when it is hidden."""
@@ -198,7 +198,7 @@ class VideoWiring(Pane[FilmChoice]):
         self._show_recording()
 
     def _show_recording(self) -> None:
-        self.films.take_recording()
+        self.films.apply_recording()
         self.view.form.show_scene(self._scenes.scene)
         if self.films.film is None:
             self.readings.forget()
@@ -256,8 +256,8 @@ class VideoWiring(Pane[FilmChoice]):
             self._is_frame_missing = False
             view.show_message("")
         view.pictures.show_film(shown.film, self._placeholder())
-        view.pictures.show_simulated(shown.simulated, shown.instead)
-        view.rows.show_story(shown.story, shown.instead)
+        view.pictures.show_simulated(shown.simulated, shown.refusal)
+        view.rows.show_story(shown.story, shown.refusal)
         count = None if self.films.is_live else self.films.player.count
         index = shown.request.index if shown.request.live is None else shown.request.live.index
         view.transport.show_place(index, count, shown.time)
@@ -286,14 +286,14 @@ class VideoWiring(Pane[FilmChoice]):
     def _make_marks(self) -> Marks:
         """Return marks for the frames that were read and for the frames to come."""
         reading = self.readings.reading
-        read = len(reading.times)
+        read_count = len(reading.times)
         step = 1.0 / (self.films.rate or USUAL_RATE)
-        to_come = 0
+        pending_count = 0
         if not (self.films.is_live or (self.readings.is_done and self.films.film is not None)):
-            to_come = max(self.films.count - read, 0)
-        first = float(reading.times[-1]) + step if read else 0.0
-        times = np.concatenate([reading.times, first + step * np.arange(to_come)])
-        pending = np.full(to_come, MarkState.PENDING, dtype=np.uint8)
+            pending_count = max(self.films.count - read_count, 0)
+        first = float(reading.times[-1]) + step if read_count else 0.0
+        times = np.concatenate([reading.times, first + step * np.arange(pending_count)])
+        pending = np.full(pending_count, MarkState.PENDING, dtype=np.uint8)
         return frame_marks(times, np.concatenate([reading.states, pending]), step)
 
 

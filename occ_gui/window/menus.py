@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
-from occ_gui.values.choices import MODES as OVERLAYS
+from occ_gui.values.choices import OVERLAYS
 from occ_gui.values.modes import MODES
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_menu, in_tool_tip
 from occ_gui.window.theme import THEMES

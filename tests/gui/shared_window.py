@@ -32,7 +32,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.values.choices import (
-    MODES as OVERLAYS,
+    OVERLAYS,
     FilmChoice,
     MatchChoice,
     PhotoChoice,

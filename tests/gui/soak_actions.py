@@ -24,7 +24,7 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.scene_store import new_gesture
-from occ_gui.values.choices import MODES
+from occ_gui.values.choices import OVERLAYS
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
@@ -111,7 +111,7 @@ class Monkey:
             self.force_an_effect: 40,
             lambda: at.settings.set_tolerance(10.0 ** chance.uniform(-1.0, 2.0)): 40,
             lambda: at.files.open_photo(chance.choice(sample_photos())): 20,
-            lambda: at.view("picture").set_mode(chance.choice(MODES)): 60,
+            lambda: at.view("picture").set_mode(chance.choice(OVERLAYS)): 60,
             self.choose_a_task: 30,
             self.press_a_tool: 40,
             self.lay_the_photo_over: 20,
@@ -200,7 +200,7 @@ class Monkey:
         """Let all panes keep the same photo: each keeps what it has shown last."""
         self._application.files.open_photo(sample_photos()[0])
         self.wait()
-        for mode in reversed(MODES):
+        for mode in reversed(OVERLAYS):
             self._trigger(f"show_{mode}")
             self.wait()
 
@@ -246,7 +246,7 @@ class Monkey:
 
     def lay_the_photo_over(self) -> None:
         image = self._application.view("picture")
-        self._trigger(f"show_{self._random.choice(MODES)}")
+        self._trigger(f"show_{self._random.choice(OVERLAYS)}")
         image.opacity.setValue(self._random.randrange(101))
         image.gain.setCurrentIndex(self._random.randrange(image.gain.count()))
         image.gain.chosen.emit(image.gain.key())

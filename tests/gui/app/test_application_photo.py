@@ -63,7 +63,7 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     application.files.open_photo(photo_path)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
-    assert not_none(application.results_store.results.document).requested is None
+    assert not_none(application.results_store.results.document).match_request is None
     application.window.modes.switch("explore")
     user.choose("&Line by line")
     QApplication.processEvents()

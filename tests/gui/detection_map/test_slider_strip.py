@@ -243,7 +243,7 @@ def test_the_strips_begin_a_while_after_the_first_picture(
         return answers[-1]
 
     measuring = BackgroundRates(store_of(), strips, has_picture)
-    strips.seen.emit(True)
+    strips.visibility_changed.emit(True)
     qtbot.waitUntil(lambda: measuring.queue.workers is not None)  # something is measured
     assert answers == [False, False, True, True]
     measuring.stop()

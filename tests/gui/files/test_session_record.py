@@ -42,7 +42,7 @@ def everything_set() -> Workspace:
     )
     film = FilmChoice(HERE, "lines", recording=recording, frames=7)
     settings = SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
-    pin = PinnedScene(SimulationRequest(scene, settings, more=("sequence",)), "phone-68us")
+    pin = PinnedScene(SimulationRequest(scene, settings, more_decoders=("sequence",)), "phone-68us")
     return Workspace(
         scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,
         photo=photo, film=film, room=RoomChoice("my.toml", small_room(), HERE, 0.031),
@@ -61,7 +61,7 @@ def test_every_setting_is_restored(tmp_path: Path) -> None:
     again = SessionFile(tmp_path)
     assert again.last == KeptSession(workspace)
     kept = not_none(again.last.workspace.pins[1])
-    assert kept.request.more == ("sequence",)  # not compared between pins
+    assert kept.request.more_decoders == ("sequence",)  # not compared between pins
     again.close()
 
 

@@ -16,7 +16,7 @@ from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.choices import MatchChoice, PhotoChoice, PhotoSource
-from occ_gui.values.photo_results import FoundMatch, PhotoDocument
+from occ_gui.values.photo_results import MatchOutcome, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match, known_value
@@ -119,4 +119,4 @@ class LiveView(PhotoView):
             self.show_match(None)
             return
         given = ("", 0.0) if self._scene is None else known_value(match.estimate, self._scene)
-        self.show_match(FoundMatch(None, match, given), cure or cure_of_match(match))
+        self.show_match(MatchOutcome(None, match, given), cure or cure_of_match(match))

@@ -209,17 +209,17 @@ def test_a_match_comes_back_with_its_photo_and_stays_where_another_is_cancelled(
 ) -> None:
     """As happens at the end of a lesson."""
     bench.start()
-    users, found = bench.store.workspace, bench.part.found
+    users, found = bench.store.workspace, bench.part.outcome
     bench.show_photo(replace(photo))
     assert bench.controller.match is None
     bench.start()
     bench.store.put(users)
-    assert bench.part.found == found
+    assert bench.part.outcome == found
     bench.go_on.clear()
     bench.controller.start(MatchChoice())
     bench.controller.cancel()
     bench.go_on.set()
-    assert bench.part.found == found
+    assert bench.part.outcome == found
 
 
 def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
@@ -235,7 +235,7 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
     assert bench.controller.match is None, "read in another way it is not what the table matched"
     show_listed(LoadOptions())
     assert bench.controller.match is row.match
-    assert not_none(bench.part.found).is_listed
+    assert not_none(bench.part.outcome).is_listed
     bench.controller.apply()
     assert bench.scenes.scene == not_none(row.match).scene
     bench.refusal = ("No.",)

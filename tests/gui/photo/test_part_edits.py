@@ -19,8 +19,8 @@ from occ_gui.files.session_record import read_session
 from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.choices import LoadOptions, PhotoChoice, Placed, Placement
-from occ_gui.values.photo_results import FoundMatch, ListedRows
+from occ_gui.values.choices import LoadOptions, PhotoChoice, PlacedPhoto, Placement
+from occ_gui.values.photo_results import ListedRows, MatchOutcome
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -134,7 +134,7 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
 
 def test_the_photo_lies_on_the_picture_where_it_is_placed(bench: Bench) -> None:
     source = not_none(bench.results_store.results.document).source
-    bench.choose(placed=Placed(source, Placement(3.0, 4.0)))
+    bench.choose(placed_photo=PlacedPhoto(source, Placement(3.0, 4.0)))
     assert bench.picture.overlay.placement == Placement(3.0, 4.0)
     assert bench.pane.view.placement.column.value() == 3.0
 
@@ -263,7 +263,7 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     own = replace(
         listed,
         document=replace(
-            document, found=FoundMatch(None, match_with(), ("switching_frequency", 1e4))
+            document, outcome=MatchOutcome(None, match_with(), ("switching_frequency", 1e4))
         ),
     )
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):

@@ -20,8 +20,8 @@ from occ_gui.photo.pane import LampSearch
 from occ_gui.photo.photo_work import photo_profile
 from occ_gui.photo.shown_photo import PartEdits
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.values.choices import Placed, Placement
-from occ_gui.values.photo_results import FoundMatch, PhotoProfile
+from occ_gui.values.choices import PlacedPhoto, Placement
+from occ_gui.values.photo_results import MatchOutcome, PhotoProfile
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
@@ -79,11 +79,13 @@ class Bench(PhotoBench):
 
     def move(self, placement: Placement | None) -> None:
         document = not_none(self.results_store.results.document)
-        self.choose(placed=None if placement is None else Placed(document.source, placement))
+        self.choose(
+            placed_photo=None if placement is None else PlacedPhoto(document.source, placement)
+        )
 
     def show_match(self, stripes: Stripes, scene: occ.Scene | None = None) -> None:
         match = match_with(scene=scene or occ.Scene(), stripes=stripes, profile=stripes.profile)
-        self.change(found=FoundMatch(None, match, ("switching_frequency", 1e4)))
+        self.change(outcome=MatchOutcome(None, match, ("switching_frequency", 1e4)))
 
     def set_enhanced(self, enhanced: bool) -> None:
         self.store.put(replace(self.store.workspace, is_enhanced=enhanced))

@@ -21,7 +21,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Picture
-from occ_gui.values.choices import MODES, Placement
+from occ_gui.values.choices import OVERLAYS, Placement
 from occ_gui.widgets.building import ElidedLabel
 from occ_gui.window.cursor_readout import follow_pictures
 from occ_model.photo.reading.load import Photo
@@ -197,7 +197,7 @@ def test_controls_that_a_mode_does_not_need_are_hidden_and_its_choice_is_announc
     assert chosen == ["blend"]
     assert view.photo.isVisible(), "nothing is shown by itself"
     controls = {"blend": view.opacity, "difference": view.gain}
-    for mode in MODES:
+    for mode in OVERLAYS:
         view.set_mode(mode)
         assert view.mode.key() == mode
         assert view.mode.isVisible()

@@ -94,7 +94,7 @@ def test_a_decoder_that_read_only_one_of_them_is_compared_with_none(
     pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     once = bare_snapshot_of()
-    asked = replace(once.request, more=("sequence",))
+    asked = replace(once.request, more_decoders=("sequence",))
     twice = snapshot_of_frame(asked, once.frame)
     for a, b, texts in ((once, twice, ("not read", "code 718, right")),
                         (twice, once, ("code 718, right", "not read"))):  # fmt: skip

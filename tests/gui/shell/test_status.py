@@ -9,7 +9,7 @@ from gui.kinds import SnapshotOf
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import (
     Results,
-    Until,
+    StateSelector,
     make_remark,
     next_change,
     next_match,
@@ -19,7 +19,7 @@ from occ_gui.shell.results import (
     status_message,
 )
 from occ_gui.values.choices import LoadOptions, PhotoSource
-from occ_gui.values.photo_results import FoundMatch, PhotoDocument
+from occ_gui.values.photo_results import MatchOutcome, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
 
@@ -31,7 +31,9 @@ def states(photo: Photo, snapshot_of: SnapshotOf) -> dict[str, tuple[Workspace, 
     source = PhotoSource(Path("a.png"), LoadOptions(), 1)
     document = PhotoDocument(photo, source)
     workspace, results = Workspace(Scene()), Results(document=document)
-    found = replace(document, found=FoundMatch(None, None, ("switching_frequency", 1e4), ("No.",)))
+    found = replace(
+        document, outcome=MatchOutcome(None, None, ("switching_frequency", 1e4), ("No.",))
+    )
     return {
         "nothing": (workspace, results),
         "pane": (replace(workspace, is_enhanced=True), replace(results, listed=None)),
@@ -55,7 +57,7 @@ def states(photo: Photo, snapshot_of: SnapshotOf) -> dict[str, tuple[Workspace, 
     ],
 )
 def test_a_sentence_holds_until_what_it_is_about_changes(
-    until: Until, ends: set[str], photo: Photo, snapshot_of: SnapshotOf
+    until: StateSelector, ends: set[str], photo: Photo, snapshot_of: SnapshotOf
 ) -> None:
     all_states = states(photo, snapshot_of)
     last = make_remark(SENTENCE, until, *all_states["nothing"])

@@ -171,7 +171,7 @@ def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
 def test_lost_packets_are_distinguished_from_wrong_bits() -> None:
     whole = reading(6, 1, 11, wrong=2)
     (sentence,) = sentences_of(progress_of(whole), whole, None)
-    assert sentence.startswith("11 of 14 lost packets are not whole in any frame: ")
+    assert sentence.startswith("11 of 14 lost packets are not complete in any frame: ")
     assert "3 were in view and misread" in sentence
     assert "not placed" not in sentence
     assert (
@@ -181,7 +181,7 @@ def test_lost_packets_are_distinguished_from_wrong_bits() -> None:
         sentences_of(progress_of(each), each, None)[0]
         for each in (reading(6, 0, 1), reading(6, 1, 1))
     )
-    assert one.startswith("1 of 1 lost packet is not whole in any frame: sent in the gap")
+    assert one.startswith("1 of 1 lost packet is not complete in any frame: sent in the gap")
     assert "1 was in view and misread" in two
     whole = reading(6, 0, 11)
     assert "misread" not in sentences_of(progress_of(whole), whole, None)[0]
@@ -262,7 +262,7 @@ def test_a_scene_that_cannot_be_filmed_gives_a_sentence_and_a_missing_frame_is_r
     fast = occ.Recording(frame_rate=1000.0)
     shown = process_frame(replace(request_of, film=film, recording=fast))
     assert shown.simulated is None
-    assert "Reading out 1600 columns" in shown.instead
+    assert "Reading out 1600 columns" in shown.refusal
     assert shown.film is not None
     alone = process_frame(replace(request_of, recording=fast))
     assert (alone.story, alone.time) == (None, None)

@@ -189,7 +189,7 @@ def test_the_newest_picture_wins_and_none_comes_twice(start: Start) -> None:
     assert frame.index == 3
     source.may.set()
     assert next(frames, None) is None
-    assert video.arrived == 4
+    assert video.picture_count == 4
 
 
 def test_lines_become_columns_and_colours_their_luma(start: Start) -> None:
@@ -225,7 +225,7 @@ def test_the_device_of_the_film_before_is_released_first(start: Start) -> None:
     first = start(before)
     before.give_one()
     first.end()
-    second = start(source, after=first)
+    second = start(source, previous=first)
     assert (before.is_open, source.is_open) == (True, False)
     before.may.set()
     assert len(list(second)) == 1

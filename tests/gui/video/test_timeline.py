@@ -27,11 +27,11 @@ def timeline(qtbot: QtBot) -> Timeline:
 
 
 def test_a_click_shows_the_frame_that_it_hits(timeline: Timeline, qtbot: QtBot) -> None:
-    sought = collect(timeline.sought)
+    frame_chosen = collect(timeline.frame_chosen)
     for index in (5, 11, 0):
         middle = timeline.x_of((index + 0.5) / 30.0)
         qtbot.mouseClick(timeline, LEFT, pos=QPoint(round(middle), 20))
-    assert sought == [5, 11, 0]
+    assert frame_chosen == [5, 11, 0]
 
 
 def test_keys_step_to_the_ends_and_not_beyond_and_the_space_bar_asks_to_play(
@@ -162,7 +162,7 @@ def pass_time(player: FilmPlayer, milliseconds: int) -> None:
 
 
 def test_a_film_runs_at_its_own_speed_and_leaves_late_frames_out(player: FilmPlayer) -> None:
-    shown = collect(player.wanted)
+    shown = collect(player.frame_requested)
     player.play()
     for milliseconds in (50, 60, 10, 500):
         pass_time(player, milliseconds)

@@ -58,7 +58,7 @@ def test_a_film_is_opened_read_seen_along_either_axis_and_closed_and_stays_where
     user.wait_until_idle()
     assert close.isEnabled()
     assert application.window.modes.mode == "video"
-    assert pane.view.pictures.shown == (True, True)
+    assert pane.view.pictures.are_visible == (True, True)
     assert pane.view.bar.title.toolTip() == "stripes.avi, 1600 x 60, 6 frames, 30 a second"
     assert len(states(pane)) == 6
     assert MarkState.PENDING not in states(pane)
@@ -81,7 +81,7 @@ def test_a_film_is_opened_read_seen_along_either_axis_and_closed_and_stays_where
     user.choose("C&lose film")
     assert not close.isEnabled()
     assert film_in(application) is None
-    assert application.video.wiring.view.pictures.shown == (False, True)
+    assert application.video.wiring.view.pictures.are_visible == (False, True)
     application.window.dropped.emit([film_file])
     assert film_in(application) == film_file
 
@@ -91,7 +91,7 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
 ) -> None:
     source = FilmSource([*film] * 200, "Stand-in")
     pane.live.start(source)
-    qtbot.waitUntil(lambda: pane.view.pictures.shown[0] and len(states(pane)) > 0)
+    qtbot.waitUntil(lambda: pane.view.pictures.are_visible[0] and len(states(pane)) > 0)
     video = not_none(pane.live.video)
     assert pane.view.bar.axis.key() == "columns"
     assert pane.view.bar.title.toolTip() == "Stand-in, live"

@@ -54,7 +54,7 @@ def states(pane: VideoWiring) -> list[int]:
 def test_the_simulated_film_is_shown_at_once_and_read_when_asked(
     pane: VideoWiring, wait: Wait
 ) -> None:
-    assert pane.view.pictures.shown == (False, True)
+    assert pane.view.pictures.are_visible == (False, True)
     assert states(pane) == [MarkState.PENDING] * 6
     pane.view.bar.read.click()
     assert pane.view.bar.read.text() == "Stop reading"
@@ -82,7 +82,7 @@ def test_keys_step_and_play_from_anywhere_in_the_pane(
 
 def test_the_frame_that_is_sought_is_the_one_that_is_shown(pane: VideoWiring, wait: Wait) -> None:
     for index in (4, 2):
-        pane.view.timeline.sought.emit(index)
+        pane.view.timeline.frame_chosen.emit(index)
         wait()
         shown = pane.view.pictures.simulated.caption.toolTip()
         assert shown == f"Simulated: frame {index + 1}, {index / 30.0:.4f} s"
@@ -109,7 +109,7 @@ def test_a_reading_of_an_earlier_scene_is_marked(
 def test_an_impossible_recording_is_refused_with_a_sentence(pane: VideoWiring, wait: Wait) -> None:
     pane.view.form.fields["frame_rate"].edited.emit(1000.0)
     wait()
-    assert pane.view.pictures.shown == (False, False)
+    assert pane.view.pictures.are_visible == (False, False)
     assert "Reading out 1600 columns" in pane.view.form.gap.text()
 
 
@@ -123,12 +123,12 @@ def test_a_camera_that_is_unplugged_leaves_its_last_picture_and_a_sentence(
     assert pane.view.message.text() == (
         "Listed delivers no more pictures: it ended or was unplugged."
     )
-    assert pane.view.pictures.shown[0]
+    assert pane.view.pictures.are_visible[0]
     assert pane.view.bar.title.toolTip() == "Listed, stopped"
     assert not source.is_open
     pane.close()
     wait()
-    assert pane.view.pictures.shown == (False, True)
+    assert pane.view.pictures.are_visible == (False, True)
 
 
 def test_a_camera_that_cannot_hold_its_exposure_says_so(

@@ -29,7 +29,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, lattice
-from occ_gui.values.choices import MODES
+from occ_gui.values.choices import OVERLAYS
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 
@@ -166,7 +166,7 @@ def test_no_control_is_cut_off_squeezed_or_overlapped(
     application.view("profile").enhanced.setChecked(True)
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "photo beside")
-    for mode in MODES:
+    for mode in OVERLAYS:
         application.options.choose_overlay(mode)
         assert_faultless(qtbot, application.window, mode)
     show_all_of_photo(application)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QGraphicsView, QMainWindow, QMenu, Q
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.values.choices import MODES as OVERLAYS
+from occ_gui.values.choices import OVERLAYS
 from occ_gui.window.menus import FullScreen
 
 

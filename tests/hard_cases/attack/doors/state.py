@@ -72,7 +72,10 @@ def session_text() -> str:
             film=FilmChoice(path, "lines", recording=Recording(frame_rate=24.0), frames=9),
             room=chosen_room,
             preset="phone-68us",
-            pins=(PinnedScene(SimulationRequest(Scene(), settings, more=("sequence",))), None),
+            pins=(
+                PinnedScene(SimulationRequest(Scene(), settings, more_decoders=("sequence",))),
+                None,
+            ),
         )
         session = KeptSession(workspace, History(UndoState(Scene(), {}), steps, done=1))
         file.write(session, in_use=True)

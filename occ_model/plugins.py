@@ -1,4 +1,4 @@
-"""Plug-ins: what installed packages offer under an entry point, read when first needed."""
+"""Plug-ins: objects that installed packages provide by entry points, imported when first needed."""
 
 import re
 import signal
@@ -20,50 +20,50 @@ LINE_CODES = "occ_explorer.line_codes"
 FRAMINGS = "occ_explorer.framings"
 DECODERS = "occ_explorer.decoders"
 
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")  # what a plug-in can be called
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")  # allowed names of plug-ins
 
 _Kind = TypeVar("_Kind")
 
-_LONGEST_SENTENCE = 1000  # characters of an error of a plug-in that is taken as it is
+_LONGEST_SENTENCE = 1000  # characters of a plug-in's error message up to which it stays unchanged
 
-_at_work: dict[int, str] = {}  # the plug-in that each thread is in
+_running: dict[int, str] = {}  # the plug-in that each thread runs
 
 
 @contextmanager
 def at_work(who: str) -> Iterator[None]:
-    """Note that this thread is in a plug-in, to name it where it hangs."""
+    """Note that this thread runs a plug-in, to name the plug-in if it hangs."""
     thread = get_ident()
-    before = _at_work.get(thread)
-    _at_work[thread] = who
+    previous = _running.get(thread)
+    _running[thread] = who
     try:
         yield
     finally:
-        if before is None:
-            del _at_work[thread]
+        if previous is None:
+            del _running[thread]
         else:
-            _at_work[thread] = before
+            _running[thread] = previous
 
 
-def all_at_work() -> tuple[str, ...]:
-    """Name the plug-ins that threads of this process are in, each as the start of a sentence."""
-    return tuple(dict.fromkeys(_at_work.copy().values()))
+def name_running_plugins() -> tuple[str, ...]:
+    """Name the plug-ins that threads of this process run, each as the start of a sentence."""
+    return tuple(dict.fromkeys(_running.copy().values()))
 
 
 @lru_cache(maxsize=8)
 def _find_entries(group: str) -> "dict[str, EntryPoint]":
-    """Find the entry points of a group by names that cannot leave a folder, the first of each."""
+    """Find a group's entry points by name, the first of each name that is safe in a path."""
     from importlib.metadata import entry_points
 
     try:
-        offered = tuple(entry_points(group=group))
+        entries = tuple(entry_points(group=group))
     except Exception:  # noqa: BLE001 - a package's description may be damaged in any way
         return {}
-    found: dict[str, EntryPoint] = {}
-    for entry in offered:
-        # Names are shown in lists and written to scene files; a package may have any.
+    by_name: dict[str, EntryPoint] = {}
+    for entry in entries:
+        # Names appear in lists and scene files, and a package may contain any text.
         if isinstance(entry.name, str) and _NAME.fullmatch(entry.name):
-            found.setdefault(entry.name, entry)
-    return found
+            by_name.setdefault(entry.name, entry)
+    return by_name
 
 
 def plugin_names(group: str) -> tuple[str, ...]:
@@ -81,9 +81,9 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
     def check(offered: object) -> _Kind:
         if not isinstance(offered, kind):
             raise PluginError(f"{who} is a {type(offered).__name__}, not a {kind.__name__}.")
-        own = getattr(offered, "name", None)
-        if not isinstance(own, str) or own != name:
-            raise PluginError(f"{who} calls itself {shown(own)}.")
+        name_of_object = getattr(offered, "name", None)
+        if not isinstance(name_of_object, str) or name_of_object != name:
+            raise PluginError(f"{who} calls itself {shown(name_of_object)}.")
         return offered
 
     return call(who, "be imported", check, entry.load)
@@ -97,16 +97,20 @@ def describe(group: str, name: str) -> str:
 
 
 def call(
-    who: str, verb: str, check: Callable[[Any], _Kind], function: Callable[..., Any], *given: Any
+    who: str,
+    verb: str,
+    check: Callable[[Any], _Kind],
+    function: Callable[..., Any],
+    *arguments: Any,
 ) -> _Kind:
-    """Call a plug-in's function, and return what a check makes of its result.
+    """Call a plug-in's function, and return its result after a check.
 
     An exception of either becomes a sentence; even reading a result's attributes may raise one.
-    Only the exceptions of signal handlers pass: Ctrl+C, or an order to end the program.
+    Only exceptions of signal handlers pass, such as Ctrl-C or a request to end the program.
     """
     try:
         with at_work(who):
-            return check(function(*given))
+            return check(function(*arguments))
     except BaseException as error:
         if _is_of_signal(error):
             raise
@@ -155,7 +159,7 @@ _counting: ContextVar[tuple["Faults", ...]] = ContextVar("_counting", default=()
 
 
 class Faults:
-    """How often plug-ins have failed, decoder by decoder, while :meth:`counting`."""
+    """The number of failures of plug-ins for each decoder, within :meth:`counting`."""
 
     def __init__(self) -> None:
         self._readings, self._failed = Counter[str](), Counter[str]()
@@ -163,7 +167,7 @@ class Faults:
 
     @contextmanager
     def counting(self) -> Iterator["Faults"]:
-        """Count what is read within the context by this thread."""
+        """Count the readings by this thread within the context."""
         token = _counting.set((*_counting.get(), self))
         try:
             yield self
@@ -171,11 +175,11 @@ class Faults:
             _counting.reset(token)
 
     def __str__(self) -> str:
-        """Say how often a plug-in has failed, and how first; empty where none has."""
+        """State how often plug-ins failed, and the first failure; empty if none failed."""
         return " ".join(
-            f"With the {decoder} decoder a plug-in failed in {failed:,} of "
+            f"With the {decoder} decoder a plug-in failed in {failures:,} of "
             f"{self._readings[decoder]:,} readings; first: {self._first[decoder]}"
-            for decoder, failed in self._failed.items()
+            for decoder, failures in self._failed.items()
         )
 
     def _note(self, decoder: str, fault: str | None) -> None:
@@ -186,6 +190,6 @@ class Faults:
 
 
 def note_reading(decoder: str, fault: str | None) -> None:
-    """Count a decoder's reading, and the fault of a plug-in that has failed in it."""
+    """Count a decoder's reading, and the fault of a plug-in if one failed in it."""
     for faults in _counting.get():
         faults._note(decoder, fault)

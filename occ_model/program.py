@@ -13,11 +13,11 @@ from types import FrameType, TracebackType
 
 from occ_model.errors import OccError, OutputError, one_line
 
-TYPE_CHECKING = False  # as typing has it, which is slow to import
+TYPE_CHECKING = False  # as in ``typing``, which is slow to import
 if TYPE_CHECKING:
     from typing import NoReturn, TextIO
 
-EXIT_FAILURE = 1  # the command is valid, but no code could be read, or it could not be finished
+EXIT_FAILURE = 1  # the command is valid, but no code was read or the work could not be finished
 EXIT_MISUSE = 2  # the command is not valid
 EXIT_INTERRUPTED = 130  # Ctrl-C ended the program: 128 plus the signal's number, as in shells
 INTERRUPTED = "interrupted."  # the message of a program that Ctrl-C ended
@@ -52,7 +52,7 @@ def run_program(
     except OccError as error:
         say(name, str(error))
         return EXIT_MISUSE
-    except Exception as error:  # noqa: BLE001 - a traceback would tell a user nothing
+    except Exception as error:  # noqa: BLE001 - a traceback means nothing to a user
         return _say_failure(name, error)
 
 
@@ -64,7 +64,7 @@ def _prepare_and_run(
             open_streams(needs_output=not is_window)
             interrupts = Interrupts(name, always_at_once=is_window)
         if isinstance(sys.stdout, TextIOWrapper):
-            # As standard error does with letters that its encoding lacks.
+            # Replace letters that the encoding lacks, as standard error does.
             sys.stdout.reconfigure(errors="replace")
         if sys.stdout is None and not is_window:
             raise OutputError("Standard output is closed; send it to a file or to the null device.")
@@ -83,7 +83,7 @@ def _prepare_and_run(
 
 
 def say(name: str, sentence: str) -> None:
-    """Print a sentence on standard error, in one line, where it is open."""
+    """Print a sentence on standard error, in one line, if it is open."""
     try:
         print(f"{name}: {one_line(sentence, _LONGEST_SENTENCE)}", file=sys.stderr, flush=True)  # noqa: T201 - what this is for
     except (OSError, ValueError):
@@ -91,18 +91,17 @@ def say(name: str, sentence: str) -> None:
 
 
 def ignore_interrupts() -> None:
-    """Ignore Ctrl-C from now on: only a few milliseconds are left."""
+    """Ignore Ctrl-C from now on, as the program ends within a few milliseconds."""
     with suppress(ValueError):  # outside the main thread
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class Interrupts:
-    """How a process handles Ctrl-C.
+    """The handling of Ctrl-C in a process.
 
-    During preparation, and during any import, Ctrl-C ends the process at once: no work has begun
-    then, and an interrupted import may print anything. Later it raises
-    ``KeyboardInterrupt``, unless ``always_at_once``. A process that was started to ignore Ctrl-C
-    goes on to do so.
+    During preparation, and during any import, Ctrl-C ends the process at once: no work has begun,
+    and an interrupted import may print anything. Later it raises ``KeyboardInterrupt``, unless
+    ``always_at_once``. A process that was started to ignore Ctrl-C continues to ignore it.
     """
 
     def __init__(self, name: str, always_at_once: bool) -> None:
@@ -123,14 +122,14 @@ class Interrupts:
             self._leave()
         raise KeyboardInterrupt
 
-    def _handle_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
-        """End the process where Ctrl-C came in an object's deletion, which swallows exceptions."""
-        if issubclass(what.exc_type, KeyboardInterrupt):
+    def _handle_unraisable(self, unraisable: "sys.UnraisableHookArgs") -> None:
+        """End the process if Ctrl-C came while an object was deleted, which hides exceptions."""
+        if issubclass(unraisable.exc_type, KeyboardInterrupt):
             self._leave()
-        self._report(what)
+        self._report(unraisable)
 
     def _leave(self) -> "NoReturn":
-        # Not by print: it may be what was interrupted.
+        # Not by print, which Ctrl-C may have interrupted.
         with suppress(OSError):
             os.write(2, f"{self._name}: {INTERRUPTED}\n".encode())
         os._exit(EXIT_INTERRUPTED)
@@ -167,7 +166,7 @@ def _flush_output() -> None:
 
 
 def discard(stream: "TextIO | None") -> None:
-    """Discard what a stream still holds: Python would write it at exit, and fail again."""
+    """Discard a stream's buffered output, which Python would write at exit and fail again."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # type: ignore[union-attr]
 

@@ -28,7 +28,7 @@ from occ_model.commands.options import (
 )
 from occ_model.errors import one_line, shown
 from occ_model.files.writing import check_replaceable, write_whole
-from occ_model.plugins import all_at_work
+from occ_model.plugins import name_running_plugins
 from occ_model.program import EXIT_MISUSE, run_program, say
 from occ_model.scene.from_text import DEFAULT_PRESET
 
@@ -187,7 +187,7 @@ def _check_pane(name: str | None, application: "Application") -> None:
 
 def leave_plugins(code: int, preferences: "QSettings | None") -> None:
     """End the process at once if a plug-in hangs, because a usual exit would wait for it."""
-    hung = all_at_work()
+    hung = name_running_plugins()
     if hung:
         for who in hung:
             say("occ-gui", f"{who} does not return: the window has ended without it.")

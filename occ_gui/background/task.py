@@ -39,8 +39,8 @@ class TaskThread:
         self._may_begin = False
         self._thread.quit()
         while not self._thread.wait(_LOOK_MS):
-            TaskThread._waited_ms += _LOOK_MS if plugins.all_at_work() else 0
-            if TaskThread._waited_ms >= PATIENCE_MS and plugins.all_at_work():
+            TaskThread._waited_ms += _LOOK_MS if plugins.name_running_plugins() else 0
+            if TaskThread._waited_ms >= PATIENCE_MS and plugins.name_running_plugins():
                 left_behind.append(self._thread)
                 return
 

@@ -16,10 +16,10 @@ from occ_model.errors import SceneFileError, VideoError, one_line
 
 LARGEST_TEXT = 1_000_000  # bytes of a scene, preset or lesson; usual ones have a few thousand
 
-MOST_READS = 1_000_000  # by the decoder of a file, which take a few seconds in Python
-MOST_BYTES_ONE_BY_ONE = 4_000_000  # of a file that a decoder may read byte by byte, as for QOI
+MOST_READS = 1_000_000  # reads by a file's decoder, which take a few seconds in Python
+MOST_BYTES_ONE_BY_ONE = 4_000_000  # largest file that a decoder may read byte by byte, as for QOI
 
-_NO_FILE = "it is a device, pipe or socket"
+_NOT_REGULAR = "it is a device, pipe or socket"
 
 # A system without a flag does not need it; for example, Windows has no pipes among its files.
 _FLAGS = (
@@ -52,11 +52,11 @@ def read_start(path: Path, count: int) -> bytes:
         raise _refuse(path, reason_of(error)) from None
     try:
         _check_kind(path, os.fstat(descriptor).st_mode)
-        chunks, left = [], count
+        chunks, remaining = [], count
         # A file may contain more or fewer bytes than its stated size.
-        while left > 0 and (chunk := os.read(descriptor, left)):
+        while remaining > 0 and (chunk := os.read(descriptor, remaining)):
             chunks.append(chunk)
-            left -= len(chunk)
+            remaining -= len(chunk)
     except OSError as error:
         raise _refuse_error(path, error) from None
     finally:
@@ -75,9 +75,9 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
 class BoundedFile(io.BufferedReader):
     """A file that its decoder can read only in a limited number of steps.
 
-    A decoder follows the blocks, chunks, segments or directories that a file states, possibly
-    without end, but each step is a read. Every read above the limit raises SceneFileError, because
-    a decoder may suppress the first one.
+    A decoder follows the blocks, chunks, segments or directories of a file, possibly without end,
+    but each step is a read. Every read above the limit raises SceneFileError, because a decoder may
+    suppress the first one.
     """
 
     def __init__(self, path: Path) -> None:
@@ -97,12 +97,12 @@ def _check_kind(path: Path, mode: int) -> None:
     if stat.S_ISDIR(mode):
         raise _refuse(path, "it is a folder")
     if not stat.S_ISREG(mode):
-        raise _refuse(path, _NO_FILE)
+        raise _refuse(path, _NOT_REGULAR)
 
 
 def _refuse_error(path: Path, error: OSError) -> SceneFileError:
     if error.errno == errno.ENXIO:  # a socket, or a missing device
-        return _refuse(path, _NO_FILE)
+        return _refuse(path, _NOT_REGULAR)
     return _refuse(path, reason_of(error))
 
 
@@ -121,9 +121,9 @@ def _refuse(path: Path, reason: str) -> SceneFileError:
 class Container:
     name: str
     reader: Literal["opencv", "pillow"]  # OpenCV with its FFmpeg, or Pillow
-    # The frames' times are multiples of this, in seconds; None if each file has its own step
+    # The step of the frames' times in seconds; None if each file has its own
     time_step: float | None = None
-    # Whether it states its number of frames, which is otherwise estimated from the duration
+    # Whether it contains its number of frames, which is otherwise estimated from the duration
     states_frame_count: bool = True
 
 

@@ -27,7 +27,7 @@ def resource_path(*parts: str) -> Path:
 
 
 def find_resource(*parts: str) -> "Path | Traversable":
-    """Find a file: inside an installed package, beside the packages in a checkout."""
+    """Find a resource inside an installed package, or next to the packages in a checkout."""
     package = Path(__file__).parents[1]
     for root in (package / "resources", package.parent / "resources"):
         if root.is_dir():
@@ -39,13 +39,13 @@ def find_resource(*parts: str) -> "Path | Traversable":
 
 @lru_cache
 def _copy_of(parts: tuple[str, ...]) -> Path:
-    target = Path(_folder_of_copies(), *parts)
+    target = Path(_make_folder_of_copies(), *parts)
     _copy(find_resource(*parts), target)
     return target
 
 
 @lru_cache
-def _folder_of_copies() -> str:
+def _make_folder_of_copies() -> str:
     # Needed only if the package is in an archive.
     import shutil
     import tempfile
@@ -80,5 +80,5 @@ def files_in(folder: Path, ending: str) -> list[Path]:
     """List the files in a folder that have an ending, readable or not, except hidden ones."""
     try:
         return sorted(p for p in folder.glob(f"*{ending}") if not p.name.startswith("."))
-    except (OSError, ValueError):  # it is missing, unreadable, or cannot exist
+    except (OSError, ValueError):  # the folder is missing, unreadable, or cannot exist
         return []

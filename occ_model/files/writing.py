@@ -17,13 +17,13 @@ from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
 from occ_model.files.reading import reason_of
 
-_open_here: "WeakSet[BinaryIO]" = WeakSet()
+_locked_files: "WeakSet[BinaryIO]" = WeakSet()
 
 if sys.platform == "win32":
     import msvcrt
 
     _FAR = 2**40
-    """Position of a byte beyond any file's end, so that others can still read the file."""
+    """Position of the locked byte, beyond any file's end, so that others can read the file."""
 
     def take_lock(file: BinaryIO) -> None:
         place = file.tell()
@@ -41,18 +41,21 @@ else:
 
 
 def lock(file: BinaryIO) -> bool | None:
-    """Lock a file until it is closed; return False if another has, None if locks do not exist."""
+    """Lock a file until it is closed.
+
+    Return False if another process has locked it, None if the system has no locks.
+    """
     try:
         take_lock(file)
     except OSError as error:
         return False if error.errno in (EACCES, EAGAIN) else None
-    _open_here.add(file)
+    _locked_files.add(file)
     return True
 
 
 def _close_in_child() -> None:
     """Close the parent's locked files, so that a forked worker that outlives it holds no lock."""
-    for file in list(_open_here):
+    for file in list(_locked_files):
         os.close(file.fileno())
 
 
@@ -149,7 +152,7 @@ def _refuse(path: Path, error: OSError | ValueError) -> OutputError:
 
 @contextmanager
 def write_atomically(path: Path, *, is_private: bool = False) -> Iterator[Path]:
-    """Yield a temporary file beside the path, which replaces it unless an exception is raised.
+    """Yield a temporary file in the same folder, which replaces the path unless an error is raised.
 
     ``is_private``: nobody else may read it, whatever the permissions of an existing file.
     """
@@ -169,7 +172,7 @@ def _open_replacement(path: Path, permissions: int | None) -> Iterator[Path]:
     temporary, file = _create_temporary(path, 0o666 if permissions is None else _PRIVATE)
     with file:
         try:
-            if permissions is None:  # those of a new file, according to the process's umask
+            if permissions is None:  # use those of a new file, which follow the process's umask
                 permissions = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
             # Nobody else can read it before it is complete, even if the program is killed.
             make_private(temporary)
@@ -196,7 +199,7 @@ def _create_temporary(path: Path, mode: int) -> tuple[Path, BinaryIO]:
         file = os.fdopen(descriptor, "r+b", buffering=0)
         if lock(file) is not False and temporary.exists():
             return temporary, file
-        file.close()  # another writer took it for a leftover before it was locked
+        file.close()  # another writer removed it as a leftover before it was locked
 
 
 def _remove_leftovers(folder: Path) -> None:
@@ -248,7 +251,7 @@ def _notes(format_name: str, description: str) -> dict[str, Any]:
 
 
 def make_folder(folder: Path, *, is_private: bool = False) -> None:
-    """Create a folder unless it exists; ``is_private``: nobody else may look into a new one."""
+    """Create a folder unless it exists; ``is_private``: nobody else may open a new one."""
     try:
         folder.mkdir(mode=0o700 if is_private else 0o777, parents=True, exist_ok=True)
     except (OSError, ValueError) as error:

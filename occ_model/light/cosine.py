@@ -1,4 +1,4 @@
-"""Light that swings as a cosine about its mean, as that of lamps on the mains."""
+"""Light that varies as a cosine about its mean, such as that of mains lamps."""
 
 import math
 from dataclasses import dataclass
@@ -34,17 +34,18 @@ class Cosine:
     def response(self, length: Fraction) -> float:
         """Return sinc(F t), the fraction of the depth that an average over ``length`` leaves.
 
-        Whole cycles are subtracted before the sine, so that a whole number of them gives exactly 0.
+        The nearest whole number of cycles is subtracted before the sine, so that whole cycles give
+        exactly 0.
         """
         cycles = Fraction(self.frequency) * length
         if not cycles:
             return 1.0
-        whole = round(cycles)
-        sine = math.sin(math.pi * float(cycles - whole))
-        return (-sine if whole % 2 else sine) / (math.pi * float(cycles))
+        nearest = round(cycles)
+        sine = math.sin(math.pi * float(cycles - nearest))
+        return (-sine if nearest % 2 else sine) / (math.pi * float(cycles))
 
     def depth_in(self, exposure: Fraction, edge: Fraction = Fraction(0)) -> float:
-        """Return the depth that is left after averaging over an exposure and an edge time."""
+        """Return the depth after averaging over an exposure and an edge time."""
         if not self.depth:
             return 0.0
         return self.depth * abs(self.response(exposure) * self.response(edge))
@@ -62,8 +63,8 @@ class Cosine:
         Parameters
         ----------
         start, step, exposure, edge
-            The first start, the time from one to the next, the length of each, and the time over
-            which the light itself is averaged before, all in seconds.
+            Start of the first exposure, time from one start to the next, length of each exposure,
+            and time over which the light itself is averaged first, all in seconds.
 
         Returns
         -------

@@ -14,7 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.light.times import Duration, PhasesInPeriod
 from occ_model.light.waveform import Waveform, repeat
 
-PhasesAt = Callable[[Fraction], PhasesInPeriod]  # of the starts of windows, shifted by units
+PhasesAt = Callable[[Fraction], PhasesInPeriod]  # phases of the windows' starts after a shift
 
 
 class EdgedWaveform:
@@ -24,14 +24,15 @@ class EdgedWaveform:
         self.period = period = sharp.period
         self._sharp = sharp
         self._edge = edge
-        self._is_short = edge < min(sharp.lengths.tolist())  # not of NumPy, whose integers overflow
+        # Compared with Python's numbers, as NumPy's integers overflow.
+        self._is_short = edge < min(sharp.lengths.tolist())
         self._level: FloatArray = repeat(sharp.levels).astype(np.float64)
         self._length: FloatArray = repeat(sharp.lengths).astype(np.float64)
         self._rise: FloatArray = np.diff(self._level, prepend=self._level[period - 1])
 
-        # The running integral of the light minus its mean, itself minus its mean, and the integral
-        # of that, at each piece's start. They are exact before they are rounded; of chips they are
-        # whole numbers below 2^53.
+        # At each piece's start: the running integral of the light minus its mean, itself reduced by
+        # its own mean, and the integral of that. They are exact until they are rounded; for chips
+        # they are whole numbers below 2^53.
         length = sharp.lengths
         swing = period * sharp.levels - sharp.total
         within = swing * length
@@ -52,32 +53,36 @@ class EdgedWaveform:
         that the error stays that of the phases, also for windows far shorter than a unit.
         """
         duration = Duration.of(exposure, self.period)
-        now = starts(Fraction(0))
+        phases = starts(Fraction(0))
         if self._is_short:
-            return self._sharp.light_in(now, duration) - self._light_lost_to_ramps(now, duration)
-        gained = self._swing_integral(now, duration)
-        gained -= self._swing_integral(starts(-self._edge), duration)
-        gained /= float(2 * self.period**2 * self._edge)
-        gained += float(self._sharp.mean * exposure)
-        return gained
+            return self._sharp.light_in(phases, duration) - self._light_lost_to_ramps(
+                phases, duration
+            )
+        light = self._swing_integral(phases, duration)
+        light -= self._swing_integral(starts(-self._edge), duration)
+        light /= float(2 * self.period**2 * self._edge)
+        light += float(self._sharp.mean * exposure)
+        return light
 
     def _light_lost_to_ramps(self, starts: PhasesInPeriod, duration: Duration) -> FloatArray:
         """Return the light that the ramps take from windows, for edges shorter than any piece.
 
-        A ramp of height h takes h (x - x^2 / (2 tau)) in the time x after its start, in all h tau /
-        2.
+        A ramp of height h takes h (x - x^2 / (2 tau)) in the time x after its start, and h tau / 2
+        in all.
         """
         # Dividing by an edge that is not a normal number would overflow.
         edge = max(float(self._edge), float(np.finfo(np.float64).tiny))
         windows = self._sharp.windows(starts, duration)
-        ahead = np.maximum(edge - windows.since, 0.0)  # remainder of the first piece's ramp
+        remaining = np.maximum(edge - windows.since, 0.0)  # remainder of the first piece's ramp
         end = np.minimum(windows.end, edge)
-        apart = self._rise[windows.first] * ahead * (0.5 * ahead / edge)
-        apart += 0.5 * edge * (self._level[windows.last - 1] - self._level[windows.first])
-        apart += self._rise[windows.last] * end * (1.0 - 0.5 * end / edge)
-        gone = np.minimum(ahead, windows.excess)
-        within = self._rise[windows.first] * gone * ((ahead - 0.5 * gone) / edge)
-        return np.where(windows.first == windows.last, within, apart)
+        loss = self._rise[windows.first] * remaining * (0.5 * remaining / edge)
+        loss += 0.5 * edge * (self._level[windows.last - 1] - self._level[windows.first])
+        loss += self._rise[windows.last] * end * (1.0 - 0.5 * end / edge)
+        passed_time = np.minimum(remaining, windows.excess)
+        loss_in_one_piece = (
+            self._rise[windows.first] * passed_time * ((remaining - 0.5 * passed_time) / edge)
+        )
+        return np.where(windows.first == windows.last, loss_in_one_piece, loss)
 
     def _swing_integral(self, starts: PhasesInPeriod, duration: Duration) -> FloatArray:
         """Integrate, over windows, the running integral of the light minus its mean.
@@ -89,8 +94,10 @@ class EdgedWaveform:
         windows = self._sharp.windows(starts, duration)
         first, last, since = windows.first, windows.last, windows.since
         integral, slope = self._integral[first], self._half_slope[first]
-        apart = windows.before * (integral + slope * (self._length[first] + since))
-        apart += self._second[last] - self._second[first + 1]
-        apart += windows.end * (self._integral[last] + self._half_slope[last] * windows.end)
-        within = windows.excess * (integral + slope * (2.0 * since + windows.excess))
-        return np.where(first == last, within, apart)
+        integrals = windows.before * (integral + slope * (self._length[first] + since))
+        integrals += self._second[last] - self._second[first + 1]
+        integrals += windows.end * (self._integral[last] + self._half_slope[last] * windows.end)
+        integrals_in_one_piece = windows.excess * (
+            integral + slope * (2.0 * since + windows.excess)
+        )
+        return np.where(first == last, integrals_in_one_piece, integrals)

@@ -13,7 +13,7 @@ from occ_model.scene.light_samples import levels_of, samples_of
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter.scheme import sent_chips
 
-HARMONIC = 2  # cycles of a mains lamp's light for each of the mains
+HARMONIC = 2  # cycles of a mains lamp's light in one cycle of the mains
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,12 +67,14 @@ def period_columns(scene: Scene) -> float:
 
 
 def flicker_of(scene: Scene) -> Cosine:
-    """Return the surroundings' light as a multiple of its mean: a mains lamp lights them, too."""
+    """Return the surroundings' light as a multiple of its mean; a mains lamp lights them, too."""
     light = light_of(scene.transmitter)
     if isinstance(light, Cosine):
         return light
-    around = scene.surroundings
-    return Cosine(around.flicker_frequency, around.flicker_depth, around.flicker_phase)
+    surroundings = scene.surroundings
+    return Cosine(
+        surroundings.flicker_frequency, surroundings.flicker_depth, surroundings.flicker_phase
+    )
 
 
 @lru_cache(maxsize=256)
@@ -87,7 +89,7 @@ def _waveform_of_chips(chips: bytes) -> Waveform:
 
 @lru_cache(maxsize=64)
 def _blinking(frequency: float, duty: Fraction, depth: float) -> PiecewiseLight:
-    """Return the light that is full for a fraction of each cycle, from its start on."""
+    """Return light that is full for the first fraction ``duty`` of each cycle."""
     pieces = [(1.0, duty), (1.0 - depth, 1 - duty)]
     levels, lengths = zip(*((level, length) for level, length in pieces if length), strict=True)
     exact = [int(level) if level in (0.0, 1.0) else level for level in levels]
@@ -113,5 +115,5 @@ def _mains(frequency: float, depth: float) -> Cosine:
 
 
 def forget_lights() -> None:
-    for cached in (_chips, _waveform_of_chips, _blinking, _levels, _recorded, _mains):
-        cached.cache_clear()
+    for function in (_chips, _waveform_of_chips, _blinking, _levels, _recorded, _mains):
+        function.cache_clear()

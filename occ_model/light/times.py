@@ -41,30 +41,29 @@ class Duration:
         return cls(whole // period, whole % period, float(units - whole))
 
     def in_units(self, period: int) -> float:
-        """Return the number of units, rounded as the sums of :meth:`Waveform.light_in` are."""
+        """Return the number of units, with the same rounding as in :meth:`.Waveform.light_in`."""
         return self.units + self.fraction + float(self.periods * period)
 
 
 @dataclass(frozen=True, slots=True)
 class ExposureWindows:
-    """Windows in time of equal length, by the units in which they start and end.
+    """Windows in time of equal length, given by the units in which they start and end.
 
-    Numbers of units continue into the period after that of the start; further whole periods are
-    omitted.
+    Unit numbers continue into the next period; further whole periods are omitted.
     """
 
     first: IndexArray
     last: IndexArray
     # Fractions of a unit: from the first unit's start to the window's start, from there to the
     # first unit's end, and from the last unit's start to the window's end. If a short window
-    # crosses a unit's edge, the errors of the last two shrink with the window.
+    # crosses the edge between units, the errors of the last two shrink with the window.
     since: FloatArray
     before: FloatArray
     end: FloatArray
     # Whether the fractions of the start and of the length add up to a unit or more
     crosses: NDArray[np.bool_]
-    # Length of the window without the units between, from the start of the last unit on if it
-    # crosses and from as far into it as the start is into the first unit if not
+    # Length of the window without the whole units inside it: if it crosses, from the last unit's
+    # start on, and otherwise from the point ``since`` after that start
     excess: FloatArray | float
 
     @classmethod
@@ -89,9 +88,9 @@ def count_phases(start: Fraction, step: Fraction, period: int, count: int) -> Ph
     carry = np.floor(fraction)
     fraction -= carry
     # A fraction just below zero can round to a whole unit when the floor is subtracted.
-    over = fraction >= 1.0
-    fraction[over] = 0.0
-    carry += over
+    rounds_up = fraction >= 1.0
+    fraction[rounds_up] = 0.0
+    carry += rounds_up
     carry += start_unit
     unit = np.add(steps.unit, carry, out=carry)
     # Exact, since a quotient of whole numbers this small never rounds up to a whole number.
@@ -101,7 +100,7 @@ def count_phases(start: Fraction, step: Fraction, period: int, count: int) -> Ph
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Steps:
-    """How much later than the first time each one is."""
+    """The time from the first phase to each of them."""
 
     # Shape (count,): whole units of the exact part of the products
     unit: FloatArray
@@ -114,17 +113,17 @@ class _Steps:
 def _count_steps(step: Fraction, count: int) -> _Steps:
     """Count up from 0 by ``step``; pictures that differ only in start time share the steps."""
     step_unit = int(step)
-    within = step - step_unit
-    coarse = float(np.float32(float(within)))
+    rest = step - step_unit
+    coarse = float(np.float32(float(rest)))
     number = np.arange(count, dtype=np.float64)
     position = number * coarse
     unit = np.floor(position)
     fraction = position - unit
     unit += number * step_unit
-    made = _Steps(unit, fraction, number * float(within - Fraction(coarse)))
-    for values in (made.unit, made.fraction, made.remainder):
+    steps = _Steps(unit, fraction, number * float(rest - Fraction(coarse)))
+    for values in (steps.unit, steps.fraction, steps.remainder):
         values.flags.writeable = False
-    return made
+    return steps
 
 
 def forget_steps() -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.light.times import Duration, ExposureWindows, PhasesInPeriod
 
-Exact = NDArray[Any]  # of integers or fractions
+Exact = NDArray[Any]  # integers or fractions
 
 
 class Waveform:
@@ -31,18 +31,18 @@ class Waveform:
     def __init__(self, levels: Sequence[float] | NDArray[Any], lengths: Sequence[Fraction] = ()):
         self.period = count = len(levels)  # units of a period, which are its pieces
         is_even = len(set(lengths)) <= 1
-        given = np.asarray(levels)
+        values = np.asarray(levels)
         # Exact: integers, which are fast, where possible; fractions otherwise.
         self.levels: Exact
-        if given.dtype.kind in "iub":
-            self.levels = given.astype(np.int64)
+        if values.dtype.kind in "iub":
+            self.levels = values.astype(np.int64)
         else:
-            self.levels = np.array([Fraction(float(level)) for level in given], dtype=object)
+            self.levels = np.array([Fraction(float(level)) for level in values], dtype=object)
         self.lengths: Exact = np.ones(count, dtype=np.int64)
         if not is_even:
             unit = sum(lengths, Fraction(0)) / count
             self.lengths = np.array([length / unit for length in lengths], dtype=object)
-        # A window that starts in one period may end in the next, or in the first unit after that.
+        # A window that starts in one period may end in the next, or in the unit after that.
         self._level = repeat(self.levels).astype(np.float64)
         self._lit_before = np.concatenate([[0], np.cumsum(repeat(self.levels * self.lengths))])
         self._lit_before = self._lit_before.astype(np.float64)
@@ -59,29 +59,29 @@ class Waveform:
         return Fraction(self.total) / self.period
 
     def windows(self, starts: PhasesInPeriod, duration: Duration) -> ExposureWindows:
-        """Return windows by the pieces in which they start and end."""
+        """Return windows with the indices of the pieces in which they start and end."""
         windows = ExposureWindows.of(starts, duration)
         return windows if self._edges is None else self._edges.pieces_of(windows, duration)
 
     def light_in(self, starts: PhasesInPeriod, duration: Duration) -> FloatArray:
         """Return the light within windows, C(end) - C(start), in lit units.
 
-        The difference is taken term by term, with exact whole units apart, so that the error stays
-        that of the phases, about 2e-16 units, for windows of any length; with unequal pieces, that
-        of a sum over a period.
+        The difference is computed term by term, separately for whole units, which are exact. The
+        error thus stays that of the phases, about 2e-16 units, for windows of any length; with
+        unequal pieces it is that of a sum over a period.
         """
         windows = self.windows(starts, duration)
         first, last, crosses = windows.first, windows.last, windows.crosses
         level_first, level_last = self._level.take(first), self._level.take(last)
-        part: FloatArray = level_last * windows.excess
+        light: FloatArray = level_last * windows.excess
         level_last -= level_first
         level_last *= np.where(crosses, -windows.before, windows.since)
-        part += level_last
-        whole = self._lit_before.take(last)
-        whole -= self._lit_before.take(first + crosses)
-        part += whole
-        part += duration.periods * float(self._lit_before[self.period])
-        return part
+        light += level_last
+        light_of_units = self._lit_before.take(last)
+        light_of_units -= self._lit_before.take(first + crosses)
+        light += light_of_units
+        light += duration.periods * float(self._lit_before[self.period])
+        return light
 
 
 def repeat(values: Exact) -> Exact:
@@ -94,12 +94,12 @@ class _Edges:
 
     def __init__(self, lengths: Exact) -> None:
         exact = np.concatenate([[Fraction(0)], np.cumsum(repeat(lengths))])
-        self._whole: IndexArray = np.array([each.__floor__() for each in exact], dtype=np.int64)
+        self._whole: IndexArray = np.array([edge.__floor__() for edge in exact], dtype=np.int64)
         self._fraction: FloatArray = (exact - self._whole).astype(np.float64)
         self._rounded: FloatArray = exact.astype(np.float64)
 
     def pieces_of(self, windows: ExposureWindows, duration: Duration) -> ExposureWindows:
-        """Return windows by pieces from windows by units."""
+        """Convert windows in units to windows in pieces."""
         first, since = self._piece_at(windows.first, windows.since)
         before = -self._since(first + 1, windows.first, windows.since)
         last, end = self._piece_at(windows.last, windows.end)
@@ -117,7 +117,7 @@ class _Edges:
         """Return the piece at each time, and the time since its start."""
         piece = np.searchsorted(self._rounded, whole + fraction, side="right") - 1
         piece = np.clip(piece, 0, len(self._rounded) - 2)
-        # The sum above is rounded, so that a time near an edge can be assigned to the wrong piece.
+        # The sum is rounded, so that a time near an edge can be assigned to the wrong piece.
         while True:
             since = self._since(piece, whole, fraction)
             early = (since < 0.0) & (piece > 0)

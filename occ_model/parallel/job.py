@@ -1,4 +1,4 @@
-"""Jobs for workers, the interfaces of workers and of who receives results, and a worker thread."""
+"""Jobs for workers, the interfaces of workers and of receivers of results, and a worker thread."""
 
 import sys
 import traceback
@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeAlias
 
 from occ_model.errors import OccError
 
-Heartbeat: TypeAlias = Callable[[], object]  # called by long work, which an exception from it ends
+Heartbeat: TypeAlias = Callable[[], object]  # called regularly by long work; it raises to end it
 CHANNELS = 8  # maximum number of channels to the same workers, and of heartbeat counters
 
 NO_PROCESSES = (OSError, ImportError, NotImplementedError)
@@ -35,7 +35,7 @@ class Job:
     arguments: tuple[Any, ...]
     counter: int = 0  # The counter of the job's heartbeats
     rank: int = 0  # Of all waiting jobs, those of the lowest rank begin first
-    # Whether the job, once made, is completed even if a newer run is requested
+    # Whether the job is completed even if a newer run is requested
     uninterruptible: bool = False
 
 
@@ -43,8 +43,8 @@ class Job:
 class JobResult:
     """A job's value, or its error, or neither if it was abandoned.
 
-    An error of a job is returned as a value, so an exception of a future is always the workers'
-    own.
+    A job's error is returned as a value, so that an exception of a future is always due to the
+    workers.
     """
 
     value: Any = None
@@ -102,7 +102,7 @@ def do_job(job: Job, heartbeat: Heartbeat) -> JobResult:
         return JobResult(error=error)
 
 
-def do_job_apart(job: Job, heartbeat: Heartbeat = lambda: None) -> JobResult:
+def do_job_in_process(job: Job, heartbeat: Heartbeat = lambda: None) -> JobResult:
     """Do a job in a worker process; an error keeps its traceback as a note."""
     result = do_job(job, heartbeat)
     if result.error is not None:

@@ -17,11 +17,11 @@ from occ_model.parallel.job import (
     NO_PROCESSES,
     Job,
     JobResult,
-    do_job_apart,
+    do_job_in_process,
     make_heartbeat,
 )
 
-EXIT_SECONDS = 0.2  # seconds that processes have to end by themselves
+EXIT_SECONDS = 0.2  # seconds in which processes can end by themselves
 
 
 class ProcessPool:
@@ -74,9 +74,8 @@ class ProcessPool:
 
     def close(self) -> None:
         with delay_interrupts():
-            # This shutdown returns when all processes have ended, for which some may have to be
-            # killed. Nothing else waits for them, because of two waiters one would miss the exit
-            # code.
+            # This shutdown returns when all processes have ended, if necessary because they were
+            # killed. Nothing else waits for them, because only one waiter gets the exit code.
             shutdown = Thread(target=self._executor.shutdown, kwargs={"cancel_futures": True})
             shutdown.start()
             shutdown.join(EXIT_SECONDS)
@@ -114,7 +113,7 @@ def _begin(first_runs: Any, counts: Any, niceness: int) -> None:
 
 def _work(job: Job, channel: int, run: int) -> JobResult:
     heartbeat = make_heartbeat(job, channel, run, _shared["first_runs"], _shared["counts"])
-    return do_job_apart(job, heartbeat)
+    return do_job_in_process(job, heartbeat)
 
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
@@ -125,13 +124,13 @@ _LONGEST_FOLDER = 70
 
 
 _FILES_OF_SERVER, _FILES_OF_WORKER = 16, 4
-"""Open files that the processes need, with twice the number that was observed."""
+"""Open files that the processes need: twice the numbers observed."""
 
 
 def process_context(preload: Sequence[str]) -> Any:
     """Choose how processes are started; ``preload``: modules to import, if possible only once."""
-    # A process forked from one with threads copies locks that no thread will ever release. It is
-    # therefore forked from a server without threads, or started anew if there is no such server.
+    # A process forked from one with threads copies locks that no thread will ever release. Workers
+    # are therefore forked from a server without threads, or spawned if there is none.
     has_server = "forkserver" in get_all_start_methods() and _socket_path_fits()
     method = "forkserver" if has_server else "spawn"
     context: Any = get_context(method)
@@ -141,16 +140,16 @@ def process_context(preload: Sequence[str]) -> Any:
 
 
 def check_open_files(workers: int) -> None:
-    """Refuse to start processes that would die half-way because of the limit of open files."""
-    opened: list[int] = []
+    """Refuse to start processes that would die because of the limit of open files."""
+    descriptors: list[int] = []
     try:
         for _ in range(_FILES_OF_SERVER + _FILES_OF_WORKER * workers):
-            opened.append(os.open(os.devnull, os.O_RDONLY))  # noqa: PERF401 - closed even half-way
+            descriptors.append(os.open(os.devnull, os.O_RDONLY))  # noqa: PERF401 - closed even half-way
     except OSError as error:
         raise OSError(f"{workers} of them need more open files than are allowed") from error
     finally:
-        for each in opened:
-            os.close(each)
+        for descriptor in descriptors:
+            os.close(descriptor)
 
 
 def _socket_path_fits() -> bool:
@@ -197,11 +196,11 @@ def _block_interrupts() -> Iterator[None]:
         yield
         return
     _start_resource_tracker()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    mask_before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask_before)
 
 
 def _start_resource_tracker() -> None:
@@ -223,12 +222,12 @@ def _start_resource_tracker() -> None:
 @contextmanager
 def _limit_threads() -> Iterator[None]:
     """Limit linear algebra to one thread in processes started within the context."""
-    before = {name: os.environ.get(name) for name in _THREADS}
+    values_before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     try:
         yield
     finally:
-        for name, value in before.items():
+        for name, value in values_before.items():
             if value is None:
                 del os.environ[name]
             else:

@@ -1,4 +1,4 @@
-"""A scheduler, which decides which job goes to the workers next and reports the results."""
+"""A scheduler, which chooses the next job for the workers and reports the results."""
 
 from collections import deque
 from collections.abc import Callable, Generator, Iterator
@@ -21,16 +21,16 @@ from occ_model.parallel.job import (
 )
 
 _JOBS_PER_WORKER = 2  # jobs sent to each worker: the current one and the next
-_MAX_LOST_WORKERS = 3  # how often in a row workers may die without a result
+_MAX_LOSSES = 3  # number of times in a row that workers may die without a result
 
 
 @dataclass(eq=False, slots=True)
 class Run:
-    """Work of a channel, which does only its newest run."""
+    """A sequence of jobs of a channel, which does only its newest run."""
 
     channel: int
     number: int  # Later runs of a channel have higher numbers
-    coming: Iterator[Job]  # Each job is made in the scheduler's thread when it is needed
+    jobs: Iterator[Job]  # Each job is made in the scheduler's thread when it is needed
     listener: RunListener
     waiting: deque[Job] = field(default_factory=deque)  # The next job, and those of dead workers
     unreported: list[Any] = field(default_factory=list)
@@ -41,9 +41,9 @@ class Scheduler:
 
     Of all waiting jobs, one of the lowest rank begins first; of equal ranks, one of the run that
     began first. While an uninterruptible job waits or is being done, no job of a higher rank
-    begins, because it would delay a result that is waited for. Each channel does only its newest
-    run, which replaces an older one at once, or as soon as the older one has completed its
-    uninterruptible jobs.
+    begins, because it would delay that job's result. Each channel does only its newest run, which
+    replaces an older one at once, or as soon as the older one has completed its uninterruptible
+    jobs.
 
     :meth:`put`, :meth:`cancel` and :meth:`close` may be called from any thread. They leave a
     message for :meth:`step` or :meth:`run`, which are called from a single thread.
@@ -105,8 +105,8 @@ class Scheduler:
             self.workers.close()
 
     def _receive(self, run: Run) -> None:
-        now = self._runs.get(run.channel)
-        if now is not None and self._has_uninterruptible(now):
+        current = self._runs.get(run.channel)
+        if current is not None and self._has_uninterruptible(current):
             self._pending[run.channel] = run
         else:
             self._begin(run)
@@ -136,7 +136,7 @@ class Scheduler:
         """Make the run's next job if none is waiting, and end the run if there is none."""
         try:
             if not run.waiting:
-                run.waiting.extend(islice(run.coming, 1))
+                run.waiting.extend(islice(run.jobs, 1))
         except Exception as error:  # noqa: BLE001 - an error in one must not stop others
             self._fail(run, error)
             return
@@ -194,17 +194,17 @@ class Scheduler:
             for channel, run in self._runs.items()
             if run.waiting and (run.waiting[0].uninterruptible or channel not in self._pending)
         )
-        chosen = min(ready, key=lambda run: run.waiting[0].rank, default=None)
-        if chosen is None:
+        first = min(ready, key=lambda run: run.waiting[0].rank, default=None)
+        if first is None:
             return None
-        rank = chosen.waiting[0].rank
+        rank = first.waiting[0].rank
         would_delay = any(self._has_uninterruptible(run, rank) for run in self._runs.values())
-        return None if would_delay else chosen
+        return None if would_delay else first
 
     def _take_back(self, future: "Future[JobResult]") -> None:
         workers = self.workers
         if future not in self._in_flight or workers is None:
-            return  # its worker died, and the job was given to others
+            return  # its worker died, and another one does the job
         try:
             result = future.result()
         except workers.lost_by as error:
@@ -246,13 +246,13 @@ class Scheduler:
         missing: Exception | None = None
         try:
             workers.renew()
-        except NO_PROCESSES as none:
-            missing = none
+        except NO_PROCESSES as no_processes:
+            missing = no_processes
             if self._fallback is not None:
                 self.workers = self._fallback()
         is_hopeless = missing is not None and self._fallback is None
         for run in list(self._runs.values()):
-            if is_hopeless or self._losses >= _MAX_LOST_WORKERS:
+            if is_hopeless or self._losses >= _MAX_LOSSES:
                 self._fail(run, WorkersLostError(reason_of(error), self._losses))
             else:
                 run.listener.note_lost_workers(run.number, missing)
@@ -270,21 +270,21 @@ def results_of(
     """Yield the results of jobs in the order in which they are ready; then end the workers.
 
     Each job is made only when it is needed, so that a limited number is in progress. ``start`` and
-    ``fallback`` are as for a :class:`Scheduler`. An exception of a job is raised here, and
-    WorkersLostError if workers die again and again.
+    ``fallback`` are as for a :class:`Scheduler`. An exception of a job is raised here, and a
+    WorkersLostError if workers die repeatedly.
     """
-    ready = _ResultListener()
+    listener = _ResultListener()
     scheduler = Scheduler(start, fallback)
-    scheduler.put(Run(0, 1, jobs, ready))
+    scheduler.put(Run(0, 1, jobs, listener))
     try:
-        while not ready.is_ended:
+        while not listener.is_ended:
             heartbeat()
             scheduler.step(_BEAT)
-            yield from ready.take()
+            yield from listener.take()
     finally:
         scheduler.end_workers()
-    if ready.error is not None:
-        raise ready.error
+    if listener.error is not None:
+        raise listener.error
 
 
 class _ResultListener:

@@ -1,4 +1,4 @@
-"""Decode an image or a profile by a decoder: a built-in one or a plug-in's, which is checked."""
+"""Decode an image or a profile with a built-in decoder, or a plug-in's, whose result is checked."""
 
 import math
 from dataclasses import replace
@@ -38,14 +38,14 @@ from occ_model.transmitter.registry import MOST_CHIPS
 from occ_model.transmitter.scheme import check_code, code_of
 
 _SHORTEST_CHIP = 1e-6  # columns
-_FARTHEST_CHIP = 10.0  # lengths of the signal before or after it, within which a chip may begin
+_FARTHEST_CHIP = 10.0  # signal lengths before or after the signal within which a chip may begin
 
 
 def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -> DecodeResult:
     """Return a result whose parts all comply with :class:`DecodeResult`, or raise PluginError.
 
     It must have as many bits as the scene sends, and the code and payload of these bits. The caller
-    adds its place in the picture.
+    adds the decoder's name and the region.
     """
     bits = checked_bits(who, "bits", result.bits, MAX_PAYLOAD_BITS)
     chips = checked_bits(who, "chips", result.chips, max(columns, MOST_CHIPS))
@@ -56,15 +56,17 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
         if len(bits) != length:
             raise PluginError(f"{who} gives {len(bits)} bits in place of {length}, and no failure.")
         code = code_of(bits.tolist())
-        own: object = result.code
-        if not isinstance(own, Integral) or own != code:
-            raise PluginError(f"{who} gives code = {shown(own)} with bits that are {shown(code)}.")
+        code_of_result: object = result.code
+        if not isinstance(code_of_result, Integral) or code_of_result != code:
+            raise PluginError(
+                f"{who} gives code = {shown(code_of_result)} with bits that are {shown(code)}."
+            )
     sent = scene.transmitter.payload
     payload = payload_of_bits(bits.tolist(), form_of(sent)) if sent else ""
-    written: object = result.payload
-    if not isinstance(written, str) or written not in ("", payload):
+    payload_of_result: object = result.payload
+    if not isinstance(payload_of_result, str) or payload_of_result not in ("", payload):
         raise PluginError(
-            f"{who} gives payload = {shown(written)} with bits that are {shown(payload)}."
+            f"{who} gives payload = {shown(payload_of_result)} with bits that are {shown(payload)}."
         )
 
     def number(name: str, low: float = -math.inf, high: float = math.inf) -> float | None:
@@ -110,9 +112,9 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
 def _runs(who: str, runs: object, columns: int) -> Runs | None:
     if runs is None:
         return None
-    found = of_kind(who, Runs)(runs)
-    values = checked_bits(who, "runs of values", found.values, columns)
-    lengths = checked_counts(who, "lengths of runs", found.lengths, columns)
+    checked = of_kind(who, Runs)(runs)
+    values = checked_bits(who, "runs of values", checked.values, columns)
+    lengths = checked_counts(who, "lengths of runs", checked.lengths, columns)
     if len(values) != len(lengths) or lengths.sum() > columns:
         raise PluginError(f"{who} gives runs that are not those of {columns:,} columns.")
     return Runs(values, lengths)
@@ -125,16 +127,16 @@ def _histograms(
         return None
     if not isinstance(histograms, tuple) or len(histograms) != 2:
         raise PluginError(f"{who} gives histograms that are not two of runs.")
-    first, second = (_histogram(who, one, columns) for one in histograms)
+    first, second = (_histogram(who, histogram, columns) for histogram in histograms)
     return first, second
 
 
 def _histogram(who: str, histogram: object, columns: int) -> RunHistogram:
-    found = of_kind(who, RunHistogram)(histogram)
-    counts = checked_counts(who, "counts of runs", found.counts, columns + 1)
+    checked = of_kind(who, RunHistogram)(histogram)
+    counts = checked_counts(who, "counts of runs", checked.counts, columns + 1)
     if not counts.size:
         raise PluginError(f"{who} gives an empty histogram.")
-    split: object = found.split
+    split: object = checked.split
     if split is not None:
         split = checked_count(who, "split", split, 0, len(counts) - 1)
     return RunHistogram(counts, split)
@@ -167,7 +169,7 @@ def decoders() -> tuple[str, ...]:
 
 
 QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_quick)
-"""The names of the decoders with which every picture of the window is read."""
+"""Names of the decoders that read every picture of the window."""
 
 
 def decoder_named(name: str) -> Decoder:
@@ -175,14 +177,14 @@ def decoder_named(name: str) -> Decoder:
         if name in DECODERS:
             return DECODERS[name]
         if name in decoders():
-            return _plugin(name)
+            return _load_plugin(name)
     raise ParameterError.of("decoder", shown(name), ", ".join(decoders()))
 
 
 def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read a signal with a named decoder; a plug-in's fault becomes the result's failure.
 
-    So does a light that is no code: whatever is read from it was not sent.
+    A light that is no code is also a failure, as anything read from it was not sent.
     """
     read = decoder_named(decoder).read
     try:
@@ -199,24 +201,24 @@ def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 @lru_cache(maxsize=64)
-def _plugin(name: str) -> Decoder:
+def _load_plugin(name: str) -> Decoder:
     """Import a plug-in's decoder, whose faults become sentences."""
-    offered = plugins.load_plugin(plugins.DECODERS, name, Decoder)
+    decoder = plugins.load_plugin(plugins.DECODERS, name, Decoder)
     who = plugins.describe(plugins.DECODERS, name)
 
     def read(signal: FloatArray, scene: Scene) -> DecodeResult:
         def check(result: object) -> DecodeResult:
-            found = plugins.of_kind(who, DecodeResult)(result)
-            return replace(checked_result(who, found, len(signal), scene), decoder=name)
+            checked = plugins.of_kind(who, DecodeResult)(result)
+            return replace(checked_result(who, checked, len(signal), scene), decoder=name)
 
         try:
             # A copy, because other decoders read the signal afterwards.
-            return plugins.call(who, "read", check, offered.read, np.array(signal), scene)
+            return plugins.call(who, "read", check, decoder.read, np.array(signal), scene)
         except ParameterError as error:
             raise PluginError(str(error), parameters=error.parameters) from None
 
     title = plugins.call(
-        who, "be used", lambda title: checked_text(who, "title", title), lambda: offered.title
+        who, "be used", lambda title: checked_text(who, "title", title), lambda: decoder.title
     )
     return Decoder(name, title, read)
 
@@ -267,13 +269,13 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
         result = replace(read_with(decoder, levels, scene), region=Region(0, 1, 0, len(image)))
         return _with_hint(result, levels) if image.dtype.kind == "f" else result
     grey = bytes_of(image)
-    found = locate(grey, scene.receiver.bright_fraction)
-    if found is None:
+    location = locate(grey, scene.receiver.bright_fraction)
+    if location is None:
         return DecodeResult(
             decoder, failure=f"No panel found: every pixel has the grey level {grey.flat[0]}."
         )
-    result = read_with(decoder, column_means(grey, found.region), scene)
-    return replace(result, region=found.region, location=found)
+    result = read_with(decoder, column_means(grey, location.region), scene)
+    return replace(result, region=location.region, location=location)
 
 
 def _convert_to_levels(profile: NDArray[Any]) -> FloatArray:

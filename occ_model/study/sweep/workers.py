@@ -16,7 +16,7 @@ from occ_model.parallel.job import (
     JobResult,
     Workers,
     WorkersLostError,
-    do_job_apart,
+    do_job_in_process,
 )
 from occ_model.parallel.scheduler import results_of
 from occ_model.study.sweep.results_file import Point
@@ -58,7 +58,7 @@ class GivenExecutor:
         self.count: int = getattr(executor, "_max_workers", _UNKNOWN_WORKERS)
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":  # noqa: ARG002
-        future = self._executor.submit(do_job_apart, job)
+        future = self._executor.submit(do_job_in_process, job)
         self._futures.add(future)
         future.add_done_callback(self._futures.discard)
         return future

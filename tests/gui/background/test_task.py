@@ -282,7 +282,7 @@ def test_a_plug_in_that_does_not_come_back_is_left_behind(
     thread, _, done = busy
     thread.end()
     assert done == []
-    assert plugins.all_at_work() == ("The plug-in",)
+    assert plugins.name_running_plugins() == ("The plug-in",)
 
 
 def test_a_plug_in_that_comes_back_in_time_is_waited_for(
@@ -293,4 +293,4 @@ def test_a_plug_in_that_comes_back_in_time_is_waited_for(
     threading.Timer(0.1, go_on.set).start()
     thread.end()
     assert done == ["plug-in"]
-    assert plugins.all_at_work() == ()
+    assert plugins.name_running_plugins() == ()

@@ -19,7 +19,7 @@ from occ_model.transmitter.registry import Registry
 
 _CACHES = (
     plugins._find_entries,
-    decode._plugin,
+    decode._load_plugin,
     Registry.get,
     scheme.scheme_named,
     scheme._payload_chips,

@@ -187,14 +187,14 @@ def room_figure() -> Figure:
     """Declare the figure, which is available once the picture from the present place is read."""
 
     def draw(pane: "RoomPane | None", _snapshot: Snapshot) -> Draw:
-        shown = None if pane is None else pane.shown
+        shown = None if pane is None else pane.picture
         if shown is None or shown.reading is None:
             raise NothingToDraw(
                 "The room's picture is not read yet: open its pane and wait a moment."
             )
         return later(
             "occ_model.figures.room:room_drawing",
-            shown.room, shown.image, shown.reading, is_photo=shown.look.photo is not None,
+            shown.room, shown.image, shown.reading, is_photo=shown.source.photo is not None,
         )  # fmt: skip
 
     return Figure(name="room", title="Room", draw=draw)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def connect_story(parts: Parts) -> None:
     story, menus = parts.story, parts.window.menus
-    parts.simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
+    parts.simulation.set_draft_resolution(lambda: _rows_per_pixel(story, parts.shell))
     parts.lessons.columns_held.connect(story.rows.hold_columns)
     _VerdictChoice(parts)
     crosshair, before = story.rows.crosshair, menus.actions["before"]

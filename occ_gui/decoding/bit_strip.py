@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
-from occ_gui.simulation.verdict import describe_received, wrong_places
+from occ_gui.simulation.verdict import describe_received, find_wrong_bits
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 from occ_model.scene.payload import PayloadPiece, compare_payload
@@ -56,7 +56,7 @@ class BitStrip(QWidget):
         self._describe()
 
     def _describe(self) -> None:
-        wrong = self.wrong_places()
+        wrong = self.find_wrong_bits()
         if len(self.sent) > _MOST_DIGITS:
             text = f"sent {len(self.sent)} bits, received {len(self._received)}, {len(wrong)} wrong"
         else:
@@ -67,8 +67,8 @@ class BitStrip(QWidget):
         self.setAccessibleDescription(text)
         self.setToolTip(text)
 
-    def wrong_places(self) -> list[int]:
-        return wrong_places(self.sent, self._received)
+    def find_wrong_bits(self) -> list[int]:
+        return find_wrong_bits(self.sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
@@ -86,7 +86,7 @@ class BitStrip(QWidget):
         rows = (("sent", self.sent), ("received", self._received))
         count = max(1, len(self.sent))
         width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)
-        wrong = set(self.wrong_places())
+        wrong = set(self.find_wrong_bits())
         for row, (label, bits) in enumerate(rows):
             top = _GAP + row * (_CELL + _GAP)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.simulation.present_results import Use
+from occ_gui.simulation.present_results import ResultsConsumer
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
 from occ_model.files.reading import is_film
@@ -75,7 +75,7 @@ class FileController(QObject):
         store: SceneStore,
         photos: PhotoController,
         preferences: Preferences,
-        when_present: Callable[[Use], None],
+        when_present: Callable[[ResultsConsumer], None],
     ) -> None:
         super().__init__(window)
         self._window = window

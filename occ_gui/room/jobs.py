@@ -16,10 +16,10 @@ from occ_model.room.room import Room
 from occ_model.room.view import aim_of, room_outline, seen_outline
 from occ_model.study.room_map import RoomMapRequest, RoomPoint, places_under, room_map
 
-_WIDTH = 900
-"""Columns of the reduced picture, in area means, because samples would show false stripes."""
+_REDUCED_COLUMNS = 900
+"""Columns of the reduced picture, whose pixels are area means, to avoid aliasing."""
 
-SIDE = 5  # places of the map on each side of the floor
+PLACES_PER_SIDE = 5  # places of the map on each side of the floor
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -27,14 +27,14 @@ class RoomPlan:
     """A room from above: x and y in metres."""
 
     outlines: dict[str, FloatArray]  # of the lamps, by name, each of shape (corners, 2)
-    # Corners of what the camera sees at the lamps' height; empty if it does not look up
+    # Corners of the field of view at the lamps' height; empty if the camera does not look up
     view: FloatArray
-    aim: tuple[float, float]  # the middle of what it sees
+    aim: tuple[float, float]  # the middle of the field of view
     height: float  # the lamps' mean height
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class PictureSource:
     """Source of the picture: the room's camera, or a photo of the room."""
 
     room: Room
@@ -44,15 +44,15 @@ class Look:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class ShownRoom:
+class RoomPicture:
     """A picture of a room, a reduced copy for the screen, and its reading once there is one."""
 
-    look: Look
+    source: PictureSource
     room: Room  # as used for reading, but with the camera of a photo at the place that was found
     image: ByteArray
-    picture: ByteArray  # the reduced copy
+    reduced: ByteArray  # the copy for the screen
     reading: RoomReading | None
-    assumed: tuple[str, ...] = ()  # sentences on what is assumed about a photo's camera
+    assumptions: tuple[str, ...] = ()  # sentences on what is assumed about a photo's camera
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,32 +67,34 @@ def plan_of(room: Room) -> RoomPlan:
     return RoomPlan(outlines, seen_outline(room, height), aim_of(room.camera, height), height)
 
 
-def show_room(look: Look, report: TaskReporter) -> ShownRoom:
-    if look.photo is not None:
-        return _show_photo(look, look.photo, report)
-    room = look.room
+def make_picture(source: PictureSource, report: TaskReporter) -> RoomPicture:
+    if source.photo is not None:
+        return _read_photo(source, source.photo, report)
+    room = source.room
     image = render_room(room, noise="reused").camera_image
-    shown = ShownRoom(look, room, image, _reduce(image), None)
-    report(shown)
-    return replace(shown, reading=read_room(image, room))
+    picture = RoomPicture(source, room, image, _reduce(image), None)
+    report(picture)
+    return replace(picture, reading=read_room(image, room))
 
 
-def _show_photo(look: Look, path: Path, report: TaskReporter) -> ShownRoom:
+def _read_photo(source: PictureSource, path: Path, report: TaskReporter) -> RoomPicture:
     photo = load_photo(path)
-    report(ShownRoom(look, look.room, photo.image, _reduce(photo.image), None))
-    read = read_room_photo(photo, look.room, look.focal_length)
-    located = read.reading.located
-    room = read.room if located is None else read.room.replace(camera=located.place)
-    return ShownRoom(look, room, read.image, _reduce(read.image), read.reading, read.assumed)
+    report(RoomPicture(source, source.room, photo.image, _reduce(photo.image), None))
+    result = read_room_photo(photo, source.room, source.focal_length)
+    located = result.reading.located
+    room = result.room if located is None else result.room.replace(camera=located.place)
+    return RoomPicture(
+        source, room, result.image, _reduce(result.image), result.reading, result.assumed
+    )
 
 
 def _reduce(image: ByteArray) -> ByteArray:
-    scale = min(1.0, _WIDTH / image.shape[1])
+    scale = min(1.0, _REDUCED_COLUMNS / image.shape[1])
     size = (round(image.shape[1] * scale), max(1, round(image.shape[0] * scale)))
     return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
 
 def map_room(room: Room, report: Callable[[float], object]) -> FloorMap:
-    request = RoomMapRequest(room, *places_under(room, SIDE))
+    request = RoomMapRequest(room, *places_under(room, PLACES_PER_SIDE))
     points = room_map(request, progress=lambda done, total, _: report(done / total))
     return FloorMap(request, points)

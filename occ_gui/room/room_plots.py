@@ -8,7 +8,7 @@ from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, Qt, Signal, SignalIn
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
+from occ_gui.room.jobs import FloorMap, RoomPicture, RoomPlan
 from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, pen_on, thin
@@ -18,13 +18,13 @@ from occ_model.errors import counted
 from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
-_DEVIATIONS = 2.0
-_CIRCLE = np.linspace(0.0, 2.0 * math.pi, 49)
+_DEVIATIONS = 2.0  # standard deviations at the edge of the error ellipse
+_CIRCLE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 49)  # radians
 
 _VISIBLE_SIZE = 0.04  # fraction of the plan's width that an ellipse needs to be visible
 _MARGIN = 0.8  # metres around the lamps
 
-_DASHES = Qt.PenStyle.DashLine
+_DASHED = Qt.PenStyle.DashLine
 
 _PADDING = 0.02  # fraction of the picture's height, so that the first row's number is not cut off
 
@@ -45,28 +45,28 @@ class PlanPlot(QWidget):
         self.floor = pg.ScatterPlotItem(pen=None, symbol="s")
         self.plot.addItem(self.floor)
         self.lamps = self.plot.add_curve(thin(SIMULATION))
-        self.view = self.plot.add_curve(thin(PHOTO, _DASHES))
+        self.view = self.plot.add_curve(thin(PHOTO, _DASHED))
         self.ellipse = self.plot.add_curve(thin(BAND))
         self.names: list[pg.TextItem] = []
         self.cross = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
         self.aim = pg.TargetItem((0.0, 0.0), size=30, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
         self.camera = pg.TargetItem((0.0, 0.0), size=14, symbol="o", pen=pg.mkPen(PHOTO, width=2))
-        # If the camera looks straight up, the triangle surrounds the ring, and both can be grabbed.
+        # If the camera looks straight up, the triangle surrounds the ring; both can be dragged.
         self.camera.setZValue(self.aim.zValue() + 1.0)
-        self._follow(self.camera, self.camera_moved)
-        self._follow(self.aim, self.aim_moved)
+        self._report_drags(self.camera, self.camera_moved)
+        self._report_drags(self.aim, self.aim_moved)
         self.plot.dress_with(self._dress)
         fill(QVBoxLayout(self), self.plot, margins=0)
 
-    def _follow(self, target: pg.TargetItem, moved: SignalInstance) -> None:
+    def _report_drags(self, target: pg.TargetItem, moved: SignalInstance) -> None:
         self.plot.addItem(target)
         gestures = Gestures()
 
-        def tell(item: pg.TargetItem) -> None:
+        def emit_position(item: pg.TargetItem) -> None:
             gesture = gestures.of_change(held=item.moving)
             moved.emit(float(item.pos().x()), float(item.pos().y()), gesture)
 
-        target.sigPositionChanged.connect(tell)
+        target.sigPositionChanged.connect(emit_position)
         target.sigPositionChangeFinished.connect(gestures.end)
 
     def _dress(self, palette: QPalette) -> None:
@@ -80,14 +80,14 @@ class PlanPlot(QWidget):
         loops = [np.vstack([outline, outline[:1]]) for outline in plan.outlines.values()]
         ends = np.cumsum([len(loop) for loop in loops]) - 1
         joined = np.vstack(loops)
-        connected = np.ones(len(joined), dtype=np.int32)
-        connected[ends] = 0
-        self.lamps.setData(joined[:, 0], joined[:, 1], connect=connected)
-        closed = np.vstack([plan.view, plan.view[:1]]) if len(plan.view) else plan.view
-        self.view.setData(closed[:, 0], closed[:, 1])
-        for target, at in ((self.camera, (place.x, place.y)), (self.aim, plan.aim)):
+        is_connected = np.ones(len(joined), dtype=np.int32)
+        is_connected[ends] = 0
+        self.lamps.setData(joined[:, 0], joined[:, 1], connect=is_connected)
+        loop = np.vstack([plan.view, plan.view[:1]]) if len(plan.view) else plan.view
+        self.view.setData(loop[:, 0], loop[:, 1])
+        for target, position in ((self.camera, (place.x, place.y)), (self.aim, plan.aim)):
             with QSignalBlocker(target):
-                target.setPos(QPointF(*at))
+                target.setPos(QPointF(*position))
         if is_new:
             self._show_names(plan.outlines)
             low, high = joined.min(axis=0) - _MARGIN, joined.max(axis=0) + _MARGIN
@@ -109,8 +109,8 @@ class PlanPlot(QWidget):
             self.names.append(name)
         self._dress(self.palette())
 
-    def show_located(self, located: Located | None, true: Place) -> float:
-        """Show a place with its error ellipse; return the factor by which both are enlarged."""
+    def show_place(self, located: Located | None, true: Place) -> float:
+        """Show a place with its error ellipse; return the factor by which its error is enlarged."""
         if located is None:
             self.ellipse.setData([], [])
             self.cross.setData([], [])
@@ -119,14 +119,16 @@ class PlanPlot(QWidget):
         lengths = _DEVIATIONS * np.sqrt(np.maximum(values, 0.0))
         width = float(np.ptp(self.plot.getViewBox().viewRange()[0]))
         needed = _VISIBLE_SIZE * width / max(float(lengths.max()), 1e-12)
-        enlarged = 10.0 ** max(0, math.ceil(math.log10(max(needed, 1.0))))
+        scale = 10.0 ** max(0, math.ceil(math.log10(max(needed, 1.0))))
         middle = np.array([true.x, true.y])
-        off = (np.array([located.place.x, located.place.y]) - middle) * enlarged
-        circle = np.stack([np.cos(_CIRCLE), np.sin(_CIRCLE)]) * lengths[:, None] * enlarged
-        x, y = (middle + off)[:, None] + axes @ circle
+        offset = (np.array([located.place.x, located.place.y]) - middle) * scale
+        circle = (
+            np.stack([np.cos(_CIRCLE_ANGLES), np.sin(_CIRCLE_ANGLES)]) * lengths[:, None] * scale
+        )
+        x, y = (middle + offset)[:, None] + axes @ circle
         self.ellipse.setData(x, y)
-        self.cross.setData([middle[0] + off[0]], [middle[1] + off[1]])
-        return float(enlarged)
+        self.cross.setData([middle[0] + offset[0]], [middle[1] + offset[1]])
+        return float(scale)
 
     def show_map(self, floor_map: FloorMap | None) -> None:
         if floor_map is None:
@@ -154,27 +156,27 @@ class PicturePlot(QWidget):
         self.plot.setMouseEnabled(False, False)
         self.image = pg.ImageItem(axisOrder="row-major")
         self.plot.addItem(self.image)
-        self._over: list[pg.GraphicsObject] = []
+        self._overlays: list[pg.GraphicsObject] = []
         fill(QVBoxLayout(self), self.plot, margins=0)
 
-    def show_room(self, shown: ShownRoom) -> None:
-        rows, columns = shown.image.shape
+    def show_room(self, picture: RoomPicture) -> None:
+        rows, columns = picture.image.shape
         margin = _HALF_NAME * rows
-        self.image.setImage(shown.picture, levels=(0, 255))
+        self.image.setImage(picture.reduced, levels=(0, 255))
         self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
         self.plot.setXRange(0, columns, padding=0)
         self.plot.setYRange(0, rows, padding=_PADDING)
-        for item in self._over:
+        for item in self._overlays:
             self.plot.removeItem(item)
-        self._over = []
-        for lamp in shown.reading.lamps if shown.reading else ():
+        self._overlays = []
+        for lamp in picture.reading.lamps if picture.reading else ():
             colour = SIMULATION if lamp.name else BAND
-            closed = np.vstack([lamp.hull, lamp.hull[:1]])
-            outline = pg.PlotCurveItem(closed[:, 0], closed[:, 1], pen=thin(colour))
+            loop = np.vstack([lamp.hull, lamp.hull[:1]])
+            outline = pg.PlotCurveItem(loop[:, 0], loop[:, 1], pen=thin(colour))
             name = pg.TextItem(lamp.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
             # The whole name stays visible, even for a lamp at the edge.
             middle = np.clip(lamp.hull.mean(axis=0), margin, (columns - margin, rows - margin))
             name.setPos(*middle.tolist())
             for item in (outline, name):
                 self.plot.addItem(item, ignoreBounds=True)
-                self._over.append(item)
+                self._overlays.append(item)

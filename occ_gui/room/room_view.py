@@ -7,7 +7,7 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
 
-from occ_gui.room.jobs import SIDE, FloorMap, RoomPlan, ShownRoom
+from occ_gui.room.jobs import PLACES_PER_SIDE, FloorMap, RoomPicture, RoomPlan
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
 from occ_gui.widgets.building import fill, heading_font, paragraph, push_button
 from occ_model.errors import counted, one_line
@@ -57,8 +57,8 @@ class RoomView(QWidget):
             "&Close the photo", "Show what the camera of the plan sees.", self.photo_closed
         )
         self.focal_length = QDoubleSpinBox()
-        allowed = quantity("equivalent_focal_length")
-        self.focal_length.setRange(1e3 * allowed.low, 1e3 * allowed.high)
+        limits = quantity("equivalent_focal_length")
+        self.focal_length.setRange(1e3 * limits.low, 1e3 * limits.high)
         self.focal_length.setDecimals(2)
         self.focal_length.setPrefix("Focal length: ")
         self.focal_length.setSuffix(" mm equivalent")
@@ -70,7 +70,8 @@ class RoomView(QWidget):
             widget.hide()
         self.measure = push_button(
             "&Measure the floor",
-            f"Simulate a picture at each of {SIDE**2} places below the lamps, and locate it.",
+            f"Simulate a picture at each of {PLACES_PER_SIDE**2} places below the lamps, and "
+            "locate it.",
             self.map_asked,
         )
         self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()
@@ -95,26 +96,26 @@ class RoomView(QWidget):
     def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
         """Show lamps and camera, and clear the results of the last picture."""
         self.plan.show_plan(plan, room.camera, is_new=is_new)
-        self.plan.show_located(None, room.camera)
-        self.headline.setText("Looking…")
+        self.plan.show_place(None, room.camera)
+        self.headline.setText("Reading the picture…")
         self.sentences.setText("")
 
-    def show_picture(self, shown: ShownRoom, *, is_present: bool) -> None:
-        self.picture.show_room(shown)
-        self._show_photo(shown)
-        if shown.reading is None or not is_present:
+    def show_picture(self, picture: RoomPicture, *, is_present: bool) -> None:
+        self.picture.show_room(picture)
+        self._show_photo(picture)
+        if picture.reading is None or not is_present:
             return
-        self.headline.setText(_headline(shown.reading))
-        enlarged = self.plan.show_located(shown.reading.located, shown.room.camera)
-        self.sentences.setText(_sentences(shown, shown.reading, enlarged))
+        self.headline.setText(_make_headline(picture.reading))
+        scale = self.plan.show_place(picture.reading.located, picture.room.camera)
+        self.sentences.setText(_describe_reading(picture, picture.reading, scale))
 
-    def _show_photo(self, shown: ShownRoom) -> None:
-        is_photo = shown.look.photo is not None
+    def _show_photo(self, picture: RoomPicture) -> None:
+        is_photo = picture.source.photo is not None
         self.close_photo.setVisible(is_photo)
         self.focal_length.setVisible(is_photo)
         self.measure.setVisible(not is_photo)
         with QSignalBlocker(self.focal_length):
-            self.focal_length.setValue(1e3 * shown.room.scene.camera.equivalent_focal_length)
+            self.focal_length.setValue(1e3 * picture.room.scene.camera.equivalent_focal_length)
 
     def show_failure(self, sentence: str) -> None:
         self.headline.setText(sentence)
@@ -128,7 +129,7 @@ class RoomView(QWidget):
         self.floor.setText(_describe_map(floor_map) if floor_map else "")
 
 
-def _headline(reading: RoomReading) -> str:
+def _make_headline(reading: RoomReading) -> str:
     if reading.located is None:
         return "The place is not determined"
     place, errors = reading.located.place, reading.located.errors
@@ -139,7 +140,7 @@ def _headline(reading: RoomReading) -> str:
     return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"
 
 
-def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
+def _describe_reading(picture: RoomPicture, reading: RoomReading, scale: float) -> str:
     names = [
         lamp.name + (f" ({lamp.light_words})" if lamp.code is None else "")
         for lamp in reading.lamps if lamp.name
@@ -147,17 +148,17 @@ def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
     lines = [f"{len(names)} of {len(reading.lamps)} lamps named: {', '.join(names) or 'none'}."]
     lines += reading.reasons
     if reading.located is not None:
-        place, errors, true = reading.located.place, reading.located.errors, shown.room.camera
-        off = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
+        place, errors, true = reading.located.place, reading.located.errors, picture.room.camera
+        distance = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
         angles = " ± ".join((
             ", ".join(_degrees(getattr(place, name)) for name in _ANGLES),
             f"{math.degrees(float(errors[3:].max())):.2g}°",
         ))  # fmt: skip
-        parts = [] if shown.look.photo else [f"{METRE.format(off, 2)} from the true place"]
-        parts += [f"drawn {enlarged:g} times larger"] if enlarged > 1.0 else []
+        parts = [] if picture.source.photo else [f"{METRE.format(distance, 2)} from the true place"]
+        parts += [f"drawn {scale:g} times larger"] if scale > 1.0 else []
         lines.append("; ".join([*parts, f"yaw, pitch, roll: {angles}"]).capitalize() + ".")
-    if shown.assumed:
-        lines.append("Assumed: " + " ".join(shown.assumed))
+    if picture.assumptions:
+        lines.append("Assumed: " + " ".join(picture.assumptions))
     return "\n".join(lines)
 
 

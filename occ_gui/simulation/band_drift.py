@@ -8,21 +8,21 @@ _FIELD = PARAMETERS["band_reading"].label
 _MIN_VISIBLE_DRIFT = 0.05  # columns per packet
 
 
-def drift_of(reading: ColumnView) -> str:
+def describe_drift(reading: ColumnView) -> str:
     """State by how much the band model drifts; empty if it does not."""
     columns = abs(reading.band_drift)
     if columns < _MIN_VISIBLE_DRIFT:
         return ""
     sent = reading.scene.transmitter
-    period = "period"
+    unit = "period"
     if _has_chips(reading):
-        period = "cycle" if sent.pattern else "packet"
-    return f"drifts {columns:.{0 if columns >= 10.0 else 1}f} columns a {period}"
+        unit = "cycle" if sent.pattern else "packet"
+    return f"drifts {columns:.{0 if columns >= 10.0 else 1}f} columns a {unit}"
 
 
 def drift_sentence(reading: ColumnView) -> str:
     """State the drift and its reason in a line; empty if there is none."""
-    if not (drift := drift_of(reading)):
+    if not (drift := describe_drift(reading)):
         return ""
     skips = ", and skips the exposure between equal chips" if _has_chips(reading) else ""
     return f"The band model {drift}: it rounds{skips}."

@@ -79,44 +79,44 @@ class SimulationController(QObject):
         self._reading: Reading | None = None
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._draft_rows = DraftRows()
-        self._more: tuple[str, ...] = ()
+        self._extra_decoders: tuple[str, ...] = ()
         self._must_wait: Callable[[], bool] = lambda: False
         self.runner: Task[SimulationRequest, Snapshot] = Task(self._simulate, "simulation")
-        self.runner.reported.connect(self._show_early)
+        self.runner.reported.connect(self._show_report)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         self.runner.failed_for.connect(self.failed_for)
         for store in (scenes, scenes.settings):
             store.changed.connect(self._submit)
-        scenes.store.select(lambda workspace: workspace.decoder).changed.connect(self.read_with)
+        scenes.store.select(lambda workspace: workspace.decoder).changed.connect(self.add_decoder)
         self.ages = ResultAges(self._request())
         # No signal is needed, because there are no panes yet.
         self.runner.ask(self.ages.present)
 
-    def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
-        """Let drafts have as many rows as the screen shows, or fewer if drafts are late.
+    def set_draft_resolution(self, rows_per_pixel: Callable[[], float]) -> None:
+        """Give drafts as many rows as the screen shows, or fewer if drafts are late.
 
         ``rows_per_pixel``: returns how many rows of the picture fall on a pixel of the screen.
         """
         self._rows_per_pixel = rows_per_pixel
 
     def defer_while(self, must_wait: Callable[[], bool]) -> None:
-        """Delay exact pictures while ``must_wait``, called on the worker's thread, is true."""
+        """Delay exact pictures while ``must_wait``, called on the worker's thread, returns True."""
         self._must_wait = must_wait
 
-    def read_with(self, decoder: str) -> None:
+    def add_decoder(self, decoder: str) -> None:
         """Read this and later scenes with this decoder, too."""
-        self._more = () if decoder in QUICK_DECODERS else (decoder,)
+        self._extra_decoders = () if decoder in QUICK_DECODERS else (decoder,)
         reading = self._reading
-        if self._more and (reading is None or decoder not in reading.results):
+        if self._extra_decoders and (reading is None or decoder not in reading.results):
             self.runner.ask(self._request())
 
     def _request(self) -> SimulationRequest:
         scene = self._scenes.scene
-        step = self._draft_rows.step(scene.camera.rows, self._rows_per_pixel())
+        step = self._draft_rows.choose_step(scene.camera.rows, self._rows_per_pixel())
         picture_kind = self._scenes.store.workspace.picture_kind
         settings = self._scenes.settings.settings
-        return SimulationRequest(scene, settings, picture_kind, step, self._more)
+        return SimulationRequest(scene, settings, picture_kind, step, self._extra_decoders)
 
     def _submit(self) -> None:
         request = self._request()
@@ -131,7 +131,7 @@ class SimulationController(QObject):
         planned = plan_scene(request.scene, request.settings)  # once for all that follows
         reading = reading_by_profile(request, planned)
         draft = draft_of(request, planned)
-        # Without a draft, every scene that is begun is also shown.
+        # Without a draft, a scene whose simulation has begun is always shown.
         heartbeat: Callable[[], None] = report.give_way if draft is not None else lambda: None
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
@@ -163,15 +163,15 @@ class SimulationController(QObject):
                 return
             report.give_way(CHECK_SECONDS)
 
-    def _show_early(self, part: Picture | Reading) -> None:
-        if isinstance(part, Snapshot):
-            self._show(part)
+    def _show_report(self, result: Picture | Reading) -> None:
+        if isinstance(result, Snapshot):
+            self._show(result)
             return
-        reading = part.reading if isinstance(part, Picture) else part
+        reading = result.reading if isinstance(result, Picture) else result
         if reading is not None and self._is_newer(reading):
             self._show_reading(reading)
-        if isinstance(part, Picture):
-            self.picture_ready.emit(part)
+        if isinstance(result, Picture):
+            self.picture_ready.emit(result)
 
     def _show(self, snapshot: Snapshot) -> None:
         self.snapshot_ready.emit(snapshot)
@@ -189,7 +189,7 @@ class SimulationController(QObject):
         if last is None:
             return True
         if reading.request == last.request:
-            # During a movement the next scene's reading arrives before this one would be drawn.
+            # While a slider moves, the reading of the next scene arrives before this one is drawn.
             is_present = reading.request == self.ages.present
             return is_present and SOURCES.index(reading.source) >= SOURCES.index(last.source)
         return self.ages.age(reading.request) <= self.ages.age(last.request)

@@ -31,7 +31,7 @@ LONGEST_DRAFT = 0.016
 
 MOST_THINNING = 4  # most rows of the screen that a row of a draft fills
 
-LEAST_ROWS = 64  # fewest rows of a thinned draft: fewer save no time, and show too little
+LEAST_ROWS = 64  # fewest rows of a thinned draft; fewer would show too little and save no time
 
 _SPEED_MARGIN = 3.0
 """Factor by which a thinned draft must beat its time limit before its rows are doubled.
@@ -43,15 +43,15 @@ It exceeds 2, because thinning at most halves the time: the number of rows canno
 class DraftRows:
     """Chooses which rows of a picture its draft has.
 
-    Each row of a draft fills one row of the screen, or 2 or 4 if drafts are late. A single late one
-    changes nothing, because the machine may have been busy.
+    Each row of a draft fills one row of the screen, or 2 or 4 if drafts are late. A single late
+    draft changes nothing, because the machine may have been busy.
     """
 
     def __init__(self) -> None:
         self._thinning = 1
         self._seconds: deque[float] = deque(maxlen=2)
 
-    def step(self, rows: int, rows_per_pixel: float) -> int:
+    def choose_step(self, rows: int, rows_per_pixel: float) -> int:
         """Return how many rows of the picture each row of the draft stands for.
 
         ``rows_per_pixel``: rows of the picture that fall on a pixel of the screen.
@@ -114,8 +114,8 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     """Read a draft of a picture, with rows counted in the whole one."""
     scene = frame.scene
-    of_draft = _decode_by_all(frame, request.more_decoders)
-    results = {name: _scale_rows(result, frame) for name, result in of_draft.items()}
+    draft_results = _decode_with_all(frame, request.more_decoders)
+    results = {name: _scale_rows(result, frame) for name, result in draft_results.items()}
     fields = _common_fields(request, scene, frame, results)
     return Reading(source="draft", error=frame.plan.error, **fields)
 
@@ -132,7 +132,7 @@ def _scale_rows(result: DecodeResult, draft: Frame) -> DecodeResult:
 def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     scene = frame.scene
     start = perf_counter()
-    results = _decode_by_all(frame, request.more_decoders)
+    results = _decode_with_all(frame, request.more_decoders)
     seconds = perf_counter() - start
     fields = _common_fields(request, scene, frame, results)
     if fields["bars"] is None and not has_chips(scene.transmitter):
@@ -198,10 +198,10 @@ def _band_model(scene: Scene) -> dict[str, Any]:
         band = occ.band_profile(scene)
         enhanced = enhanced_band_profile(scene, band)
         return {"band": band, "enhanced_band": enhanced, "band_drift": band_drift(scene)}
-    except OccError as reason:
-        if scene.transmitter.light == "code" and not isinstance(reason, occ.BandModelUndefined):
+    except OccError as error:
+        if scene.transmitter.light == "code" and not isinstance(error, occ.BandModelUndefined):
             raise
-        return {"band_undefined": str(reason)}
+        return {"band_undefined": str(error)}
 
 
 def _is_usable(decoder: str) -> bool:
@@ -213,14 +213,14 @@ def _is_usable(decoder: str) -> bool:
     return True
 
 
-def _decode_by_all(frame: Frame, more: tuple[str, ...]) -> dict[str, DecodeResult]:
-    """Decode with all decoders the signal that the first one has located; nothing but codes."""
+def _decode_with_all(frame: Frame, extra_decoders: tuple[str, ...]) -> dict[str, DecodeResult]:
+    """Decode a code with all decoders, from the signal that the first one has located."""
     scene = frame.scene
     if scene.transmitter.light != "code":
         return {}
     first = occ.decode(frame.image, scene)
     results = {first.decoder: first}
-    for name in (*QUICK_DECODERS, *more):
+    for name in (*QUICK_DECODERS, *extra_decoders):
         if name not in results:
             results[name] = _decode_located(name, first, scene)
     return results

@@ -1,4 +1,4 @@
-"""Present results: what is written to a file is of the scene that the controls show."""
+"""Results of the present scene, for files and the clipboard."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 
-Use = Callable[[Snapshot], None]
+ResultsConsumer = Callable[[Snapshot], None]
 
 
 class PresentResults(QObject):
@@ -17,13 +17,13 @@ class PresentResults(QObject):
     a scene has no picture, they are cancelled with a message.
     """
 
-    status_message = Signal(str)  # that a request waits, or why it was cancelled
+    status_message = Signal(str)  # says that a request waits, or why it was cancelled
 
     def __init__(self, simulation: SimulationController) -> None:
         super().__init__()
         self._ages = simulation.ages
         self._runner = simulation.runner
-        self._waiting: list[Use] = []
+        self._waiting_consumers: list[ResultsConsumer] = []
         self._is_refused = False
         self.latest: Snapshot | None = None
         """The results shown by the panes, of the present scene or an earlier one."""
@@ -34,10 +34,10 @@ class PresentResults(QObject):
     def is_present(self, snapshot: Snapshot) -> bool:
         return snapshot.request == self._ages.present
 
-    def ask(self, use: Use) -> None:
-        self._waiting.append(use)
+    def ask(self, consumer: ResultsConsumer) -> None:
+        self._waiting_consumers.append(consumer)
         if self._is_refused:
-            self._give_up()
+            self._cancel_requests()
         elif not self._deliver():
             self.status_message.emit("Waiting for the picture of this scene…")
 
@@ -46,9 +46,9 @@ class PresentResults(QObject):
         snapshot = self.latest
         if snapshot is None or not self.is_present(snapshot):
             return False
-        waiting, self._waiting = self._waiting, []
-        for use in waiting:
-            use(snapshot)
+        consumers, self._waiting_consumers = self._waiting_consumers, []
+        for consumer in consumers:
+            consumer(snapshot)
         return True
 
     def _on_change(self) -> None:
@@ -61,9 +61,9 @@ class PresentResults(QObject):
     def _on_failure(self, _sentence: str) -> None:
         # A failure of an earlier request says nothing about the present one.
         self._is_refused = self._runner.is_idle
-        if self._is_refused and self._waiting:
-            self._give_up()
+        if self._is_refused and self._waiting_consumers:
+            self._cancel_requests()
 
-    def _give_up(self) -> None:
-        self._waiting.clear()
+    def _cancel_requests(self) -> None:
+        self._waiting_consumers.clear()
         self.status_message.emit("This scene has no picture: nothing has been written or copied.")

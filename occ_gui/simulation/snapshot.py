@@ -1,4 +1,4 @@
-"""Results of one scene: its pictures, and what is read from them, or before them."""
+"""Results of one scene: its pictures, and the readings of them or of the profile alone."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -34,14 +34,14 @@ class ColumnView:
     results: Mapping[str, DecodeResult]
     # The transmitted bits in order of time; empty if a raw pattern is transmitted
     sent: tuple[int, ...]
-    period_columns: float  # columns after which the light repeats, of a code those of a packet
+    period_columns: float  # period of the light in columns; for a code, that of a packet
     has_edges: bool = False  # whether the rise and fall of the light are simulated
     # Shape (columns,): the band model's profile; None if ``band_undefined`` says why there is none
     band: FloatArray | None = None
     # Shape (columns,): the same after the receiver's enhancement; None without it
     enhanced_band: FloatArray | None = None
     band_undefined: str = ""  # a sentence, empty if there is a profile
-    # Columns by which that profile is ahead of the simulated one after each packet
+    # Columns per packet by which that profile runs ahead of the simulated one
     band_drift: float = 0.0
     # Depth of the bars of a light without chips; None until it is known
     bars: BandDepth | None = None
@@ -83,8 +83,8 @@ class Reading(ColumnView):
     """The reading of one scene: its profile, the band model, and the decoders' results."""
 
     request: SimulationRequest
-    # What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or finally
-    # the exact ``"picture"``
+    # What was read: the ``"profile"``, without pixels; a ``"draft"`` of the picture; or finally the
+    # exact ``"picture"``
     source: Source
     plan: Plan
     # Labels of the effects that were left out, but are included in studies of the same scene
@@ -117,7 +117,7 @@ _MIN_COPY_SIDE = 256
 class PictureView:
     """The pixels of a scene's picture, or of a frame of a film, and their place in it."""
 
-    image: ByteArray  # shape (len(rows), columns): The pixels
+    image: ByteArray  # the pixels, of shape (len(rows), columns)
     rows: range  # their rows in the whole picture, of which a draft has only some
     size: tuple[int, int]
     # Shape (4, 2): the panel's corners in the whole picture, each as (column, row)
@@ -161,7 +161,7 @@ class Picture:
 
 
 def halves_of(pixels: ByteArray) -> tuple[ByteArray, ...]:
-    """Return smaller copies of a picture, each of half the size of the one before."""
+    """Return smaller copies of a picture, each half the size of the last."""
     halves = []
     while min(pixels.shape) >= 2 * _MIN_COPY_SIDE:
         pixels = halve(pixels)

@@ -51,9 +51,9 @@ def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
     return reading.results.get(decoder) or DecodeResult(decoder, failure=_WAITING)
 
 
-def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
+def find_wrong_bits(sent: Sequence[int], received: Sequence[int]) -> list[int]:
     pairs = zip(sent, received, strict=False)
-    return [place for place, (one, other) in enumerate(pairs) if one != other]
+    return [index for index, (sent_bit, bit) in enumerate(pairs) if sent_bit != bit]
 
 
 def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
@@ -61,7 +61,7 @@ def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
 
 
 def failed_decoders(reading: ColumnView) -> tuple[str, ...]:
-    """Return the decoders that have not read the code that is sent; none if none is sent."""
+    """Return the decoders that have not read the code sent; empty if no code is sent."""
     sent, results = reading.sent, reading.results.items()
     return tuple(name for name, result in results if sent and not is_right(result, sent))
 
@@ -72,7 +72,7 @@ def describe_received(sent: str, received: str, wrong: int) -> str:
 
 def describe_missing(reading: Reading) -> str:
     names = ", ".join(reading.missing_effects)
-    return f"This picture leaves out what map and strips include: {names}."
+    return f"This picture leaves out effects that the map and the strips include: {names}."
 
 
 def cause_in(reading: ColumnView, decoded: DecodeResult) -> Cause | None:
@@ -82,7 +82,7 @@ def cause_in(reading: ColumnView, decoded: DecodeResult) -> Cause | None:
 
 
 def reason_in(reading: ColumnView, decoded: DecodeResult) -> str:
-    """Return the cause why a decoder has not read the scene, and its failure; may be empty."""
+    """Say why a decoder has not read the scene, and how it failed; may be empty."""
     cause, failure = cause_in(reading, decoded), decoded.failure or ""
     if cause is None:
         return failure
@@ -97,7 +97,7 @@ def describe_code(decoded: DecodeResult) -> str:
 
 
 def describe_bars(reading: ColumnView) -> tuple[str, str]:
-    """Say what is sent and what bars its picture has, as a title and its explanation."""
+    """Describe the light and the bars in its picture, as a title and an explanation."""
     scene, bars = reading.scene, reading.bars
     light = describe_light(scene.transmitter)
     title = f"{light[:1].upper()}{light[1:]}"
@@ -112,7 +112,7 @@ def describe_bars(reading: ColumnView) -> tuple[str, str]:
 
 
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> CodeVerdict:
-    """Compare a decoder's result with the sent bits; none are given for a raw pattern."""
+    """Compare a decoder's result with the sent bits, which a raw pattern does not have."""
     if not sent:
         return CodeVerdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
     if decoded.failure == _WAITING:
@@ -123,6 +123,6 @@ def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> CodeVerdict:
     if is_right(decoded, sent):
         title = f"{describe_code(decoded)} read, all bits right"
         return CodeVerdict(State.GOOD, title)
-    wrong = len(wrong_places(sent, decoded.bits.tolist()))
+    wrong = len(find_wrong_bits(sent, decoded.bits.tolist()))
     title = f"{describe_code(decoded)} read, {wrong} of {len(sent)} bits wrong"
     return CodeVerdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)

@@ -1,4 +1,4 @@
-"""The pane of the spectrum, which is measured where the picture shows the panel."""
+"""The pane of the spectrum, measured in the columns and rows that show the panel."""
 
 import numpy as np
 

@@ -11,9 +11,9 @@ from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.results.spectrum import LevelHistogram, Spectrum
 from occ_model.scene.units import HERTZ
 
-_KILO = 1e-3
-_HEADROOM = 1.15
-_LEAST_TOP = 1.0
+_KILOHERTZ = 1e-3  # kilohertz per hertz
+_HEADROOM = 1.15  # height of an axis, relative to the largest value
+_LEAST_AMPLITUDE = 1.0  # smallest height of the axis, in grey levels
 _MOST_MARKS, _HARMONICS_IN_VIEW = 12, 24
 _HARMONIC = thin(SIMULATION, Qt.PenStyle.DotLine)
 
@@ -72,9 +72,9 @@ class SpectrumView(QWidget):
 
     def show_spectrum(self, spectrum: Spectrum | None) -> None:
         zeros = () if spectrum is None else spectrum.zeros
-        self.zeros = self._mark(self.zeros, zeros, thin(BAND))
+        self.zeros = self._replace_lines(self.zeros, zeros, thin(BAND))
         harmonics = () if spectrum is None else spectrum.harmonics
-        self.harmonics = self._mark(self.harmonics, harmonics, _HARMONIC)
+        self.harmonics = self._replace_lines(self.harmonics, harmonics, _HARMONIC)
         self.legend.show_line("harmonics", bool(harmonics))
         if spectrum is not None:
             self._draw_spectrum(spectrum)
@@ -83,42 +83,47 @@ class SpectrumView(QWidget):
             curve.setData([], [])
         self.spectrum.setAccessibleDescription("")
 
-    def _mark(
-        self, before: list[pg.InfiniteLine], frequencies: tuple[float, ...], pen: QPen
+    def _replace_lines(
+        self, old_lines: list[pg.InfiniteLine], frequencies: tuple[float, ...], pen: QPen
     ) -> list[pg.InfiniteLine]:
-        """Mark the first frequencies by lines in place of those before."""
-        for line in before:
+        """Mark the first frequencies by lines in place of the old ones."""
+        for line in old_lines:
             self.spectrum.removeItem(line)
-        lines = [pg.InfiniteLine(each * _KILO, pen=pen) for each in frequencies[:_MOST_MARKS]]
+        lines = [
+            pg.InfiniteLine(frequency * _KILOHERTZ, pen=pen)
+            for frequency in frequencies[:_MOST_MARKS]
+        ]
         for line in lines:
             self.spectrum.addItem(line, ignoreBounds=True)
         return lines
 
-    def _draw_spectrum(self, found: Spectrum) -> None:
-        frequencies = found.frequencies * _KILO
-        highest = max(_HEADROOM * float(found.amplitudes.max()), _LEAST_TOP)
-        self.amplitudes.setData(frequencies, found.amplitudes)
-        self.response.setData(frequencies, found.response * highest / _HEADROOM)
+    def _draw_spectrum(self, spectrum: Spectrum) -> None:
+        frequencies = spectrum.frequencies * _KILOHERTZ
+        highest = max(_HEADROOM * float(spectrum.amplitudes.max()), _LEAST_AMPLITUDE)
+        self.amplitudes.setData(frequencies, spectrum.amplitudes)
+        self.response.setData(frequencies, spectrum.response * highest / _HEADROOM)
         last = float(frequencies[-1])
-        if found.harmonics:  # a slow lamp's would all be at the left edge
-            last = min(last, _HARMONICS_IN_VIEW * found.harmonics[0] * _KILO)
+        if spectrum.harmonics:  # otherwise those of a slow lamp would all be at the left edge
+            last = min(last, _HARMONICS_IN_VIEW * spectrum.harmonics[0] * _KILOHERTZ)
         self.spectrum.setXRange(0.0, last, padding=0)
         self.spectrum.setYRange(0.0, highest, padding=0)
-        peak = int(found.amplitudes.argmax())
-        zero = HERTZ.format(found.zeros[0], 4) if found.zeros else "none in view"
+        peak = int(spectrum.amplitudes.argmax())
+        zero = HERTZ.format(spectrum.zeros[0], 4) if spectrum.zeros else "none in view"
         self.spectrum.setAccessibleDescription(
-            f"Strongest at {HERTZ.format(float(found.frequencies[peak]), 4)}; first zero "
+            f"Strongest at {HERTZ.format(float(spectrum.frequencies[peak]), 4)}; first zero "
             f"of the exposure's response: {zero}"
         )
 
-    def show_histogram(self, found: LevelHistogram) -> None:
-        self.bars.setOpts(height=100.0 * found.fractions)
-        self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.fractions.max()), 1.0))
-        if found.is_saturated:
+    def show_histogram(self, histogram: LevelHistogram) -> None:
+        self.bars.setOpts(height=100.0 * histogram.fractions)
+        self.histogram.setYRange(
+            0.0, max(_HEADROOM * 100.0 * float(histogram.fractions.max()), 1.0)
+        )
+        if histogram.is_saturated:
             text = (
-                f"⚠ {100.0 * found.white:.0f} % of the panel's pixels are white: brighter light "
-                "does not change them."
+                f"⚠ {100.0 * histogram.white:.0f} % of the panel's pixels are white: brighter "
+                "light does not change them."
             )
         else:
-            text = f"The panel's pixels: {100.0 * found.white:.1f} % are white."
+            text = f"The panel's pixels: {100.0 * histogram.white:.1f} % are white."
         self.sentence.setText(text)

@@ -8,7 +8,7 @@ from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.simulation.snapshot import ColumnView
-from occ_gui.simulation.verdict import describe_received, wrong_places
+from occ_gui.simulation.verdict import describe_received, find_wrong_bits
 from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
@@ -65,7 +65,7 @@ class CodeRow(StoryRow):
         if self._result is None:
             return ""
         bits = self._result.bits.tolist()
-        wrong = len(wrong_places(self._sent_bits, bits))
+        wrong = len(find_wrong_bits(self._sent_bits, bits))
         return describe_received("".join(map(str, self._sent_bits)), "".join(map(str, bits)), wrong)
 
     def value_of(self, bit: int) -> int | None:

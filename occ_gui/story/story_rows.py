@@ -3,7 +3,7 @@
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
-from occ_gui.simulation.band_drift import drift_of, explain_comparison, explain_drift
+from occ_gui.simulation.band_drift import describe_drift, explain_comparison, explain_drift
 from occ_gui.simulation.snapshot import ColumnView, Picture, PictureView
 from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
@@ -121,7 +121,7 @@ class StoryRows(QWidget):
         }  # fmt: skip
         reading = self._reading
         undefined = "" if reading is None else reading.band_undefined
-        drift = "" if reading is None else drift_of(reading)
+        drift = "" if reading is None else describe_drift(reading)
         note = "no band model here" if undefined else drift
         keys = tuple(key for key, curve in curves.items() if curve is not None)
         if undefined or profile.band is None:

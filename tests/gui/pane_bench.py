@@ -35,7 +35,7 @@ from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.shell.feature import Feature
 from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.shell import Shell
-from occ_gui.simulation.present_results import Use
+from occ_gui.simulation.present_results import ResultsConsumer
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.values.modes import Places, Side
 from occ_gui.window.docks import CurrentPane
@@ -80,7 +80,7 @@ class Present:
     def latest(self) -> Snapshot | None:
         return self._results_store.results.snapshot
 
-    def ask(self, use: Use) -> None:
+    def ask(self, use: ResultsConsumer) -> None:
         assert self.latest is not None
         use(self.latest)
 

@@ -53,7 +53,7 @@ def test_wrong_places_are_those_of_bits_received_other_than_sent(
     strip: BitStrip, sent: list[int], received: list[int], wrong: list[int]
 ) -> None:
     strip.show_bits(sent, received)
-    assert strip.wrong_places() == wrong
+    assert strip.find_wrong_bits() == wrong
 
 
 @pytest.mark.parametrize("bit", [0, 1])

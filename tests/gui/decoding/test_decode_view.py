@@ -30,13 +30,13 @@ def test_a_right_code_is_ticked_and_wrong_bits_are_counted(
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert not view.reason.isVisible()
     assert view.strip.isVisible()
-    assert view.strip.wrong_places() == []
+    assert view.strip.find_wrong_bits() == []
     snapshot = snapshot_of(code=718)
     received = np.array([1, 0, 1, 1, 0, 0, 1, 1, 0, 1], dtype=np.uint8)  # the last two are wrong
     result = replace(snapshot.results["threshold"], bits=received, code=717)
     view.show_reading(with_result(snapshot, result))
     assert view.verdict.text() == "✗ Code 717 read, 2 of 10 bits wrong"
-    assert view.strip.wrong_places() == [8, 9]
+    assert view.strip.find_wrong_bits() == [8, 9]
     assert not view.reason.isVisible()
 
 

@@ -22,7 +22,7 @@ from small_rooms import small_room
 import occ_model as occ
 from occ_gui.app.panes import room
 from occ_gui.room import jobs
-from occ_gui.room.jobs import FloorMap, ShownRoom, map_room, plan_of
+from occ_gui.room.jobs import FloorMap, RoomPicture, map_room, plan_of
 from occ_gui.room.pane import RoomPane
 from occ_gui.values.choices import FIRST_ROOM, RoomChoice
 from occ_model.figures.drawing import house_style
@@ -88,10 +88,10 @@ def pane(bench: PaneBench, qtbot: QtBot) -> RoomPane:
     return pane
 
 
-def wait_until_read(qtbot: QtBot, pane: RoomPane) -> ShownRoom:
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
-    assert pane.shown is not None
-    return pane.shown
+def wait_until_read(qtbot: QtBot, pane: RoomPane) -> RoomPicture:
+    qtbot.waitUntil(lambda: pane.is_idle and pane.picture is not None)
+    assert pane.picture is not None
+    return pane.picture
 
 
 def drag(
@@ -157,10 +157,10 @@ def test_undo_while_the_pane_is_hidden_removes_the_figure(
     same_picture: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
 ) -> None:
     pane.view.plan.camera.setPos(0.3, 0.5)
-    qtbot.waitUntil(lambda: pane.shown is not None)
+    qtbot.waitUntil(lambda: pane.picture is not None)
     bench.see("room", seen=False)
     bench.store.undo_stack.undo()
-    assert pane.shown is None
+    assert pane.picture is None
     assert wait_until_read(qtbot, pane).room == ROOM
 
 
@@ -205,7 +205,7 @@ def test_the_place_is_shown_with_its_errors_and_the_lamps_with_their_names(
     assert np.ravel(cross) == pytest.approx([middle, pane.room.camera.y + enlarged * off])
     # The number of the first row is not cut off, even for a high picture.
     high = np.zeros((2000, 400), np.uint8)
-    pane.view.picture.show_room(replace(shown, image=high, picture=high, reading=None))
+    pane.view.picture.show_room(replace(shown, image=high, reduced=high, reading=None))
     assert pane.view.picture.plot.viewRange()[1][0] < -20.0
 
 
@@ -213,7 +213,7 @@ def test_a_dragged_camera_is_read_anew_and_the_old_place_removed(
     pane: RoomPane, qtbot: QtBot
 ) -> None:
     pane.view.plan.camera.setPos(0.3, 0.5)
-    assert pane.view.headline.text() == "Looking…"
+    assert pane.view.headline.text() == "Reading the picture…"
     assert (pane.room.camera.x, pane.room.camera.y) == (0.3, 0.5)
     assert pane.view.plan.ellipse.getData()[0] is None or not len(
         pane.view.plan.ellipse.getData()[0]
@@ -277,7 +277,7 @@ def test_the_figure_shows_the_true_place_and_the_estimate(pane: RoomPane, qtbot:
 def test_the_map_is_the_studys_and_is_removed_when_the_camera_turns(
     same_picture: None, pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(jobs, "SIDE", 1)
+    monkeypatch.setattr(jobs, "PLACES_PER_SIDE", 1)
     view, aim = pane.view, pane.view.plan.aim
     texts: list[str] = []
     pane.tasks[1].reported.connect(lambda _: texts.append(view.floor.text()))
@@ -353,5 +353,5 @@ def test_another_room_is_sought_in_the_photo_and_dragging_closes_the_photo(
     wait_until_read(qtbot, pane)
     assert pane.view.headline.text() == "The place is not determined"
     pane.view.plan.camera.setPos(0.3, 0.5)
-    assert pane.look is not None
-    assert pane.look.photo is None
+    assert pane.source is not None
+    assert pane.source.photo is None

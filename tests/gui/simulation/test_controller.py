@@ -137,13 +137,13 @@ def test_a_chosen_decoder_reads_this_and_later_scenes(bench: SimulationBench) ->
 
     bench.wait_until_idle()
     assert decoders() == list(QUICK_DECODERS)
-    bench.controller.read_with("sequence")
+    bench.controller.add_decoder("sequence")
     bench.wait_until_idle()
     assert decoders() == [*QUICK_DECODERS, "sequence"]
     bench.store.change(iso=150.0)
     bench.wait_until_idle()
     assert decoders() == [*QUICK_DECODERS, "sequence"]
-    bench.controller.read_with("matched")
+    bench.controller.add_decoder("matched")
     bench.store.change(iso=160.0)
     bench.wait_until_idle()
     assert decoders() == list(QUICK_DECODERS)

@@ -19,7 +19,7 @@ def step_after(*seconds: float, rows: int = ROWS, rows_per_pixel: float = 11.3) 
     draft_rows = DraftRows()
     for each in seconds:
         draft_rows.record_time(each)
-    return draft_rows.step(rows, rows_per_pixel)
+    return draft_rows.choose_step(rows, rows_per_pixel)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_the_number_of_rows_converges(whole: float, fraction_of_rows: float) -> 
     """Check this for any fraction of a draft's time that is proportional to its rows."""
     draft_rows, steps = DraftRows(), []
     for _ in range(30):
-        steps.append(draft_rows.step(ROWS, 11.0))
+        steps.append(draft_rows.choose_step(ROWS, 11.0))
         thinning = steps[-1] / 11
         fraction = 1.0 - fraction_of_rows + fraction_of_rows / thinning
         draft_rows.record_time(whole * LONGEST_DRAFT * fraction)

@@ -138,9 +138,10 @@ def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
 def test_drafts_have_the_rows_that_the_screen_shows(
     bench: SimulationBench, pictures: list[Picture]
 ) -> None:
-    bench.controller.draft_for(lambda: 7.9)
+    bench.controller.set_draft_resolution(lambda: 7.9)
     bench.store.change(iso=200.0)
-    bench.controller.draft_for(lambda: 0.5)  # a step of less than four rows saves no time
+    # A step of less than four rows saves no time.
+    bench.controller.set_draft_resolution(lambda: 0.5)
     bench.wait_until_idle()
     bench.store.change(iso=300.0)
     bench.wait_until_idle()

@@ -20,12 +20,12 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import most_bits
-from occ_model.study.limits import SEARCHED, usual_images
+from occ_model.study.limits import SEARCHED_PARAMETERS, estimate_images
 from occ_model.study.working_range import READ_RATE
 
 IMAGES = 20
 
-_USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
+_USUAL_IMAGES = len(SEARCHED_PARAMETERS) * estimate_images(IMAGES, READ_RATE)
 """Usual number of images in a decoder's search, from which its progress is estimated."""
 
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
@@ -174,7 +174,11 @@ class AdvisorController(SearchController):
 
     def _show_outdated(self, outdated: bool) -> None:
         last, present = self._last_request, self._request()
-        reachable = [name for name in SEARCHED if last.omit_value(name) == present.omit_value(name)]
+        reachable = [
+            name
+            for name in SEARCHED_PARAMETERS
+            if last.omit_value(name) == present.omit_value(name)
+        ]
         self._pane.show_advice_outdated(outdated, frozenset(reachable))
 
 
@@ -217,7 +221,7 @@ class MostBitsController(SearchController):
     def go(self, result: MostBits) -> None:
         scene = most_bits.make_example(result)
         if scene is not None:
-            changes = {name: scene.value(name) for name in most_bits.VARIED}
+            changes = {name: scene.value(name) for name in most_bits.VARIED_PARAMETERS}
             self._go_to(result.decoder, changes)
 
     def _show_progress(self, pictures: int) -> None:

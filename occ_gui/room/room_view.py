@@ -169,7 +169,8 @@ def _describe_map(floor_map: FloorMap) -> str:
     points = floor_map.points
     sure = [point for point in points if point.sure_places]
     named, shown, wrong = (
-        sum(getattr(point, count) for point in points) for count in ("named", "shown", "wrong")
+        sum(getattr(point, count) for point in points)
+        for count in ("named", "whole", "named_wrongly")
     )
     text = (
         f"Map of the floor: {len(sure)} of {len(points)} places determined (blue, else orange), "

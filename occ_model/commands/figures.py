@@ -16,7 +16,7 @@ from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS, SweepRequest
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.units import HERTZ
-from occ_model.study.paper_grid import DEVICES, IMAGES, grid_request, last_and_first_unread
+from occ_model.study.paper_grid import DEVICES, IMAGES, find_detection_limit, grid_request
 from occ_model.study.sweep.sweep import Progress, run_sweep
 
 
@@ -106,7 +106,7 @@ def _rates_file(options: argparse.Namespace, preset: str) -> Path:
 
 
 def detection_sentence(preset: str, table: SweepTable) -> str:
-    last, unread = last_and_first_unread(table, PAPER_DECODER)
+    last, unread = find_detection_limit(table, PAPER_DECODER)
     if unread is None:
         return f"{preset}: read up to the highest frequency tried"
     if last is None:

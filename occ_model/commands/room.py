@@ -174,7 +174,7 @@ def _run_map(options: argparse.Namespace) -> int:
     pictures = request.point_count * request.images
     sure, named, wrong, shown = (
         sum(getattr(point, count) for point in points)
-        for count in ("sure_places", "named", "wrong", "shown")
+        for count in ("sure_places", "named", "named_wrongly", "whole")
     )
     errors = [point.error for point in points if point.sure_places]
     median = f", median error {1e3 * float(np.median(errors)):.3g} mm" if errors else ""

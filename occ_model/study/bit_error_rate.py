@@ -16,7 +16,7 @@ from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import TOLERANCE, Scene
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.success_rate import check_rate, plan_of_images, right_bits_of_images
+from occ_model.study.success_rate import check_rate, plan_images, right_bits_of_images
 from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.scheme import code_of, sent_chips
 
@@ -37,8 +37,8 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> BitErrors:
     """Measure the fraction of bits that a decoder reads wrongly.
 
-    Random payloads of the scene's length are sent, each in a picture of its own with a random start
-    time and noise. All bits of an unread or rejected payload count as wrong, as in
+    Each random payload, of the scene's length, has its own picture with a random start time and
+    noise. All bits of an unread or rejected payload count as wrong, as in
     :func:`occ_model.success_rate`, whose complement this is.
 
     Parameters
@@ -67,30 +67,34 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     settings = RateSettings(1, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     length = scene.transmitter.payload_length
-    root = np.random.default_rng(seed)
-    chosen = _shared_plan(scene, settings, root)
-    wrong = []
+    random = np.random.default_rng(seed)
+    shared_plan = _shared_plan(scene, settings, random)
+    wrong_bits = []
     with Faults().counting() as faults:
         for _ in range(-(-bits // length)):
-            sent = with_payload(scene, root.integers(0, 2, length).tolist())
-            own = RateSettings(
-                1, (decoder,), int(root.integers(2**32)), tolerance, settings.force, path
+            picture_scene = with_payload(scene, random.integers(0, 2, length).tolist())
+            picture_settings = RateSettings(
+                1, (decoder,), int(random.integers(2**32)), tolerance, settings.force, path
             )
-            ((right,),) = right_bits_of_images(sent, own, heartbeat, chosen)
-            wrong.append(length - right)
-    return replace(bit_errors_of(scene, decoder, wrong, wrong.count(0)), faults=str(faults))
+            ((right,),) = right_bits_of_images(
+                picture_scene, picture_settings, heartbeat, shared_plan
+            )
+            wrong_bits.append(length - right)
+    return replace(
+        bit_errors_of(scene, decoder, wrong_bits, wrong_bits.count(0)), faults=str(faults)
+    )
 
 
-def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator) -> Plan | None:
+def _shared_plan(scene: Scene, settings: RateSettings, random: np.random.Generator) -> Plan | None:
     """Return a plan for all pictures; None if each picture needs its own."""
     transmitter = scene.transmitter
     packet = len(sent_chips(transmitter)) * transmitter.switching_period
     if panel_readout_time(scene) < packet:
         return None
-    (random,) = root.spawn(1)
+    (payload_random,) = random.spawn(1)
     size = _PLANNED_PAYLOADS, transmitter.payload_length
-    payloads = random.integers(0, 2, size).tolist()
-    return plan_of_images([with_payload(scene, bits) for bits in payloads], settings)
+    payloads = payload_random.integers(0, 2, size).tolist()
+    return plan_images([with_payload(scene, bits) for bits in payloads], settings)
 
 
 def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
@@ -100,18 +104,18 @@ def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
     return scene.replace(code=code_of(bits))
 
 
-def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) -> BitErrors:
-    """Return the result for the wrong bits by picture and the number of correct pictures."""
+def bit_errors_of(scene: Scene, decoder: str, wrong_bits: Sequence[int], right: int) -> BitErrors:
+    """Return the result from the wrong bits of each picture and the number of correct pictures."""
     length, camera = scene.transmitter.payload_length, scene.camera
-    low, high = error_interval(wrong, length)
-    right_low, right_high = wilson_interval(right, len(wrong))
+    low, high = error_interval(wrong_bits, length)
+    right_low, right_high = wilson_interval(right, len(wrong_bits))
     return BitErrors(
         decoder=decoder,
-        bits=length * len(wrong),
-        errors=sum(wrong),
+        bits=length * len(wrong_bits),
+        errors=sum(wrong_bits),
         low=low,
         high=high,
-        pictures=len(wrong),
+        pictures=len(wrong_bits),
         pictures_right=right,
         right_low=right_low,
         right_high=right_high,
@@ -120,7 +124,7 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) 
     )
 
 
-def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
+def error_interval(wrong_bits: Sequence[int], length: int) -> tuple[float, float]:
     """Return the 95 % interval of a bit error rate if the bits of a picture fail together.
 
     This is Wilson's interval for the effective number of independent bits, bits / D, with the
@@ -128,13 +132,13 @@ def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
     Kish, Survey Sampling, 1965). If all bits or none are wrong, D is unknown and each picture
     counts as one bit.
     """
-    pictures, errors = len(wrong), sum(wrong)
+    pictures, errors = len(wrong_bits), sum(wrong_bits)
     rate = errors / (pictures * length)
-    effect = float(length)
+    design_effect = float(length)
     if 0.0 < rate < 1.0 and pictures > 1:
-        scatter = float(np.var(np.array(wrong) / length, ddof=1))
-        effect = min(max(scatter / (rate * (1.0 - rate) / length), 1.0), float(length))
-    bits = max(1, math.floor(pictures * length / effect))
+        scatter = float(np.var(np.array(wrong_bits) / length, ddof=1))
+        design_effect = min(max(scatter / (rate * (1.0 - rate) / length), 1.0), float(length))
+    bits = max(1, math.floor(pictures * length / design_effect))
     return _interval(rate, bits)
 
 
@@ -146,7 +150,7 @@ def _interval(rate: float, bits: int) -> tuple[float, float]:
 
 
 def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
-    """Refuse an invalid frame rate, or one at which a picture cannot be read out in time."""
+    """Refuse an invalid frame rate, or one that leaves too little time to read out a picture."""
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     is_number = isinstance(frames_a_second, int | float) and not isinstance(frames_a_second, bool)
     if not is_number or not 0.0 < frames_a_second <= most:

@@ -2,7 +2,7 @@
 
 A longer code leaves most of its words unused, so a misread code is rarely that of another lamp, but
 a picture shows fewer of its longer packets. A room has at most 200 lamps; the other lamps of a
-larger building are not simulated but counted.
+larger building take codes but are not simulated.
 """
 
 from collections.abc import Sequence
@@ -34,10 +34,11 @@ class CodeLength:
     bits: int
     chips: int
     columns: float  # Columns that one packet takes in a picture
-    packets: float  # Median number of packets that a lamp shows that is whole in the picture
+    packets: float  # Median number of packets of a lamp that is whole in the picture
     # Minimum number of chips in which two lamps' packets differ, at any shift between them
     distance: int
-    # Number of lamps that are whole in the pictures, of those named correctly, and of codes misread
+    # Numbers of lamps that are whole in the pictures, of those named correctly, and of codes
+    # misread
     whole: int
     named: int
     misread: int
@@ -62,8 +63,8 @@ def code_lengths(
 ) -> tuple[CodeLength, ...]:
     """Compare code lengths, by default the shortest for this many lamps, and 2 and 4 bits more.
 
-    The lamps' codes, including those of the room, are drawn at random from all codes of a length.
-    The lamps of the room are read in pictures taken over its floor. A packet's chips, columns and
+    The codes of all lamps, including the room's, are drawn at random from those of a length. The
+    lamps of the room are read in pictures taken over its floor. A packet's chips, columns and
     distance are those of the first lamp's line code and framing. Raises ParameterError if a length
     has fewer codes than there are lamps, or an argument is out of range.
     """
@@ -77,32 +78,33 @@ def code_lengths(
         if 2**length < lamps:
             raise ParameterError.of("bits", f"{length}", f"from {(lamps - 1).bit_length()}",
                                     condition=f"for {counted(lamps, 'lamp')}")  # fmt: skip
-    found, shown = [], _median_columns(request)
+    results, median_columns = [], _median_columns(request)
     for number, length in enumerate(lengths):
-        sent = _draw_codes(length, lamps, request.seed)
-        own = _send_codes(room, length, sent)
-        asked = replace(request, room=own)
-        reported = progress and partial(report_progress, progress, number, len(lengths))
-        points = room_map(asked, executor=executor, jobs=jobs, progress=reported)
+        codes = _draw_codes(length, lamps, request.seed)
+        coded_room = _send_codes(room, length, codes)
+        map_request = replace(request, room=coded_room)
+        report = progress and partial(report_progress, progress, number, len(lengths))
+        points = room_map(map_request, executor=executor, jobs=jobs, progress=report)
         whole, named, misread = (
             sum(getattr(point, count) for point in points)
-            for count in ("shown", "named", "misread")
+            for count in ("whole", "named", "misread")
         )
-        chips = _chips(own, sent)
-        camera, frequency = own.scene.camera, own.lamps[0].transmitter.switching_frequency
-        columns = chips.shape[1] / frequency / camera.readout_time
-        found.append(CodeLength(
-            length, chips.shape[1], columns, shown / columns,
-            least_distance(chips), whole, named, misread,
+        packets = _list_packets(coded_room, codes)
+        transmitter = coded_room.lamps[0].transmitter
+        readout_time = room.scene.camera.readout_time
+        columns = packets.shape[1] / transmitter.switching_frequency / readout_time
+        results.append(CodeLength(
+            length, packets.shape[1], columns, median_columns / columns,
+            least_distance(packets), whole, named, misread,
         ))  # fmt: skip
-    return tuple(found)
+    return tuple(results)
 
 
 def report_progress(
-    progress: Progress, number: int, lengths: int, done: int, points: int, left: float
+    progress: Progress, number: int, lengths: int, done: int, points: int, seconds_left: float
 ) -> None:
-    there, total = number * points + done, lengths * points
-    progress(there, total, left * (total - there) / max(points - done, 1))
+    all_done, total = number * points + done, lengths * points
+    progress(all_done, total, seconds_left * (total - all_done) / max(points - done, 1))
 
 
 def _draw_codes(bits: int, lamps: int, seed: int) -> IndexArray:
@@ -110,31 +112,31 @@ def _draw_codes(bits: int, lamps: int, seed: int) -> IndexArray:
     return random.choice(2**bits, lamps, replace=False).astype(np.int64)
 
 
-def _send_codes(room: Room, bits: int, sent: IndexArray) -> Room:
+def _send_codes(room: Room, bits: int, codes: IndexArray) -> Room:
     """Return the room with its lamps sending the first of the codes, without payload or pattern."""
-    own: dict[str, int | str] = {"bits": bits, "payload": "", "pattern": ""}
+    settings: dict[str, int | str] = {"bits": bits, "payload": "", "pattern": ""}
     lamps = tuple(
-        replace(lamp, transmitter=lamp.transmitter.replaced({**own, "code": int(code)}))
-        for lamp, code in zip(room.lamps, sent, strict=False)
+        replace(lamp, transmitter=lamp.transmitter.replaced({**settings, "code": int(code)}))
+        for lamp, code in zip(room.lamps, codes, strict=False)
     )
     return room.replace(lamps=lamps, code=0, bits=bits)
 
 
-def _chips(room: Room, sent: IndexArray) -> ByteArray:
+def _list_packets(room: Room, codes: IndexArray) -> ByteArray:
     """Return the packets of the codes, shape (codes, chips)."""
-    first = room.lamps[0].transmitter
-    return np.array([sent_chips(first.replaced({"code": int(code)})) for code in sent])
+    transmitter = room.lamps[0].transmitter
+    return np.array([sent_chips(transmitter.replaced({"code": int(code)})) for code in codes])
 
 
 def least_distance(packets: ByteArray) -> int:
     """Return the minimum number of chips in which two packets, shape (packets, chips), differ."""
     signs, chips = 2.0 * packets - 1.0, int(packets.shape[1])
-    most = -float(chips)
+    largest = -float(chips)
     for shift in range(chips):
-        alike = signs @ np.roll(signs, shift, axis=1).T
-        np.fill_diagonal(alike, most)
-        most = max(most, float(alike.max()))
-    return round((chips - most) / 2.0)
+        correlations = signs @ np.roll(signs, shift, axis=1).T
+        np.fill_diagonal(correlations, largest)
+        largest = max(largest, float(correlations.max()))
+    return round((chips - largest) / 2.0)
 
 
 def _median_columns(request: RoomMapRequest) -> float:
@@ -147,8 +149,8 @@ def _median_columns(request: RoomMapRequest) -> float:
             in_view = lamps_in_view(request.room.replace(x=x, y=y))
         except ProjectionError:  # no picture is taken there
             continue
-        for seen in in_view:
-            low, high = seen.view.corners.min(axis=0), seen.view.corners.max(axis=0)
+        for lamp in in_view:
+            low, high = lamp.view.corners.min(axis=0), lamp.view.corners.max(axis=0)
             if low.min() >= 0 and high[0] < camera.columns and high[1] < camera.rows:
                 columns.append(float(high[0] - low[0]))
     return float(np.median(columns)) if columns else 0.0

@@ -8,7 +8,7 @@ from occ_model.errors import ParameterError, shown
 from occ_model.results.limits import Trial
 from occ_model.scene.argument_checks import check_count, is_number
 
-_MAX_TRIALS = 2**53  # up to here a float represents every whole number
+_MAX_TRIALS = 2**53  # up to which a float represents every integer
 
 
 def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[float, float]:
@@ -58,12 +58,12 @@ def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, f
     """
     if not sent:
         return math.nan, math.nan
-    won = pictures * right / sent
-    low, high = _interval(won, pictures - won, TWO_SIDED)
+    successes = pictures * right / sent
+    low, high = _interval(successes, pictures - successes, TWO_SIDED_DEVIATE)
     return 100.0 * low, 100.0 * high
 
 
-TWO_SIDED = NormalDist().inv_cdf(0.975)  # standard normal deviate of a two-sided 95 % interval
+TWO_SIDED_DEVIATE = NormalDist().inv_cdf(0.975)  # standard deviations of a 95 % interval
 
 
 def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
@@ -73,12 +73,12 @@ def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
     return Trial(value, right, sent, low, high, len(counts), list(counts).count(bits))
 
 
-def _interval(won: float, lost: float, z: float) -> tuple[float, float]:
-    middle = 2 * won + z * z
-    root = z * math.sqrt(z * z + 4 * won * lost / (won + lost))
+def _interval(successes: float, failures: float, z: float) -> tuple[float, float]:
+    middle = 2 * successes + z * z
+    root = z * math.sqrt(z * z + 4 * successes * failures / (successes + failures))
     # The product of both ends is (s / n) s / (n + z^2), and a quotient loses no digits near 0.
-    low = 2 * won * won / (won + lost) / (middle + root) if won else 0.0
-    high = (middle + root) / (2.0 * (won + lost + z * z)) if lost else 1.0
+    low = 2 * successes * successes / (successes + failures) / (middle + root) if successes else 0.0
+    high = (middle + root) / (2.0 * (successes + failures + z * z)) if failures else 1.0
     return low, high
 
 

@@ -1,4 +1,4 @@
-"""Measure what omitting an effect from the complete simulation changes, shows and saves."""
+"""Measure how omitting effects changes the complete simulation, and forecast what it saves."""
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
@@ -32,9 +32,9 @@ class CompleteSimulation:
         complete = plan(scene, 0.0, observable)
         self._stretch = complete.stretch
         self.effects = complete.included  # the names of all effects of the scene
-        self._seen = self._simulate(self.effects, observable, timer)
-        self._bare = self._simulate((), "image", timer)
-        size = self._seen.size
+        self._complete = self._simulate(self.effects, observable, timer)
+        self._without_effects = self._simulate((), "image", timer)
+        size = self._complete.size
         random = np.random.default_rng(0)
         self._places = np.arange(size) if size <= _SAMPLES else random.integers(0, size, _SAMPLES)
         self._differences: dict[str, EffectDifference] = {}
@@ -55,36 +55,36 @@ class CompleteSimulation:
         """Measure the error of a simulation with only these effects, in levels."""
         included = frozenset(self.effects) & frozenset(effects)
         if included not in self._errors:
-            seen = self._simulate(included, self._observable, timer)
-            self._errors[included] = rms(self._seen - seen) * self._stretch
+            observation = self._simulate(included, self._observable, timer)
+            self._errors[included] = rms(self._complete - observation) * self._stretch
         return self._errors[included]
 
     def _measure_difference(self, effect: str, timer: StageTimer | None) -> EffectDifference:
         others = frozenset(self.effects) - {effect}
-        difference = (self._seen - self._simulate(others, self._observable, timer)).ravel()
+        difference = (self._complete - self._simulate(others, self._observable, timer)).ravel()
         error = rms(difference) * self._stretch
         self._errors[others] = error
         change = difference[self._places].astype(np.float64) * self._stretch
         # Restore the RMS, because few pixels may change and the sample may miss or overrepresent
         # them.
         change *= error / max(rms(change), np.finfo(float).tiny)
-        alone, bare = self._render_alone(effect, timer)
-        crop, icon = choose_crop(alone, bare), choose_crop(alone, bare, ICON)
+        pictures = self._render_alone(effect, timer)
+        crop, icon = choose_crop(*pictures), choose_crop(*pictures, ICON)
         return EffectDifference(effect, error, change, crop, icon)
 
     def _render_alone(self, effect: str, timer: StageTimer | None) -> tuple[Pixels, Pixels]:
-        """Return the paper's model with and without an effect: noise and JPEG would hide many."""
+        """Render an effect alone and no effect, because noise and JPEG would hide many effects."""
         alone = self._simulate((effect,), "image", timer)
-        if rms(alone - self._bare) >= _VISIBLE_CHANGE:
-            return alone, self._bare
+        if rms(alone - self._without_effects) >= _VISIBLE_CHANGE:
+            return alone, self._without_effects
         # The effect may move the panel's outline outwards.
         return self._render_with_margin((effect,), timer), self._render_with_margin((), timer)
 
     def _render_with_margin(self, effects: Iterable[str], timer: StageTimer | None) -> Pixels:
         """Return the camera's pixels of the panel and of a margin around it."""
         view = paper_view_of(self._scene)
-        chosen = plan_of_effects(self._scene, "image", effects)
-        frame = render_plan(view, chosen, seed=self._seed, timer=timer)
+        effect_plan = plan_of_effects(self._scene, "image", effects)
+        frame = render_plan(view, effect_plan, seed=self._seed, timer=timer)
         rows, columns = (
             slice(max(0, first - length // _SIZE_PER_MARGIN), last + length // _SIZE_PER_MARGIN)
             for first, last, length in (
@@ -97,8 +97,8 @@ class CompleteSimulation:
     def _simulate(
         self, effects: Iterable[str], observable: Observable, timer: StageTimer | None
     ) -> Pixels:
-        chosen = plan_of_effects(self._scene, observable, effects)
-        return observe(self._scene, chosen, seed=self._seed, timer=timer)
+        effect_plan = plan_of_effects(self._scene, observable, effects)
+        return observe(self._scene, effect_plan, seed=self._seed, timer=timer)
 
 
 def plan_of_effects(scene: Scene, observable: Observable, effects: Iterable[str]) -> Plan:
@@ -123,22 +123,24 @@ _MIDDLE_GREY = 128.0
 def choose_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
     """Choose the crop of the panel's bounding rectangle that shows a difference best.
 
-    A difference that varies slowly is shown on the whole panel, reduced by averaging areas. A fine
-    one would be averaged away and is shown at full resolution where it is largest.
+    A coarse difference is shown on the whole panel, reduced by averaging areas. Averaging would
+    remove a fine one, which is shown at full resolution where it is largest.
     """
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))
     small = _average(difference, size)
     is_averaged = rms(small) >= _MIN_KEPT_FRACTION * rms(difference)
     if is_averaged:
-        shown = [_average(with_effect, size), _average(without, size), small]
+        crops = [_average(with_effect, size), _average(without, size), small]
     else:
         place = _largest_window(difference, size)
-        shown = [values[place] for values in (with_effect, without, difference)]
-    one, other = _stretch(shown[0], shown[1])
-    factor = _amplification(shown[2])
-    amplified = np.clip(_MIDDLE_GREY + factor * shown[2], 0.0, WHITE)
-    return EffectCrop(one, other, amplified.astype(np.uint8), factor, is_averaged)
+        crops = [values[place] for values in (with_effect, without, difference)]
+    stretched_with, stretched_without = _stretch(crops[0], crops[1])
+    factor = _amplification(crops[2])
+    amplified = np.clip(_MIDDLE_GREY + factor * crops[2], 0.0, WHITE)
+    return EffectCrop(
+        stretched_with, stretched_without, amplified.astype(np.uint8), factor, is_averaged
+    )
 
 
 def _average(values: Pixels, size: tuple[int, int]) -> Pixels:
@@ -174,22 +176,22 @@ def _amplification(difference: Pixels) -> int:
 
 
 def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -> Forecast:
-    chosen = plan_with(scene, settings)
-    seconds = _add_seconds(chosen.included, costs)
+    effect_plan = plan_with(scene, settings)
+    seconds = _add_seconds(effect_plan.included, costs)
     force = tuple(sorted(settings.force.items()))
-    ways = _effect_sets_cached(scene, settings.observable, force, settings.noise)
+    effect_sets = _effect_sets_cached(scene, settings.observable, force, settings.noise)
     forced = frozenset(name for name, on in force if on)
-    times = tuple(_add_seconds(tuple(way.effects | forced), costs) for way in ways)
-    present = frozenset(d.effect for d in chosen.decisions if d.estimate)
-    included = present & frozenset(chosen.included)
+    times = tuple(_add_seconds(tuple(each.effects | forced), costs) for each in effect_sets)
+    present = frozenset(decision.effect for decision in effect_plan.decisions if decision.estimate)
+    included = present & frozenset(effect_plan.included)
     if included == present or included in costs.errors:
         error = costs.errors.get(included, 0.0)
-        return Forecast(chosen, seconds, error, True, ways, times)
-    left_out = sorted(present - included)
+        return Forecast(effect_plan, seconds, error, True, effect_sets, times)
+    omitted = sorted(present - included)
     expected = None
-    if all(name in costs.differences for name in left_out):
-        expected = rms(np.sum([costs.differences[name].change for name in left_out], axis=0))
-    return Forecast(chosen, seconds, expected, False, ways, times)
+    if all(name in costs.differences for name in omitted):
+        expected = rms(np.sum([costs.differences[name].change for name in omitted], axis=0))
+    return Forecast(effect_plan, seconds, expected, False, effect_sets, times)
 
 
 @lru_cache(maxsize=4)
@@ -205,19 +207,19 @@ def _effect_sets_cached(
 def _add_seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
     """Add up the last measured times of the effects and of everything else."""
     rows_differ = any(effect.name in included and effect.kind != "column" for effect in EFFECTS)
-    measured = (costs.picture, *costs.others)
-    rest = [fractions for fractions in measured if fractions.rows_differ == rows_differ]
-    if not rest:
+    measurements = (costs.picture, *costs.others)
+    other_times = [each for each in measurements if each.rows_differ == rows_differ]
+    if not other_times:
         return None
-    total = rest[0].everything_else
-    counted: set[str] = set()
+    total = other_times[0].everything_else
+    added: set[str] = set()
     for name in included:
         seconds = costs.seconds_of(name)
         if seconds is None:
             return None
-        together = (fractions.together.get(name) for fractions in measured)
-        group = next((own for own in together if own is not None), name)
-        if group not in counted:
-            counted.add(group)
+        groups = (each.together.get(name) for each in measurements)
+        group = next((each for each in groups if each is not None), name)
+        if group not in added:
+            added.add(group)
             total += seconds
     return total

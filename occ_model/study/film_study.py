@@ -1,7 +1,7 @@
-"""Measure and count the packets of a film received, over frequency, gap and packet length.
+"""Measure and calculate the packets received in films, over frequency, gap and packet length.
 
-For each point a film is simulated and read. The fraction of packets that frames show whole is
-counted in exact arithmetic beside it; the difference is the loss of the receiver.
+For each point a film is simulated and read. The packets that frames show whole are also counted in
+exact arithmetic; the difference is the loss of the receiver.
 
 One of these films is the example of CamComSim, a published simulator of films: frames of 33.3 ms
 with a gap of 0.2, 8,000 chips per second, and repeated packets of 4 start chips, 8 bits of header
@@ -10,8 +10,8 @@ Its 52 chips are the same as those of 24 bits after the header 1 1 1 0.
 
 A frame that starts at s shows the chips that lie completely between the start of its first column's
 exposure and the end of its last one's: chip n if n / f >= s + a t_r and (n + 1) / f <= s + b t_r +
-t, with a and b the first and the last column of the panel. Nothing is simulated: this is what a
-receiver without errors could read.
+t, with a and b the first and the last column of the panel. This count needs no simulation: it is
+what a receiver without errors could read.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -36,7 +36,7 @@ from occ_model.video.render import SimulatedVideo, render_video
 
 @dataclass(frozen=True, slots=True)
 class ShutterTiming:
-    """The exact timing of a scene that counting needs."""
+    """The exact timing of a scene, from which packets are counted."""
 
     frequency: Fraction  # Chips per second
     # In seconds
@@ -223,7 +223,7 @@ def _count_whole(video: SimulatedVideo, timing: ShutterTiming, length: int) -> i
 
 
 def scene_of_films(scene: Scene) -> Scene:
-    """Return a scene whose panel fills a picture of few rows: its films take little time."""
+    """Return a scene whose panel fills a picture of few rows, whose films are simulated quickly."""
     return scene.replace(
         rows=48, columns=1080, distance=0.4, panel_width=2.0, panel_height=2.0, yaw=0.0, pitch=0.0,
         roll=0.0, offset_x=0.0, offset_y=0.0,
@@ -232,10 +232,10 @@ def scene_of_films(scene: Scene) -> Scene:
 
 def group_points(points: Sequence[FilmPoint]) -> dict[tuple[float, int], list[FilmPoint]]:
     """Group the points by frequency and number of bits, each group in order of the gap."""
-    found: dict[tuple[float, int], list[FilmPoint]] = {}
+    groups: dict[tuple[float, int], list[FilmPoint]] = {}
     for point in points:
-        found.setdefault((point.frequency, point.bits), []).append(point)
-    return found
+        groups.setdefault((point.frequency, point.bits), []).append(point)
+    return groups
 
 
 FRAME_PERIOD = Fraction(333, 10_000)  # seconds from frame to frame

@@ -25,13 +25,13 @@ from occ_model.study import theory
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.cause.suspects import reads_two_headers
 from occ_model.study.success_rate import check_rate
-from occ_model.study.sure_ends import images_about_an_end, pairs_of, replace_ends, sure_end
-from occ_model.study.working_range import READ_RATE, expected_images, working_range
+from occ_model.study.sure_ends import confirm_end, estimate_end_images, pair_ends, replace_ends
+from occ_model.study.working_range import READ_RATE, estimate_range_images, working_range
 
 if TYPE_CHECKING:
     from occ_model.parallel.process_pool import ProcessPool
 
-_Answer = TypeVar("_Answer")
+_Result = TypeVar("_Result")
 
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -85,8 +85,8 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
         The scene has no picture.
     """
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
-    (found,) = limits_of(scene, settings, rate, jobs=jobs, heartbeat=heartbeat, progress=progress)
-    return found
+    (result,) = limits_of(scene, settings, rate, jobs=jobs, heartbeat=heartbeat, progress=progress)
+    return result
 
 
 def limits_of(
@@ -99,42 +99,44 @@ def limits_of(
     progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them."""
-    wanted = _check_wanted_rate(rate)
+    required_rate = _check_wanted_rate(rate)
     check_count("jobs", jobs, 1, MOST_PROCESSES)
-    asked = []
+    searches = []
     for decoder in settings.decoders:
-        own = replace(settings, decoders=(decoder,))
-        check_rate(scene, own)
-        asked += [(scene, name, wanted, own) for name in SEARCHED]
-    usual = len(asked) * usual_images(settings.images, wanted)
+        decoder_settings = replace(settings, decoders=(decoder,))
+        check_rate(scene, decoder_settings)
+        searches += [(scene, name, required_rate, decoder_settings) for name in SEARCHED_PARAMETERS]
+    image_count = len(searches) * estimate_images(settings.images, required_rate)
     with ExitStack() as stack:
-        runner = _SearchRunner(stack, jobs, usual, heartbeat, progress)
-        searched = list(runner.run(working_range, asked, (1,) * len(SEARCHED)))
-        pairs = [(one, pairs_of(each)) for one, each in zip(asked, searched, strict=True)]
-        # Start with the slowest decoder, which is the last, so that nothing waits for it at the
-        # end.
-        end_searches = [(*one, pair) for one, several in pairs for pair in several][::-1]
-        ends = iter(list(runner.run(sure_end, end_searches, (MOST_PROCESSES,)))[::-1])
+        runner = _SearchRunner(stack, jobs, image_count, heartbeat, progress)
+        searched_ranges = list(runner.run(working_range, searches, (1,) * len(SEARCHED_PARAMETERS)))
+        pairs = [
+            (search, pair_ends(each))
+            for search, each in zip(searches, searched_ranges, strict=True)
+        ]
+        # Start with the slowest decoder, the last, so that nothing waits for it at the end.
+        end_searches = [(*search, pair) for search, end_pairs in pairs for pair in end_pairs][::-1]
+        ends = iter(list(runner.run(confirm_end, end_searches, (MOST_PROCESSES,)))[::-1])
         ranges = [
-            replace_ends(each, list(islice(ends, len(several))))
-            for each, (_, several) in zip(searched, pairs, strict=True)
+            replace_ends(each, list(islice(ends, len(end_pairs))))
+            for each, (_, end_pairs) in zip(searched_ranges, pairs, strict=True)
         ]
     progress(1.0, "")
     pairs_of_ranges = zip(settings.decoders, ranges[::2], ranges[1::2], strict=True)
     return tuple(
-        Limits(scene, one, wanted, settings.images, settings.seed, *pair)
-        for one, *pair in pairs_of_ranges
+        Limits(scene, decoder, required_rate, settings.images, settings.seed, *pair)
+        for decoder, *pair in pairs_of_ranges
     )
 
 
-SEARCHED = ("switching_frequency", "exposure_time")  # the parameters whose limits are searched
+SEARCHED_PARAMETERS = ("switching_frequency", "exposure_time")
 MOST_PROCESSES = 2  # one for each parameter
 _POLL_SECONDS = 0.1  # between two polls of other processes
 
 
-def usual_images(images: int, rate: float) -> int:
+def estimate_images(images: int, rate: float) -> int:
     """Return how many images a decoder's search along a parameter usually reads."""
-    return expected_images(images) + images_about_an_end(rate)
+    return estimate_range_images(images) + estimate_end_images(rate)
 
 
 class _SearchRunner:
@@ -144,33 +146,36 @@ class _SearchRunner:
         self,
         stack: ExitStack,
         jobs: int,
-        usual: int,
+        expected: int,
         heartbeat: Heartbeat,
         progress: Callable[[float, str], object],
     ) -> None:
-        self._stack, self._jobs, self._usual = stack, jobs, usual
+        self._stack, self._jobs, self._expected = stack, jobs, expected
         self._heartbeat, self._progress = heartbeat, progress
         self._pools: list[ProcessPool] = []
         self._read = 0
 
     def run(
-        self, work: Callable[..., _Answer], asked: Sequence[tuple[Any, ...]], counts: Sequence[int]
-    ) -> Iterator[_Answer]:
-        """Yield the results for the arguments, which pools of ``counts`` processes take in turn."""
+        self,
+        function: Callable[..., _Result],
+        arguments: Sequence[tuple[Any, ...]],
+        counts: Sequence[int],
+    ) -> Iterator[_Result]:
+        """Yield a result for each tuple of arguments, by pools of ``counts`` processes in turn."""
         from occ_model.parallel.process_pool import ProcessPool
 
         done = 0
         with suppress(*NO_PROCESSES, *ProcessPool.lost_by):
             pools = []
-            for count in counts if self._jobs > 1 and asked else ():
+            for count in counts if self._jobs > 1 and arguments else ():
                 pools.append(ProcessPool(count, __name__))
                 self._stack.callback(pools[-1].close)
             self._pools += pools
             futures = [
-                pool.submit(Job(work, each), 0, 1)
-                for pool, each in zip(cycle(pools), asked, strict=False)
+                pool.submit(Job(function, each), 0, 1)
+                for pool, each in zip(cycle(pools), arguments, strict=False)
             ]
-            for each, future in zip(asked, futures, strict=False):
+            for each, future in zip(arguments, futures, strict=False):
                 while not future.done():
                     wait([future], timeout=_POLL_SECONDS)
                     self._report(
@@ -178,18 +183,18 @@ class _SearchRunner:
                     )
                 yield _unwrap_result(future.result())
                 done += 1
-        for each in asked[done:]:
-            yield work(*each, partial(self._on_image, each))
+        for each in arguments[done:]:
+            yield function(*each, partial(self._on_image, each))
 
-    def _on_image(self, asked: tuple[Any, ...]) -> None:
+    def _on_image(self, arguments: tuple[Any, ...]) -> None:
         self._read += 1
-        self._report(self._read, asked)
+        self._report(self._read, arguments)
 
-    def _report(self, read: int, asked: tuple[Any, ...]) -> None:
+    def _report(self, read: int, arguments: tuple[Any, ...]) -> None:
         self._heartbeat()
-        _, name, _, settings, *_ = asked
-        what = f"{PARAMETERS[name].in_sentence}, {settings.decoders[0]} decoder"
-        self._progress(min(read / self._usual, 0.99), what)
+        _, name, _, settings, *_ = arguments
+        description = f"{PARAMETERS[name].in_sentence}, {settings.decoders[0]} decoder"
+        self._progress(min(read / self._expected, 0.99), description)
 
 
 def _unwrap_result(result: JobResult) -> Any:

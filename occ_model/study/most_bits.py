@@ -1,7 +1,7 @@
 """Search for the line code, switching frequency and payload that carry most bits a second.
 
 A picture shows a certain number of the panel's chips. For each line code and frequency, payloads
-are tried that fill all of them, half of them or a quarter: more repetitions make up for noise. The
+are tried that fill all of them, a half or a quarter, because repetitions compensate for noise. The
 combinations are tried in falling order of the bits that they would carry, so the first one that is
 read is the best.
 """
@@ -27,10 +27,11 @@ from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import check_code, scheme_of
 
-_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # of codes of one rate only the best known
+# Of the line codes with the same rate only the best known
+_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")
 DECODERS = ("threshold", "equalizer", "sequence")  # for payloads of any length, fastest first
 
-VARIED = (  # the parameters that the search chooses; its result depends on all the others
+VARIED_PARAMETERS = (  # chosen by the search, whose result depends on all the others
     "pattern", "line_code", "framing", "preamble", "error_correction", "payload",
     "switching_frequency",
 )  # fmt: skip
@@ -98,14 +99,14 @@ def most_bits(
     for name in decoders:
         settings = RateSettings(1, (name,), seed)
         with Faults().counting() as faults:
-            place, readable = _find_first_readable(
+            index, best_scene = _find_first_readable(
                 scene, candidates, settings, pictures, (heartbeat, progress)
             )
-        bits = 0 if readable is None else candidates[place].bits
-        failure = None if readable is not None else _explain_failure(scene, candidates, settings)
+        bits = 0 if best_scene is None else candidates[index].bits
+        failure = None if best_scene is not None else _explain_failure(scene, candidates, settings)
         results.append(
             MostBits(
-                name, readable, pictures, bits * frames_a_second, frames_a_second, place, failure,
+                name, best_scene, pictures, bits * frames_a_second, frames_a_second, index, failure,
                 str(faults),
             )
         )  # fmt: skip
@@ -113,7 +114,7 @@ def most_bits(
 
 
 def reset_varied(scene: Scene) -> Scene:
-    """Return a scene with the varied parameters reset, on which the search's result depends."""
+    """Return a scene with the varied parameters reset: all on which the search's result depends."""
     frequency = quantity("switching_frequency").default
     return _send_zeros(scene, _TRIED_LINE_CODES[0], 1, frequency).replace(code=0, start_time=0.0)
 
@@ -132,10 +133,10 @@ def _explain_failure(scene: Scene, candidates: Sequence[Candidate], settings: Ra
         return "No column of the picture shows the panel."
     if not candidates:
         return "The picture shows too few chips of the panel for any payload; come closer."
-    least = candidates[-1]  # the one that is read most easily
+    shortest = candidates[-1]  # the one that is read most easily
     (decoder,) = settings.decoders
     cause = cause_of(
-        _send_zeros(scene, least.line_code, least.bits, least.frequency),
+        _send_zeros(scene, shortest.line_code, shortest.bits, shortest.frequency),
         decoder,
         SimulationSettings(seed=settings.seed),
     )
@@ -150,10 +151,13 @@ def list_candidates(scene: Scene) -> list[Candidate]:
         Candidate(line_code, frequency, bits)
         for line_code in _TRIED_LINE_CODES
         for frequency in _frequencies(scene)
-        for filled in _FILLED_FRACTIONS
-        if (bits := _count_bits(line_code, filled * readout * frequency)) > 0
+        for fraction in _FILLED_FRACTIONS
+        if (bits := _count_bits(line_code, fraction * readout * frequency)) > 0
     }
-    return sorted(candidates, key=lambda one: (-one.bits, one.frequency, one.line_code))
+    return sorted(
+        candidates,
+        key=lambda candidate: (-candidate.bits, candidate.frequency, candidate.line_code),
+    )
 
 
 def _frequencies(scene: Scene) -> list[float]:
@@ -161,11 +165,11 @@ def _frequencies(scene: Scene) -> list[float]:
     low = quantity("switching_frequency").slider[0]
     high = 1.0 / scene.camera.readout_time
     count = max(1, int(np.log(high / low) / np.log(_FREQUENCY_RATIO)))
-    return [low * _FREQUENCY_RATIO**place for place in range(count + 1)]
+    return [low * _FREQUENCY_RATIO**step for step in range(count + 1)]
 
 
 def _count_bits(line_code: str, chips: float) -> int:
-    """Return the number of bits in the longest payload that fits in so many chips."""
+    """Return the number of bits of the longest payload that fits in a number of chips."""
     code = LINE_CODES.get(line_code)
     overhead = scheme_of(_send_zeros(Scene(), line_code, 1, 1e3).transmitter).length
     blocks = int((chips - overhead) // code.block_chips)
@@ -189,11 +193,13 @@ def _find_first_readable(
     """Return the index of the first candidate whose pictures are all read, and its scene."""
     heartbeat, progress = calls
     (decoder,) = settings.decoders
-    for place, one in enumerate(candidates):
-        progress(decoder, place, len(candidates))
-        candidate = _send_zeros(scene, one.line_code, one.bits, one.frequency)
-        if all(_read_pictures(candidate, settings, pictures, heartbeat)):
-            return place, candidate
+    for index, candidate in enumerate(candidates):
+        progress(decoder, index, len(candidates))
+        candidate_scene = _send_zeros(
+            scene, candidate.line_code, candidate.bits, candidate.frequency
+        )
+        if all(_read_pictures(candidate_scene, settings, pictures, heartbeat)):
+            return index, candidate_scene
     return len(candidates), None
 
 
@@ -205,6 +211,6 @@ def _read_pictures(
     random = np.random.default_rng(settings.seed)
     for _ in range(pictures):
         scene = with_payload(candidate, random.integers(0, 2, length).tolist())
-        own = RateSettings(1, settings.decoders, int(random.integers(2**32)))
-        ((right,),) = right_bits_of_images(scene, own, heartbeat)
+        picture_settings = RateSettings(1, settings.decoders, int(random.integers(2**32)))
+        ((right,),) = right_bits_of_images(scene, picture_settings, heartbeat)
         yield right == length

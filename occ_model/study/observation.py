@@ -3,8 +3,8 @@
 The profile path: all rows of a level panel have the same values, so a column's mean is known
 without simulating its pixels. The distribution of the noise is passed through the enhancement, as
 each pixel would be, and averaged over the rows. Where rows differ, a sample of them is simulated.
-The result of every decoder is thus known within milliseconds, whatever the size of the picture; the
-picture itself confirms it later.
+Every decoder's result is thus known within milliseconds, whatever the size of the picture, and is
+confirmed later by the picture itself.
 """
 
 from collections.abc import Sequence
@@ -41,22 +41,22 @@ def panel_span(scene: Scene) -> Region | None:
 def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
     """Return the rectangle, cached because the lines of a map share their poses."""
     first, last = row_spans(np.frombuffer(corners).reshape(-1, 2), rows, columns)
-    lit = np.flatnonzero(last > first)
-    if lit.size == 0:
+    lit_columns = np.flatnonzero(last > first)
+    if lit_columns.size == 0:
         return Region(0, 0, 0, 0)
-    if np.ptp(first[lit]) + np.ptp(last[lit]) > 0:
+    if np.ptp(first[lit_columns]) + np.ptp(last[lit_columns]) > 0:
         return None
-    return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
+    left = int(lit_columns[0])
+    return Region(left, left + lit_columns.size, int(first[left]), int(last[left]))
 
 
-_LENS_SHIFT_PART = 50  # a lens shifts the panel by at most the larger side divided by this
+_LENS_SHIFT_DIVISOR = 50  # a lens shifts the panel by at most the larger side divided by this
 
 
 _SEEDS = 2**32
 
-_MAX_EXPECTED_BRIGHT = (
-    0.01  # negligible number of pixels beside the panel as bright as its brightest
-)
+# Negligible number of pixels beside the panel that are as bright as its brightest
+_MAX_EXPECTED_BRIGHT = 0.01
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -95,10 +95,10 @@ def observe(
     if sample is not None and is_region_known(sample, view):
         return observe_sample(sample, scene, plan, random)
     picture = render_plan(view, plan, seed=seed).image
-    found = locate(picture, scene.receiver.bright_fraction)
-    if found is None:
+    bright_area = locate(picture, scene.receiver.bright_fraction)
+    if bright_area is None:
         return None
-    return Observation(column_means(picture, found.region), found.region)
+    return Observation(column_means(picture, bright_area.region), bright_area.region)
 
 
 def observe_profile(
@@ -126,19 +126,19 @@ def _observe_without_noise(
     scene: Scene, span: Region, panel: ByteArray, around: ByteArray
 ) -> Observation:
     """Return the column means of the rectangle that a receiver finds in a picture without noise."""
-    rows, seen = scene.camera.rows, slice(span.first_column, span.last_column)
+    rows, panel_columns = scene.camera.rows, slice(span.first_column, span.last_column)
     counts = np.bincount(around, minlength=256) * rows
-    counts += np.bincount(panel[seen], minlength=256) * span.rows
-    counts -= np.bincount(around[seen], minlength=256) * span.rows
+    counts += np.bincount(panel[panel_columns], minlength=256) * span.rows
+    counts -= np.bincount(around[panel_columns], minlength=256) * span.rows
     level = bright_level(counts.astype(np.int64), scene.receiver.bright_fraction)
     region = span
     if level is not None:
         bright = ((values >= level).astype(np.float64) for values in (panel, around))
         region = BrightFractions(rows, span, *bright).draw_region(np.random.default_rng(0))
     columns = slice(region.first_column, region.last_column)
-    crossed = max(0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row))
+    panel_rows = max(0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row))
     fractions = np.zeros(len(panel))
-    fractions[seen] = crossed / region.rows
+    fractions[panel_columns] = panel_rows / region.rows
     fractions = fractions[columns]
     return Observation(fractions * panel[columns] + (1.0 - fractions) * around[columns], region)
 
@@ -146,22 +146,23 @@ def _observe_without_noise(
 def is_region_known(sample: SampledPicture, view: PaperView) -> bool:
     """Return whether the whole picture's region is known from a sample of its rows.
 
-    Noise beside the panel must nowhere be expected to be as bright as the panel's brightest pixels.
+    No pixel beside the panel may be expected to become as bright, by noise, as the panel's
+    brightest pixels.
     """
     scene, image = view.scene, sample.image
-    found = locate(image, scene.receiver.bright_fraction)
-    if found is None:
+    bright_area = locate(image, scene.receiver.bright_fraction)
+    if bright_area is None:
         return True
-    margin = max(scene.camera.rows, scene.camera.columns) // _LENS_SHIFT_PART
+    margin = max(scene.camera.rows, scene.camera.columns) // _LENS_SHIFT_DIVISOR
     left = max(0, view.region.first_column - margin)
-    for part in (image[:, :left], image[:, view.region.last_column + margin :]):
-        if not part.size:
+    for pixels_beside in (image[:, :left], image[:, view.region.last_column + margin :]):
+        if not pixels_beside.size:
             continue
-        mean, spread = np.array([part.mean()]), np.array([part.std()])
-        (bright,) = fraction_above(found.bright_level - 0.5, mean, spread)
+        mean, spread = np.array([pixels_beside.mean()]), np.array([pixels_beside.std()])
+        (bright,) = fraction_above(bright_area.bright_level - 0.5, mean, spread)
         if (
-            np.any(part >= found.bright_level)
-            or bright * part.size * sample.rows_each > _MAX_EXPECTED_BRIGHT
+            np.any(pixels_beside >= bright_area.bright_level)
+            or bright * pixels_beside.size * sample.rows_each > _MAX_EXPECTED_BRIGHT
         ):
             return False
     return True
@@ -171,17 +172,17 @@ def observe_sample(
     sample: SampledPicture, scene: Scene, plan: Plan, random: np.random.Generator
 ) -> Observation | None:
     """Estimate the column means of a whole picture from a sample; None if no panel is found."""
-    found = locate(sample.image, scene.receiver.bright_fraction)
-    if found is None:
+    bright_area = locate(sample.image, scene.receiver.bright_fraction)
+    if bright_area is None:
         return None
-    signal = column_means(sample.image, found.region)
+    signal = column_means(sample.image, bright_area.region)
     if "noise" in plan.kinds:
         # Neighbouring rows differ only by noise.
-        pairs = np.diff(found.region.crop(sample.image).astype(np.float32), axis=0)[::2]
+        pairs = np.diff(bright_area.region.crop(sample.image).astype(np.float32), axis=0)[::2]
         variance = np.mean(pairs**2, axis=0, dtype=np.float64) / 2.0
-        rows = max(found.region.rows * sample.rows_each, 1.0)
+        rows = max(bright_area.region.rows * sample.rows_each, 1.0)
         signal = signal + np.sqrt(variance / rows) * random.standard_normal(len(signal))
-    return Observation(signal, found.region)
+    return Observation(signal, bright_area.region)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -208,19 +209,19 @@ def read_profile(
     span = panel_span(scene)
     if span is None:
         return None
-    chosen = signal_plan([scene], settings, needs_pixels=False)
-    if "image" in chosen.kinds:
+    effect_plan = signal_plan([scene], settings, needs_pixels=False)
+    if "image" in effect_plan.kinds:
         return None
     view = view or paper_view_of(scene)
-    columns = expose_columns(view, chosen)
+    columns = expose_columns(view, effect_plan)
     random = np.random.default_rng(settings.seed)
-    profile, signal, observed = _draw_column_means(scene, columns, chosen, span, random)
-    results = {decoder: observed.read(scene, decoder) for decoder in decoders}
-    return ProfileReading(chosen, view.corners, profile, signal, results)
+    profile, signal, observation = _draw_column_means(scene, columns, effect_plan, span, random)
+    results = {decoder: observation.read(scene, decoder) for decoder in decoders}
+    return ProfileReading(effect_plan, view.corners, profile, signal, results)
 
 
 def _draw_column_means(
-    scene: Scene, columns: Columns, chosen: Plan, span: Region, random: np.random.Generator
+    scene: Scene, columns: Columns, effect_plan: Plan, span: Region, random: np.random.Generator
 ) -> tuple[FloatArray, FloatArray, Observation]:
     """Return the means before and after the enhancement, and the part that a decoder reads."""
     profile = columns.profile.copy()
@@ -229,16 +230,19 @@ def _draw_column_means(
     signal = enhanced.astype(np.float64)
     if span.columns == 0:
         return profile, signal, Observation(to_bytes(columns.around), None)
-    seen = slice(span.first_column, span.last_column)
-    if "noise" not in chosen.kinds:
+    panel_columns = slice(span.first_column, span.last_column)
+    if "noise" not in effect_plan.kinds:
         return (
             profile,
             signal,
             _observe_without_noise(scene, span, enhanced, to_bytes(columns.around)),
         )
-    noisy = NoisyColumns(scene, columns, chosen, span, enhancement)
+    noisy = NoisyColumns(scene, columns, effect_plan, span, enhancement)
     region = noisy.draw_region(random)
-    profile[seen], signal[seen] = noisy.plain_means(span), noisy.means(span, random)
+    profile[panel_columns], signal[panel_columns] = (
+        noisy.plain_means(span),
+        noisy.means(span, random),
+    )
     if (region.first_row, region.last_row) == (span.first_row, span.last_row) and (
         span.first_column <= region.first_column and region.last_column <= span.last_column
     ):  # the region read lies within the panel, so its means are those already drawn

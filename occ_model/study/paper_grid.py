@@ -27,16 +27,16 @@ def grid_request(
     return build_request(load_preset(preset), axes, RateSettings(images, tuple(decoders), seed))
 
 
-def last_and_first_unread(
+def find_detection_limit(
     table: SweepTable, decoder: str, readable: float = 60.0
 ) -> tuple[float | None, float | None]:
-    """Find the highest frequency in Hz that is read at some distance, and the next one, if any.
+    """Find the highest frequency in Hz that is read at some distance, and the next of the grid.
 
-    Both are steps of the grid; detection ceases somewhere around them.
+    Detection ceases between them. Either is None if the grid has no such frequency.
 
     ``readable``: success rate in percent from which a distance counts as read.
     """
-    read = np.flatnonzero(table.rates(decoder).max(axis=1) >= readable)
+    read_indices = np.flatnonzero(table.rates(decoder).max(axis=1) >= readable)
     steps = (None, *FREQUENCIES, None)
-    after = int(read[-1]) + 1 if read.size else 0
-    return steps[after], steps[after + 1]
+    next_index = int(read_indices[-1]) + 1 if read_indices.size else 0
+    return steps[next_index], steps[next_index + 1]

@@ -1,4 +1,4 @@
-"""The facts that a film's reading states: packets, rates of errors, and clocks."""
+"""Facts about the reading of a film: packets, error rates and clocks."""
 
 import math
 from collections.abc import Iterator
@@ -12,32 +12,32 @@ _PERCENT = 100.0
 _RATE = Unit("Hz/s")
 
 
-def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
-    """List the facts about a film being read; ``whole``: the last reading of all frames."""
+def film_facts(progress: FilmProgress, reading: VideoReading | None) -> tuple[Fact, ...]:
+    """List the facts about a film being read; ``reading``: the last one of all frames."""
     facts = [
         Fact(
             "placed",
             "Frames placed",
-            f"{known.placed} of {known.frames}",
+            f"{progress.placed} of {progress.frames}",
             meaning="Frames whose place in the repeated packets is known.",
         ),
         Fact(
             "known",
             "Packet known",
-            f"{100.0 * known.known:.0f} %",
+            f"{100.0 * progress.known:.0f} %",
             meaning="Fraction of the chips of a period that are known, including a header's.",
         ),
     ]
-    if whole is not None:
-        facts += packet_facts(whole)
-    clock = known.clock if whole is None or whole.clock is None else whole.clock
+    if reading is not None:
+        facts += packet_facts(reading)
+    clock = progress.clock if reading is None or reading.clock is None else reading.clock
     if clock is not None:
         facts += clock_facts(clock)
     return tuple(facts)
 
 
 def packet_facts(reading: VideoReading) -> Iterator[Fact]:
-    """List how many packets and bits were received; nothing if they cannot be counted."""
+    """List the numbers of packets and bits received; nothing if they cannot be counted."""
     after = reading.complete_after
     if after is not None:
         yield Fact(
@@ -83,11 +83,11 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
 
 
 def clock_facts(clock: Clock) -> Iterator[Fact]:
-    """List what a film shows about the clocks of the camera and of the transmitter."""
+    """List what a film reveals about the clocks of the camera and of the transmitter."""
     doubt = "" if clock.is_sure else ", not sure"
     lamp, drift = clock.lamp_frequency, clock.lamp_drift or clock.drift
     name = "lamp frequency" if lamp else "switching frequency"
-    for key, label, unit, measured, mark, meaning in (
+    for key, label, unit, measured, suffix, meaning in (
         (
             "frequency", "Lamp frequency" if lamp else "Frequency", HERTZ,
             lamp or clock.switching_frequency, doubt,
@@ -107,7 +107,7 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
             "From one frame to the next.",
         ),
     ):  # fmt: skip
-        text = unit.format_estimate(measured.value, measured.error) + mark
+        text = unit.format_estimate(measured.value, measured.error) + suffix
         yield Fact(key, label, text, meaning=meaning)
     if drift is not None:
         text = _RATE.format_estimate(drift.value, drift.error)

@@ -1,4 +1,4 @@
-"""Measure over a room's floor how many lamps are read, and how well the place is known."""
+"""Measure over a room's floor how many lamps are read, and how accurately the place is found."""
 
 import csv
 import math
@@ -66,16 +66,16 @@ class RoomPoint:
 
     index: int  # The place's number
     # In all pictures together: lamps that are whole, and those of them that were named correctly
-    shown: int
+    whole: int
     named: int
     # Lamps, whole or cut, whose code was read but is not the one they send
     misread: int
-    wrong: int  # Those of them that were named as another lamp of the room
+    named_wrongly: int  # Those of them that were named as another lamp of the room
     sure_places: int  # Pictures from which the place was found with certainty
     # Root mean square, over the sure places, of the distance from the true place and of the stated
     # error, in metres; NaN without a sure place
     error: float
-    stated: float
+    stated_error: float
     note: str  # The first reason why there is no picture or no sure place
 
 
@@ -114,29 +114,33 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
             return RoomPoint(index, 0, 0, 0, 0, 0, math.nan, math.nan, join_lines(str(refusal)))
         counts += _count_lamps(frame, reading)
         if reading.is_sure and reading.located is not None:
-            found, camera = reading.located.place, room.camera
-            apart = (found.x - camera.x, found.y - camera.y, found.z - camera.z)
-            errors.append((math.hypot(*apart), float(np.hypot.reduce(reading.located.errors[:3]))))
+            estimate, camera = reading.located.place, room.camera
+            difference = (estimate.x - camera.x, estimate.y - camera.y, estimate.z - camera.z)
+            errors.append(
+                (math.hypot(*difference), float(np.hypot.reduce(reading.located.errors[:3])))
+            )
         elif reading.reasons:
             note = note or join_lines(reading.reasons[0])
-    error, stated = (
+    error, stated_error = (
         np.sqrt(np.mean(np.square(errors), axis=0)).tolist() if errors else (math.nan, math.nan)
     )
-    shown, named, misread, wrong = counts.tolist()
-    return RoomPoint(index, shown, named, misread, wrong, len(errors), error, stated, note)
+    whole, named, misread, named_wrongly = counts.tolist()
+    return RoomPoint(
+        index, whole, named, misread, named_wrongly, len(errors), error, stated_error, note
+    )
 
 
 def _count_lamps(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]:
-    """Return the counts of a :class:`RoomPoint`: shown, named, misread and wrong."""
-    named = misread = wrong = 0
+    """Return the counts of a :class:`RoomPoint`: whole, named, misread and named wrongly."""
+    named = misread = named_wrongly = 0
     for read in reading.lamps:
-        there = [one for one in frame.lamps if _is_at(one.region, read)]
-        codes = [code_sent(one.lamp) for one in there if sends_code(one.lamp)]
-        own = [one for one in there if one.lamp.name == read.name]
-        named += any(not one.is_cut for one in own)
+        lamps_at_place = [lamp for lamp in frame.lamps if _is_at(lamp.region, read)]
+        codes = [code_sent(lamp.lamp) for lamp in lamps_at_place if sends_code(lamp.lamp)]
+        lamps_named = [lamp for lamp in lamps_at_place if lamp.lamp.name == read.name]
+        named += any(not lamp.is_cut for lamp in lamps_named)
         misread += read.code is not None and read.code not in codes
-        wrong += read.name is not None and not own
-    return sum(not one.is_cut for one in frame.lamps), named, misread, wrong
+        named_wrongly += read.name is not None and not lamps_named
+    return sum(not lamp.is_cut for lamp in frame.lamps), named, misread, named_wrongly
 
 
 def _is_at(region: Region, read: ReadLamp) -> bool:
@@ -158,7 +162,7 @@ def measure_places(
 class RoomMapText:
     """The text form of a map's places, one row each."""
 
-    what, title, lines_a_point = "map of a room", _TITLE, 1
+    study_name, title, lines_a_point = "map of a room", _TITLE, 1
 
     def __init__(self, request: RoomMapRequest) -> None:
         self._request = request
@@ -184,8 +188,9 @@ class RoomMapText:
 
     def text(self, point: RoomPoint) -> str:
         return csv_row((
-            *self._request.place(point.index), self._request.images, point.shown, point.named,
-            point.misread, point.wrong, point.sure_places, point.error, point.stated, point.note,
+            *self._request.place(point.index), self._request.images, point.whole, point.named,
+            point.misread, point.named_wrongly, point.sure_places, point.error,
+            point.stated_error, point.note,
         ))  # fmt: skip
 
     def read(self, lines: Sequence[str], number: int) -> RoomPoint | None:
@@ -199,20 +204,20 @@ class RoomMapText:
             x, y, _, *counts, error, stated, note = next(csv.reader([line], strict=True))
             across = [repr(place) for place in self._request.across].index(x)
             along = [repr(place) for place in self._request.along].index(y)
-            seen, named, misread, wrong, sure_places = counts
+            whole_text, named, misread, named_wrongly, sure_places = counts
         except (ValueError, StopIteration, csv.Error):
             return None
         images, camera = self._request.images, self._request.room.scene.camera
         lamps = images * len(self._request.room.lamps)
         pixels = images * camera.rows * camera.columns  # no picture shows more lamps than pixels
-        whole = read_count("whole lamps", seen, 0, lamps, number)
+        whole = read_count("whole lamps", whole_text, 0, lamps, number)
         places = read_count("sure places", sure_places, 0, images, number)
         return RoomPoint(
             across * len(self._request.along) + along,
             whole,
             read_count("named correctly", named, 0, whole, number),
             read_count("misread", misread, 0, pixels, number),
-            read_count("named wrongly", wrong, 0, lamps, number),
+            read_count("named wrongly", named_wrongly, 0, lamps, number),
             places,
             _read_distance("error (m)", error, bool(places), number),
             _read_distance("stated error (m)", stated, bool(places), number),
@@ -241,16 +246,16 @@ def room_map(
     results: str | Path | None = None,
 ) -> tuple[RoomPoint, ...]:
     """Measure the places of a map in order; arguments and errors as for :func:`occ_model.sweep`."""
-    found: list[RoomPoint] = []
+    points: list[RoomPoint] = []
     text = RoomMapText(request)
 
-    def in_order() -> list[RoomPoint]:
-        return sorted(found, key=lambda point: point.index)
+    def sort_points() -> list[RoomPoint]:
+        return sorted(points, key=lambda point: point.index)
 
     measure_study(
         StudyWork("map", measure_places, lambda indices: (request, tuple(indices))), text,
-        range(request.point_count), found.append,
-        lambda: [text.header, *map(text.text, in_order())],
+        range(request.point_count), points.append,
+        lambda: [text.header, *map(text.text, sort_points())],
         executor=executor, jobs=jobs, progress=progress, results=results,
     )  # fmt: skip
-    return tuple(in_order())
+    return tuple(sort_points())

@@ -1,4 +1,4 @@
-"""Compute the spectrum of a picture's profile with the exposure's, and its level histogram."""
+"""Compute the spectrum of a profile with the exposure's response, and its level histogram."""
 
 import cv2
 import numpy as np
@@ -33,27 +33,27 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     amplitudes = 2.0 * np.abs(np.fft.rfft(window * (values - values.mean()))) / window.sum()
     frequencies = np.fft.rfftfreq(len(values), scene.camera.readout_time)
     exposure = scene.camera.exposure_time
-    last = float(frequencies[-1])
+    highest = float(frequencies[-1])
     return Spectrum(
         frequencies=np.asarray(frequencies, dtype=np.float64),
         amplitudes=np.asarray(amplitudes, dtype=np.float64),
         response=np.abs(np.sinc(frequencies * exposure)),
-        zeros=_multiples(1.0 / exposure, last),
-        harmonics=_harmonics(scene.transmitter, last),
+        zeros=_multiples(1.0 / exposure, highest),
+        harmonics=_harmonics(scene.transmitter, highest),
     )
 
 
-def _harmonics(transmitter: Transmitter, last: float) -> tuple[float, ...]:
+def _harmonics(transmitter: Transmitter, highest: float) -> tuple[float, ...]:
     if has_chips(transmitter):
         return ()
     light = light_of(transmitter)
     if isinstance(light, Cosine):
-        return _multiples(light.frequency, min(light.frequency, last))
-    return _multiples(float(1 / light.period), last)
+        return _multiples(light.frequency, min(light.frequency, highest))
+    return _multiples(float(1 / light.period), highest)
 
 
-def _multiples(frequency: float, last: float) -> tuple[float, ...]:
-    count = min(int(last / frequency), _MOST_MULTIPLES)
+def _multiples(frequency: float, highest: float) -> tuple[float, ...]:
+    count = min(int(highest / frequency), _MOST_MULTIPLES)
     return tuple(k * frequency for k in range(1, count + 1))
 
 

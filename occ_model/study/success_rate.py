@@ -24,8 +24,8 @@ from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
 from occ_model.study.observation import Observation, observe, panel_span
 from occ_model.transmitter.scheme import check_code, sent_chips
 
-_KEPT_PICTURES = 512
-"""Number of pictures whose signals are kept for the next decoder: those of a search."""
+_CACHED_PICTURES = 512
+"""Number of pictures whose signals are cached for the next decoder, enough for a search."""
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 
@@ -91,19 +91,21 @@ def count_right_and_whole(
     scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Count the correct bits, and the images without a wrong bit, of each decoder."""
-    correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
+    right_bits, whole_images = [0] * len(settings.decoders), [0] * len(settings.decoders)
     length = scene.transmitter.payload_length
-    for counts in right_bits_of_images(scene, settings, heartbeat):
-        for place, right in enumerate(counts):
-            correct[place] += right
-            whole[place] += right == length
-    return tuple(correct), tuple(whole)
+    for bits_of_decoders in right_bits_of_images(scene, settings, heartbeat):
+        for decoder_index, right in enumerate(bits_of_decoders):
+            right_bits[decoder_index] += right
+            whole_images[decoder_index] += right == length
+    return tuple(right_bits), tuple(whole_images)
 
 
-def plan_of_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
+def plan_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
     """Choose the effects of images that differ only in phase and code."""
-    own = SimulationSettings(settings.tolerance, "signal", settings.force)
-    return signal_plan(scenes, own, needs_pixels=_span_of_path(scenes[0], settings.path) is None)
+    simulation_settings = SimulationSettings(settings.tolerance, "signal", settings.force)
+    return signal_plan(
+        scenes, simulation_settings, needs_pixels=_span_of_path(scenes[0], settings.path) is None
+    )
 
 
 @lru_cache(maxsize=4)
@@ -127,13 +129,13 @@ def right_bits_of_images(
     pictures = _StudyPictures(scene, settings.seed, settings.tolerance, force, settings.path)
     for image in range(settings.images):
         heartbeat()
-        observed = (
+        observation = (
             _observe_cached(pictures, image)
             if chosen is None
             else observe_picture(pictures, chosen, image)
         )
-        read = _read_by_decoders(scene, observed, settings.decoders)
-        yield tuple(_count_right_bits(seen, sent) for seen in read)
+        results = _read_by_decoders(scene, observation, settings.decoders)
+        yield tuple(_count_right_bits(result, sent) for result in results)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,19 +156,19 @@ class _StudyPictures:
 @lru_cache(maxsize=4)
 def _plan_cached(pictures: _StudyPictures) -> Plan:
     """Choose the effects of all pictures, which differ only in phase and noise."""
-    return plan_of_images([pictures.scene], pictures.settings)
+    return plan_images([pictures.scene], pictures.settings)
 
 
-@lru_cache(maxsize=_KEPT_PICTURES)
+@lru_cache(maxsize=_CACHED_PICTURES)
 def _observe_cached(pictures: _StudyPictures, image: int) -> Observation | None:
     return observe_picture(pictures, _plan_cached(pictures), image)
 
 
-def _count_right_bits(seen: DecodeResult, sent: ByteArray) -> int:
-    """Count the correct bits; none count if the decoder rejects them, for example as uncertain."""
-    if seen.failure is not None or seen.bits.size != sent.size:
+def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:
+    """Count the correct bits; 0 if the decoder rejects them, for example as uncertain."""
+    if result.failure is not None or result.bits.size != sent.size:
         return 0
-    return int(np.count_nonzero(seen.bits == sent))
+    return int(np.count_nonzero(result.bits == sent))
 
 
 @lru_cache(maxsize=256)
@@ -176,11 +178,11 @@ def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
 
 
 def _read_by_decoders(
-    scene: Scene, observed: Observation | None, decoders: Sequence[str]
+    scene: Scene, observation: Observation | None, decoders: Sequence[str]
 ) -> list[DecodeResult]:
-    if observed is None:
+    if observation is None:
         return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in decoders]
-    return [observed.read(scene, decoder) for decoder in decoders]
+    return [observation.read(scene, decoder) for decoder in decoders]
 
 
 def observe_picture(pictures: _StudyPictures, chosen: Plan, image: int) -> Observation | None:
@@ -207,4 +209,4 @@ def check_rate(scene: Scene, settings: RateSettings) -> None:
         decoder_named(decoder)
     check_code(scene.transmitter)
     if scene.transmitter.pattern:
-        raise ParameterError("A raw pattern holds no code; a success rate needs packets.")
+        raise ParameterError("A raw pattern has no code; a success rate needs packets.")

@@ -3,10 +3,10 @@
 An end lies between a value outside that fails with confidence and a value inside that is read with
 confidence: their 95 % intervals lie below and above the required rate. At a rate of 99 % the value
 inside takes 381 images, all of which must be read. Values inside are therefore tried in growing
-steps from the end, and each is given up at the first image that is not read. The search has found
+steps from the end, and each is rejected at the first image that is not read. The search has found
 an outer value that fails in twenty images; where the rate falls slowly, it is far from the end.
 Values between the two are therefore tried with more images, until these show that the rate is not
-reached. More pictures in between narrow the interval down.
+reached. More pictures in between then narrow the interval.
 
 The bits of a picture are lost together, so the pictures are the trials. The odds of losing a
 picture are modelled as growing outwards,
@@ -34,11 +34,11 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study.confidence import TWO_SIDED, trial_of
+from occ_model.study.confidence import TWO_SIDED_DEVIATE, trial_of
 from occ_model.study.working_range import END_RATIO, ImageCounts, move_towards, right_bits_at
 
 MOST_IMAGES = 1000  # maximum at a value inside an end; rates above 99.6 % would take more
-OUTSIDE = 200  # maximum images at a value beyond an end
+MOST_IMAGES_OUTSIDE = 200  # maximum images at a value beyond an end
 _ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
 """Rounds of pictures, the places as fractions of the remaining interval, and pictures at each."""
 
@@ -46,7 +46,7 @@ _REFUTING_PROBABILITY = 0.025  # of wrongly rejecting a rate: one side of a 95 %
 _STAKES = (0.03, 0.1, 0.3)  # fractions of the maximum bet: small ones detect small deficits
 
 
-def images_to_be_sure(rate: float) -> int:
+def images_to_prove(rate: float) -> int:
     """Return how many images, all of them read, prove a rate in percent; 0 if too many are needed.
 
     The lower end of the interval of n images is n / (n + z^2).
@@ -54,32 +54,32 @@ def images_to_be_sure(rate: float) -> int:
     fraction = rate / 100.0
     if fraction >= 1.0:
         return 0
-    least = math.floor(fraction * TWO_SIDED**2 / (1.0 - fraction)) + 1
+    least = math.floor(fraction * TWO_SIDED_DEVIATE**2 / (1.0 - fraction)) + 1
     return least if least <= MOST_IMAGES else 0
 
 
-def images_about_an_end(rate: float) -> int:
+def estimate_end_images(rate: float) -> int:
     """Return the usual number of images that the confidence interval of an end takes."""
-    sure = images_to_be_sure(rate)
-    return sure and sure + _ROUNDS * len(_PARTS) * PICTURES
+    images = images_to_prove(rate)
+    return images and images + _ROUNDS * len(_PARTS) * PICTURES
 
 
-def pairs_of(found: WorkingRange) -> list[tuple[RangeEnd, RangeEnd]]:
+def pair_ends(result: WorkingRange) -> list[tuple[RangeEnd, RangeEnd]]:
     """Return each end of a range's intervals, paired with the opposite end of its interval."""
     return [
         pair
-        for each in found.intervals
+        for each in result.intervals
         for pair in ((each.lowest, each.highest), (each.highest, each.lowest))
     ]
 
 
-def replace_ends(found: WorkingRange, ends: Sequence[RangeEnd]) -> WorkingRange:
-    """Return a range with its ends replaced, in the order of :func:`pairs_of`."""
+def replace_ends(result: WorkingRange, ends: Sequence[RangeEnd]) -> WorkingRange:
+    """Return a range with its ends replaced, in the order of :func:`pair_ends`."""
     intervals = starmap(ReadInterval, zip(ends[::2], ends[1::2], strict=True))
-    return replace(found, intervals=tuple(intervals))
+    return replace(result, intervals=tuple(intervals))
 
 
-def sure_end(
+def confirm_end(
     scene: Scene,
     name: str,
     rate: float,
@@ -87,25 +87,25 @@ def sure_end(
     ends: tuple[RangeEnd, RangeEnd],
     heartbeat: Heartbeat,
 ) -> RangeEnd:
-    """Find a surely read and a surely failing value about the first end, and its interval."""
+    """Find values about the first end that are read and fail with confidence, and its interval."""
     end, other = ends
-    images = images_to_be_sure(rate)
+    images = images_to_prove(rate)
     if not images or end.fails is None or not end.is_bisected:
         return end
-    own = replace(settings, images=max(images, settings.images))
-    pictures = _PicturesAboutEnd(scene, name, own, heartbeat)
+    confirmation_settings = replace(settings, images=max(images, settings.images))
+    pictures = _PicturesAboutEnd(scene, name, confirmation_settings, heartbeat)
     inside = _find_inside(pictures, end.value, other.value)
     fails = _find_outside(pictures, end.value, end.fails, rate)
-    known = replace(end, inside=inside, fails=fails)
+    confirmed = replace(end, inside=inside, fails=fails)
     if inside is None:
-        return known
-    return replace(known, interval=_find_interval(pictures, rate, inside.value, fails.value))
+        return confirmed
+    return replace(confirmed, interval=_find_interval(pictures, rate, inside.value, fails.value))
 
 
 class _PicturesAboutEnd:
-    """What is read in pictures at values about an end, with another seed for each value.
+    """Correct bits in pictures at values about an end, with another seed for each value.
 
-    Pictures of the same seed start at the same parts of a packet, and would be lost together.
+    Pictures with the same seed start at the same parts of a packet, and would be lost together.
     """
 
     def __init__(
@@ -115,21 +115,23 @@ class _PicturesAboutEnd:
         self.most = settings.images
         self._scene, self._name = scene, name
         self._settings, self._heartbeat = settings, heartbeat
-        self._at: dict[float, ImageCounts] = {}
+        self._counts_by_value: dict[float, ImageCounts] = {}
 
     def take(self, value: float) -> ImageCounts:
         """Return the numbers of correct bits in the pictures at a value."""
-        if value not in self._at:
-            own = replace(self._settings, seed=_seed_at(value, self._settings.seed))
-            coming = right_bits_at(self._scene, self._name, value, own, self._heartbeat)
-            self._at[value] = ImageCounts(coming)
-        return self._at[value]
+        if value not in self._counts_by_value:
+            settings_at_value = replace(self._settings, seed=_seed_at(value, self._settings.seed))
+            right_bits = right_bits_at(
+                self._scene, self._name, value, settings_at_value, self._heartbeat
+            )
+            self._counts_by_value[value] = ImageCounts(right_bits)
+        return self._counts_by_value[value]
 
     def lost_fractions(self) -> dict[float, list[float]]:
         """Return the fraction of bits lost in each picture, by value."""
         return {
-            value: [1.0 - right / self.bits for right in images.seen]
-            for value, images in self._at.items()
+            value: [1.0 - right / self.bits for right in images.counts]
+            for value, images in self._counts_by_value.items()
         }
 
 
@@ -142,9 +144,9 @@ def _find_inside(pictures: _PicturesAboutEnd, end: float, other: float) -> Trial
     value, step = end, END_RATIO
     while value != other:
         value, step = move_towards(value, other, step), step * step
-        read = list(takewhile(lambda right: right == pictures.bits, pictures.take(value)))
-        if len(read) == pictures.most:
-            return trial_of(value, read, pictures.bits)
+        counts = list(takewhile(lambda right: right == pictures.bits, pictures.take(value)))
+        if len(counts) == pictures.most:
+            return trial_of(value, counts, pictures.bits)
     return None
 
 
@@ -156,7 +158,7 @@ def _find_outside(pictures: _PicturesAboutEnd, end: float, fails: Trial, rate: f
         if high / low <= END_RATIO * END_RATIO or value in (low, high):
             return fails
         refuting = count_until_refuted(
-            islice(pictures.take(value), OUTSIDE), pictures.bits, rate / 100.0
+            islice(pictures.take(value), MOST_IMAGES_OUTSIDE), pictures.bits, rate / 100.0
         )
         trial = refuting and trial_of(value, refuting, pictures.bits)
         if not trial or trial.high >= rate:
@@ -182,19 +184,22 @@ def _interpolate(first: float, last: float, part: float) -> float:
 
 
 def count_until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
-    """Count correct bits until they reject that the fraction ``least`` is read; else None.
+    """Return counts of correct bits until they refute the fraction ``least``; None if none do.
 
-    A bet on each image that less is read, at odds that are fair if the fraction is reached, ever
-    multiplies its first stake by c with a probability of at most 1 / c (J. Ville, *Etude critique
-    de la notion de collectif*, 1939). The test therefore holds although its own result ends it.
+    A bet on each image that fewer bits are read, at fair odds if the fraction is reached,
+    multiplies its initial stake by c at some time with a probability of at most 1 / c (J. Ville,
+    *Etude critique de la notion de collectif*, 1939). The test therefore holds although it stops at
+    its own result.
     """
-    wealth, seen = [1.0] * len(_STAKES), []
+    wealth, refuting = [1.0] * len(_STAKES), []
     for right in counts:
-        seen.append(right)
-        won = (least - right / bits) / (1.0 - least)
-        wealth = [had * (1.0 + stake * won) for had, stake in zip(wealth, _STAKES, strict=True)]
+        refuting.append(right)
+        gain = (least - right / bits) / (1.0 - least)
+        wealth = [
+            share * (1.0 + stake * gain) for share, stake in zip(wealth, _STAKES, strict=True)
+        ]
         if sum(wealth) * _REFUTING_PROBABILITY >= len(_STAKES):
-            return seen
+            return refuting
     return None
 
 
@@ -215,44 +220,52 @@ def interval_of_end(
     """
     direction = math.copysign(1.0, outside - inside)
     span = abs(math.log(outside / inside))
-    tried = direction * np.log(np.array(list(lost)) / inside)
-    each = np.concatenate([np.asarray(part, dtype=float) for part in lost.values()])
-    of_one = float((each**2).sum() / each.sum()) if each.any() else 1.0
+    log_distances = direction * np.log(np.array(list(lost)) / inside)
+    fractions = np.concatenate([np.asarray(part, dtype=float) for part in lost.values()])
+    typical_fraction = float((fractions**2).sum() / fractions.sum()) if fractions.any() else 1.0
     pictures = np.array([float(len(part)) for part in lost.values()])
-    gone = np.array([math.fsum(part) for part in lost.values()]) / of_one
+    pictures_lost = np.array([math.fsum(part) for part in lost.values()]) / typical_fraction
     ends = np.linspace(0.0, span, _ENDS)
     likelihood = _likelihoods(
-        tried - ends[:, None], pictures, np.minimum(gone, pictures),
-        min((1.0 - rate / 100.0) / of_one, _MAX_LOST_FRACTION), span,
+        log_distances - ends[:, None], pictures, np.minimum(pictures_lost, pictures),
+        min((1.0 - rate / 100.0) / typical_fraction, _MAX_LOST_FRACTION), span,
     )  # fmt: skip
     ratio = 2.0 * (likelihood.max() - likelihood)
-    kept = np.flatnonzero(ratio <= _student_deviate(int(np.count_nonzero(each))) ** 2)
+    accepted = np.flatnonzero(ratio <= _student_deviate(int(np.count_nonzero(fractions))) ** 2)
     # One step outwards, because the limit of the interval lies between two ends that were tried.
-    first, last = ends[max(kept[0] - 1, 0)], ends[min(kept[-1] + 1, _ENDS - 1)]
+    first, last = ends[max(accepted[0] - 1, 0)], ends[min(accepted[-1] + 1, _ENDS - 1)]
     return inside * math.exp(direction * first), inside * math.exp(direction * last)
 
 
 def _likelihoods(
-    beyond: FloatArray, pictures: FloatArray, gone: FloatArray, fraction: float, span: float
+    log_distances: FloatArray,
+    pictures: FloatArray,
+    pictures_lost: FloatArray,
+    fraction: float,
+    span: float,
 ) -> FloatArray:
     """Return the logarithm of each end's maximum likelihood.
 
-    ``beyond``, shape (ends, values): logarithmic distance of each value from each end. ``gone``:
-    lost pictures at each value. ``fraction``: fraction of the pictures that are lost at the end.
+    ``log_distances``, shape (ends, values): of each value from each end. ``pictures_lost``: at each
+    value. ``fraction``: fraction of the pictures that are lost at the end.
     """
-    at_end = math.log(fraction / (1.0 - fraction))
-    scaled = np.geomspace(_FLATTEST, _STEEPEST, _SLOPES)[:, None] / span * beyond[:, None]
-    best = np.full(len(beyond), -np.inf)
+    log_odds_at_end = math.log(fraction / (1.0 - fraction))
+    scaled = np.geomspace(_FLATTEST, _STEEPEST, _SLOPES)[:, None] / span * log_distances[:, None]
+    best = np.full(len(log_distances), -np.inf)
     for power in _POWERS:
-        grown = scaled
+        increase = scaled
         if math.isfinite(power):
             with np.errstate(divide="ignore"):
-                grown = power * np.log(np.maximum(1.0 + scaled / power, 0.0))
-        kept = -np.logaddexp(0.0, at_end + grown)
+                increase = power * np.log(np.maximum(1.0 + scaled / power, 0.0))
+        log_read = -np.logaddexp(0.0, log_odds_at_end + increase)
         with np.errstate(invalid="ignore"):  # no picture is lost where none can be
-            of_gone = np.where(gone > 0.0, gone * (at_end + grown + kept), 0.0)
-        found = (of_gone + (pictures - gone) * kept).sum(axis=2).max(axis=1)
-        best = np.maximum(best, found)
+            log_likelihood_lost = np.where(
+                pictures_lost > 0.0, pictures_lost * (log_odds_at_end + increase + log_read), 0.0
+            )
+        likelihoods = (
+            (log_likelihood_lost + (pictures - pictures_lost) * log_read).sum(axis=2).max(axis=1)
+        )
+        best = np.maximum(best, likelihoods)
     return best
 
 

@@ -1,7 +1,7 @@
 """Compute the limits of reading that follow from single equations, for comparison.
 
 They ignore noise and decoders. They mark where the character of the picture changes, not where
-reading stops: a matched decoder reads far beyond the null. Those of chips refuse other lights.
+reading stops: a matched decoder reads far beyond the null. Limits of chips refuse other lights.
 """
 
 import math
@@ -33,7 +33,7 @@ def band_model_frequency(scene: Scene) -> float:
 def null_frequency(scene: Scene) -> float:
     """Return the frequency in Hz at which an alternating pattern has no stripes: f = 2/t.
 
-    An exposure of t = 2 t_LED collects the same light whenever it starts. This is the first null of
+    An exposure of t = 2 t_LED collects the same light for any start. This is the first null of
     sinc(t f / 2), the exposure's response to the square wave's fundamental f/2.
     """
     check_code(scene.transmitter, _ASK_BARS)
@@ -44,7 +44,7 @@ def alternating_swing(scene: Scene) -> float:
     """Return the fraction of its full swing that alternating light keeps in the columns.
 
     It is 1 up to an exposure of one chip. In longer ones whole pairs of chips give the same light
-    whenever they start, and only the remainder t mod 2 t_LED swings: min(c mod 2, 2 - c mod 2) / c
+    for any start, and only the remainder t mod 2 t_LED swings: min(c mod 2, 2 - c mod 2) / c
     with c = t / t_LED.
     """
     check_code(scene.transmitter, _ASK_BARS)
@@ -71,11 +71,11 @@ def two_packets_frequency(scene: Scene) -> float | None:
 
     The readout of the columns that show the panel takes t_r times their number, and two packets of
     L chips last 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers. A packet
-    and a header can therefore suffice, but only two packets do wherever a packet starts.
+    and a header can therefore suffice, but only two packets do so for any start of a packet.
     """
     check_code(scene.transmitter)
-    seen = panel_readout_time(scene)
-    return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
+    readout = panel_readout_time(scene)
+    return 2.0 * len(sent_chips(scene.transmitter)) / readout if readout else None
 
 
 def row_rate_frequency(scene: Scene) -> float:
@@ -96,23 +96,27 @@ def gaussian_rate_bound(
     light's power spectrum S water-filled: mu - N_0 / sinc^2(F t) where that is above 0, its
     integral the light's power (R. G. Gallager, Information Theory and Reliable Communication, 1968,
     section 8.3). fps N t_r is the fraction of time in which columns are read out; light in the gaps
-    is not seen. A lamp with two levels and a limited switching frequency carries less.
+    is lost. A lamp with two levels and a limited switching frequency carries less.
     ``signal_to_noise``: the variance of the light divided by that of a column's noise.
     """
     camera = scene.camera
     half_rate = row_rate_frequency(scene)
-    # In the middle of each bin, because nothing passes at a null itself.
-    frequency = (np.arange(_BOUND_BINS) + 0.5) * (half_rate / _BOUND_BINS)
-    passed = np.sinc(frequency * camera.exposure_time) ** 2
+    # The middles of bins, because no light is transmitted at a null itself.
+    frequencies = (np.arange(_BOUND_BINS) + 0.5) * (half_rate / _BOUND_BINS)
+    transmitted = np.sinc(frequencies * camera.exposure_time) ** 2
     noise = 1.0 / half_rate  # of variance 1
-    levels = np.sort(noise / np.maximum(passed, np.finfo(float).tiny))
-    # For the k best frequencies: the level to which the whole power fills them.
-    count = np.arange(1, _BOUND_BINS + 1)
-    filled = (signal_to_noise * _BOUND_BINS / half_rate + np.cumsum(levels)) / count
-    used = int(np.count_nonzero(filled > levels))
-    gained = float(np.log2(filled[used - 1] / levels[:used]).sum()) if used else 0.0
+    noise_levels = np.sort(noise / np.maximum(transmitted, np.finfo(float).tiny))
+    # The level to which the whole power fills the k best frequencies, for each k.
+    counts = np.arange(1, _BOUND_BINS + 1)
+    fill_levels = (signal_to_noise * _BOUND_BINS / half_rate + np.cumsum(noise_levels)) / counts
+    channels = int(np.count_nonzero(fill_levels > noise_levels))
+    bits = (
+        float(np.log2(fill_levels[channels - 1] / noise_levels[:channels]).sum())
+        if channels
+        else 0.0
+    )
     seconds = frames_a_second * camera.columns * camera.readout_time
-    return gained * half_rate / _BOUND_BINS * seconds
+    return bits * half_rate / _BOUND_BINS * seconds
 
 
 def saturation_exposure(scene: Scene) -> float:

@@ -2,14 +2,14 @@
 
 Only this parameter is varied, over the range of its slider, which is widened to include the scene's
 own value and shortened where a decoder would take too long. A coarse search tries values that
-differ by a factor ``STEP``. The success rate need not fall steadily: at low frequencies too few
-packets fit into the picture, and beyond a null the stripes come back. The answer is therefore a
+differ by a factor ``STEP``. The success rate need not fall monotonically: at low frequencies too
+few packets fit into the picture, and beyond a null the stripes come back. The answer is therefore a
 list of intervals, and a gap narrower than a step can be missed. The outermost ends, and those of
 the interval that contains the scene's own value or is nearest to it, are bisected to a factor
 ``END_RATIO``; the other ends are known to within a step of the coarse search.
 
-Most images are simulated where the rate is uncertain. A value fails as soon as so many bits are
-wrong that further images cannot reach the rate, and is accepted after ``FEW_IMAGES`` that reach it.
+Most images are simulated where the rate is uncertain. A value fails as soon as further images
+cannot reach the rate, and is accepted after ``FEW_IMAGES`` that reach it.
 Values on both sides of an end are then tried with images of another seed, which were not used to
 choose them. An end that these images contradict is moved until the value beyond it fails with
 confidence: its 95 % interval lies below the rate. No image is simulated twice. The confidence of
@@ -53,7 +53,7 @@ def working_range(
     return replace(found, faults=str(faults))
 
 
-def expected_images(images: int) -> int:
+def estimate_range_images(images: int) -> int:
     """Return the usual number of images of a search, from which its progress is estimated."""
     coarse = 25 * FEW_IMAGES + 15 + images
     ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(END_RATIO))) * FEW_IMAGES + 8 * images
@@ -72,17 +72,17 @@ class ImageCounts:
     """The numbers of bits read correctly in the images at a value, computed once, on demand."""
 
     def __init__(self, images: Iterator[int]) -> None:
-        self._coming = images
-        self.seen: list[int] = []
+        self._remaining = images
+        self.counts: list[int] = []
 
     def __iter__(self) -> Iterator[int]:
-        for place in count():
-            if place == len(self.seen):
-                following = next(self._coming, None)
-                if following is None:
+        for index in count():
+            if index == len(self.counts):
+                next_count = next(self._remaining, None)
+                if next_count is None:
                     return
-                self.seen.append(following)
-            yield self.seen[place]
+                self.counts.append(next_count)
+            yield self.counts[index]
 
 
 class _RangeSearch:
@@ -104,24 +104,24 @@ class _RangeSearch:
         parameter = PARAMETERS[name]
         assert isinstance(parameter, Quantity)  # noqa: S101 - both searched parameters are
         self._parameter = parameter
-        self._own = float(scene.value(name))
+        self._scene_value = float(scene.value(name))
         self._bits = scene.transmitter.payload_length
         low, high = parameter.slider
         chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
         longest = decoder_named(settings.decoders[0]).searched_chips
-        slow = float(f"{self._own * longest / chips:.4g}")
-        self._most_chips = max(longest, chips) if max(slow, self._own) < high else None
+        slow = float(f"{self._scene_value * longest / chips:.4g}")
+        self._most_chips = max(longest, chips) if max(slow, self._scene_value) < high else None
         high = min(high, slow)
-        self._low, self._high = min(low, self._own), max(high, self._own)
+        self._low, self._high = min(low, self._scene_value), max(high, self._scene_value)
         self._values = self._coarse_values()
-        self._fresh = replace(settings, seed=other_seed(settings.seed))
+        self._confirmation_settings = replace(settings, seed=derive_seed(settings.seed))
         self._images: dict[tuple[float, int], ImageCounts] = {}
         self._refuted: set[int] = set()
 
     def working_range(self) -> WorkingRange:
         values = self._values
         searched = (values[0], values[-1])
-        own = self._try_all_images(self._own, self._settings)
+        own = self._try_all_images(self._scene_value, self._settings)
         while True:
             runs = self._find_runs()
             intervals = [self._find_interval(run, runs) for run in runs]
@@ -138,23 +138,23 @@ class _RangeSearch:
     def _find_runs(self) -> list[tuple[int, int]]:
         """Return the indices of the first and the last coarse value of each interval."""
         runs: list[tuple[int, int]] = []
-        for place, value in enumerate(self._values):
-            if place in self._refuted or not self._is_read(self._try(value)):
+        for index, value in enumerate(self._values):
+            if index in self._refuted or not self._is_read(self._try(value)):
                 continue
-            if runs and runs[-1][1] == place - 1:
-                runs[-1] = (runs[-1][0], place)
+            if runs and runs[-1][1] == index - 1:
+                runs[-1] = (runs[-1][0], index)
             else:
-                runs.append((place, place))
+                runs.append((index, index))
         return runs
 
     def _find_interval(
         self, run: tuple[int, int], runs: list[tuple[int, int]]
     ) -> ReadInterval | None:
-        """Return an interval; None, and note it, if one of its ends is refuted."""
+        """Return an interval; None if one of its ends is refuted, which is noted."""
         first, last = run
-        is_own = run == min(runs, key=self._distance_from_own)
-        lowest = self._find_end(first, first - 1, is_own or run == runs[0])
-        highest = self._find_end(last, last + 1, is_own or run == runs[-1])
+        is_nearest = run == min(runs, key=self._distance_from_scene)
+        lowest = self._find_end(first, first - 1, is_nearest or run == runs[0])
+        highest = self._find_end(last, last + 1, is_nearest or run == runs[-1])
         if lowest is None or highest is None:
             return None
         return ReadInterval(*(
@@ -164,83 +164,88 @@ class _RangeSearch:
             for end in (lowest, highest)
         ))  # fmt: skip
 
-    def _distance_from_own(self, run: tuple[int, int]) -> float:
+    def _distance_from_scene(self, run: tuple[int, int]) -> float:
         """Return an interval's distance from the scene's own value, as a logarithm."""
-        low, high = (math.log(self._values[place] / self._own) for place in run)
+        low, high = (math.log(self._values[index] / self._scene_value) for index in run)
         return max(low, -high, 0.0)
 
     def _coarse_values(self) -> list[float]:
         """Return values at equal ratios from the scene's own value to both ends of the range."""
         down = self._steps_towards(self._low)
-        return [*reversed(down), self._own, *self._steps_towards(self._high)]
+        return [*reversed(down), self._scene_value, *self._steps_towards(self._high)]
 
     def _steps_towards(self, end: float) -> list[float]:
-        steps = math.ceil(abs(math.log(end / self._own)) / math.log(STEP))
+        steps = math.ceil(abs(math.log(end / self._scene_value)) / math.log(STEP))
         if not steps:
             return []
-        between = np.geomspace(self._own, end, steps + 1)[1:-1]
+        between = np.geomspace(self._scene_value, end, steps + 1)[1:-1]
         # Few digits, so that a reported value can be typed in again.
         return [*(float(f"{value:.5g}") for value in between.tolist()), end]
 
-    def _find_end(self, place: int, beyond: int, is_wanted: bool) -> RangeEnd | None:
-        """Find the end next to the outermost coarse value that is read; None if that is refuted."""
-        works = first = self._values[place]
-        fails = outer = self._values[beyond] if 0 <= beyond < len(self._values) else None
-        if fails is not None and is_wanted:
-            works, fails = self._bisect(works, fails)
-        confirmed = self._confirm(works, first)
-        if confirmed is None:
-            self._refuted.add(place)
+    def _find_end(self, index: int, index_outside: int, is_bisected: bool) -> RangeEnd | None:
+        """Find the end next to the outermost coarse value that is read; None if it is refuted."""
+        inside = inner = self._values[index]
+        outside = outermost = (
+            self._values[index_outside] if 0 <= index_outside < len(self._values) else None
+        )
+        if outside is not None and is_bisected:
+            inside, outside = self._bisect(inside, outside)
+        confirmation = self._confirm(inside, inner)
+        if confirmation is None:
+            self._refuted.add(index)
             return None
-        trial, failing = confirmed
+        trial, outer_trial = confirmation
         if (
-            fails is not None
-            and outer is not None
-            and (failing is None or not self._surely_fails(failing))
+            outside is not None
+            and outermost is not None
+            and (outer_trial is None or not self._fails_with_confidence(outer_trial))
         ):
-            failing = self._find_failing(fails, self._find_last_unread(beyond, beyond - place))
-        if failing is None:
+            outer_trial = self._find_failing(
+                outside, self._find_last_unread(index_outside, index_outside - index)
+            )
+        if outer_trial is None:
             return RangeEnd(trial, None, trial if trial.whole == trial.images else None)
-        return RangeEnd(trial, failing, is_bisected=is_wanted)
+        return RangeEnd(trial, outer_trial, is_bisected=is_bisected)
 
-    def _find_last_unread(self, place: int, direction: int) -> float:
-        """Return the last coarse value of a gap, searched in a direction from one of its values."""
+    def _find_last_unread(self, index: int, direction: int) -> float:
+        """Return the last coarse value of a gap in a direction from one of its values."""
         while (
-            0 <= place + direction < len(self._values)
-            and not self._is_read(self._try(self._values[place + direction]))
+            0 <= index + direction < len(self._values)
+            and not self._is_read(self._try(self._values[index + direction]))
         ):  # fmt: skip
-            place += direction
-        return self._values[place]
+            index += direction
+        return self._values[index]
 
-    def _bisect(self, works: float, fails: float) -> tuple[float, float]:
+    def _bisect(self, inside: float, outside: float) -> tuple[float, float]:
         """Bisect, by ratio, between a value that is read and one that is not."""
-        first, enough = works, FEW_IMAGES
+        start, images = inside, FEW_IMAGES
         while True:
-            while max(works, fails) / min(works, fails) > END_RATIO:
-                middle = float(f"{math.sqrt(works * fails):.5g}")
-                if middle in (works, fails):
+            while max(inside, outside) / min(inside, outside) > END_RATIO:
+                middle = float(f"{math.sqrt(inside * outside):.5g}")
+                if middle in (inside, outside):
                     break
-                reads = self._is_read(self._try(middle, enough))
-                works, fails = (middle, fails) if reads else (works, middle)
-            if works == first or self._is_read(self._try(works, self._settings.images)):
-                return works, fails
-            # Where the rate falls slowly a few images mislead: repeat the bisection with all
-            # images.
-            works, fails, enough = first, works, self._settings.images
+                is_read = self._is_read(self._try(middle, images))
+                inside, outside = (middle, outside) if is_read else (inside, middle)
+            if inside == start or self._is_read(self._try(inside, self._settings.images)):
+                return inside, outside
+            # Where the rate falls slowly, few images mislead: repeat with all images.
+            inside, outside, images = start, inside, self._settings.images
 
-    def _confirm(self, works: float, inner: float) -> tuple[Trial, Trial | None] | None:
-        """Return the nearest value that is read in new images too, and the last one refuted."""
+    def _confirm(self, inside: float, inner: float) -> tuple[Trial, Trial | None] | None:
+        """Return the nearest value that new images confirm, and the last one that they refute."""
         refuted, step = None, END_RATIO
         while True:
-            trial = self._try(works, self._settings.images, self._fresh)
+            trial = self._try(inside, self._settings.images, self._confirmation_settings)
             if self._is_read(trial):
-                return trial, refuted and self._try_all_images(refuted.value, self._fresh)
-            if works == inner:
+                return trial, refuted and self._try_all_images(
+                    refuted.value, self._confirmation_settings
+                )
+            if inside == inner:
                 return None
             refuted = trial
-            works, step = move_towards(works, inner, step), step * step
+            inside, step = move_towards(inside, inner, step), step * step
 
-    def _find_failing(self, fails: float, outer: float) -> Trial:
+    def _find_failing(self, value: float, end: float) -> Trial:
         """Return the nearest value beyond an end that fails with confidence in new images.
 
         If none does up to the end of the gap, return that end, with the images that were used to
@@ -248,19 +253,19 @@ class _RangeSearch:
         """
         step = END_RATIO
         while True:
-            trial = self._try_all_images(fails, self._fresh)
-            if self._surely_fails(trial):
+            trial = self._try_all_images(value, self._confirmation_settings)
+            if self._fails_with_confidence(trial):
                 return trial
-            if fails == outer:
+            if value == end:
                 return (
                     trial
                     if not self._is_read(trial)
-                    else self._try_all_images(fails, self._settings)
+                    else self._try_all_images(value, self._settings)
                 )
-            fails, step = move_towards(fails, outer, step), step * step
+            value, step = move_towards(value, end, step), step * step
 
     def _try_all_images(self, value: float, settings: RateSettings) -> Trial:
-        """Return a trial of all images: the interval does not hold for a count that stops early."""
+        """Return a trial of all images, because no interval holds for a count that stops early."""
         return trial_of(value, list(self._take_images(value, settings)), self._bits)
 
     def _try(
@@ -271,10 +276,10 @@ class _RangeSearch:
         counts: list[int] = []
         for right in self._take_images(value, settings or self._settings):
             counts.append(right)
-            read, all_right = len(counts), sum(counts)
-            if 100.0 * (all_right + (images - read) * bits) < self._rate * images * bits:
+            image_count, right_bits = len(counts), sum(counts)
+            if 100.0 * (right_bits + (images - image_count) * bits) < self._rate * images * bits:
                 break
-            if read >= enough and 100.0 * all_right >= self._rate * read * bits:
+            if image_count >= enough and 100.0 * right_bits >= self._rate * image_count * bits:
                 break
         return trial_of(value, counts, self._bits)
 
@@ -289,7 +294,7 @@ class _RangeSearch:
     def _is_read(self, trial: Trial) -> bool:
         return 100.0 * trial.right >= self._rate * trial.sent
 
-    def _surely_fails(self, trial: Trial) -> bool:
+    def _fails_with_confidence(self, trial: Trial) -> bool:
         return trial.high < self._rate
 
     def _describe_failure(self, searched: tuple[float, float], best: Trial) -> str:
@@ -302,12 +307,12 @@ class _RangeSearch:
 
 
 def move_towards(value: float, end: float, ratio: float) -> float:
-    """Move a value towards an end by a ratio, and no further than the end."""
+    """Move a value towards an end by a ratio, but not beyond the end."""
     moved = value * ratio if end > value else value / ratio
     moved = float(f"{moved:.5g}")
     return end if (moved - end) * (value - end) <= 0.0 else moved
 
 
-def other_seed(seed: int) -> int:
+def derive_seed(seed: int) -> int:
     """Return the seed of images that are independent of those of a seed."""
     return int(np.random.SeedSequence([seed, 1]).generate_state(1)[0])

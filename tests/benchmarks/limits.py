@@ -24,7 +24,7 @@ from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.simulation.noise import NoiseSpread
 from occ_model.study import theory
-from occ_model.study.limits import SEARCHED
+from occ_model.study.limits import SEARCHED_PARAMETERS
 from occ_model.study.working_range import working_range
 
 COLUMNS = (
@@ -44,7 +44,7 @@ def line(preset: str, decoder: str) -> str:
     """Search for the limits of a decoder and write them as a line of the table."""
     scene, settings = occ.load_preset(preset), RateSettings(IMAGES, (decoder,), SEED)
     start = time.process_time()
-    ranges = [working_range(scene, name, RATE, settings) for name in SEARCHED]
+    ranges = [working_range(scene, name, RATE, settings) for name in SEARCHED_PARAMETERS]
     seconds = time.process_time() - start
     found = Limits(scene, decoder, RATE, IMAGES, SEED, *ranges)
     cells = [preset, decoder, *(cell for each in ranges for cell in range_cells(each))]

@@ -15,8 +15,8 @@ from occ_model.study.paper_grid import (
     DEVICES,
     DISTANCES,
     FREQUENCIES,
+    find_detection_limit,
     grid_request,
-    last_and_first_unread,
 )
 from occ_model.study.sweep.sweep import run_sweep
 from occ_model.transmitter.framings.paper import HEADER
@@ -74,7 +74,7 @@ def test_twice_the_exposure_is_read_up_to_the_papers_limit(preset: str, last: fl
 @pytest.mark.parametrize(("preset", "paper"), [("phone-136us", 14e3), ("tablet-122us", 16e3)])
 def test_the_papers_frequency_is_the_last_step_that_is_read(preset: str, paper: float) -> None:
     table = grid(preset, "threshold")
-    assert last_and_first_unread(table, "threshold") == (paper, paper + 2e3)
+    assert find_detection_limit(table, "threshold") == (paper, paper + 2e3)
     assert detection_sentence(preset, table) == (
         f"{preset}: of the frequencies tried, {paper / 1e3:.0f} kHz is the last that is read at "
         f"some distance, {paper / 1e3 + 2:.0f} kHz the first at none"
@@ -97,7 +97,7 @@ def test_a_real_lens_ends_detection_where_the_experiment_ended(preset: str, last
 
 @pytest.mark.parametrize("preset", ["phone-68us", "tablet-61us"])
 def test_detection_goes_on_to_20_khz_at_the_lowest_exposure(preset: str) -> None:
-    ends = last_and_first_unread(grid(preset, "threshold"), "threshold")
+    ends = find_detection_limit(grid(preset, "threshold"), "threshold")
     assert ends == (FREQUENCIES[-1], None)
 
 

@@ -27,7 +27,7 @@ from occ_model.scene.units import PERCENT
 from occ_model.study import theory
 from occ_model.study.cause.suspect import Attempt, Suspect
 from occ_model.study.cause.suspects import (
-    compared_bits,
+    count_comparable_bits,
     exposure_in_chips,
     suspect_darkness,
     suspect_few_chips,
@@ -49,7 +49,7 @@ def cause_of(
 ) -> Cause | None:
     """Find why a decoder does not read a scene's picture; None if it does, or no cause is found.
 
-    There is none for a raw pattern, and no search for plug-ins and pictures of very many columns.
+    No cause is sought for raw patterns, plug-ins and pictures of very many columns.
     ``heartbeat``: called before each reading. Raises ProjectionError if the scene has no picture.
     """
     is_searched = decoder in DECODERS and scene.camera.columns <= _MOST_COLUMNS
@@ -70,15 +70,17 @@ class _CauseSearch:
         self._path: SignalPath = "auto"
 
     def find(self) -> Cause | None:
-        refusal = refusal_of(self._attempt)
+        refusal = _find_refusal(self._attempt)
         if refusal is not None:
             return self._state_cause([refusal])
         if not self._is_unread():
             return None
         suspects = list_suspects(self._attempt)
-        alone = next((one for one in suspects if self._is_read_without([one])), None)
-        if alone is not None:
-            return self._state_cause([alone])
+        sufficient = next(
+            (suspect for suspect in suspects if self._is_read_without([suspect])), None
+        )
+        if sufficient is not None:
+            return self._state_cause([sufficient])
         return (
             self._state_cause(self._find_needed(suspects))
             if self._is_read_without(suspects)
@@ -101,10 +103,10 @@ class _CauseSearch:
     def _find_needed(self, suspects: Sequence[Suspect]) -> list[Suspect]:
         """Return the suspects that must be removed together, dropping the last ones first."""
         needed = list(suspects)
-        for one in reversed(suspects):
-            rest = [other for other in needed if other is not one]
-            if rest and self._is_read_without(rest):
-                needed = rest
+        for suspect in reversed(suspects):
+            others = [candidate for candidate in needed if candidate is not suspect]
+            if others and self._is_read_without(others):
+                needed = others
         return needed
 
     def _state_cause(self, needed: Sequence[Suspect]) -> Cause:
@@ -112,9 +114,9 @@ class _CauseSearch:
         why = first.why
         if others:
             why += f" In addition: {', '.join(one.what for one in others)}."
-        rest = self._remove(others)
-        remedy = next((s for s in first.remedies if rest and self._is_read(rest.apply(s))), None)
-        return Cause(first.what, why, remedy, first.is_overexposed)
+        attempt = self._remove(others)
+        helps = (each for each in first.remedies if attempt and self._is_read(attempt.apply(each)))
+        return Cause(first.what, why, next(helps, None), first.is_overexposed)
 
     def _is_read_without(self, suspects: Sequence[Suspect]) -> bool:
         attempt = self._remove(suspects)
@@ -125,7 +127,7 @@ class _CauseSearch:
         attempt = self._attempt
         try:
             for suspect in suspects:
-                attempt = suspect.take_out(attempt)
+                attempt = suspect.remove(attempt)
         except OccError:
             return None
         return attempt
@@ -142,66 +144,68 @@ class _CauseSearch:
             random = np.random.default_rng(settings.seed)
             if self._path == "image":
                 span = None
-            seen = observe(paper_view_of(scene), span, plan, random, self._path)
+            observation = observe(paper_view_of(scene), span, plan, random, self._path)
         except OccError:
             return False
-        if seen is None:
+        if observation is None:
             return False
-        result = seen.read(scene, attempt.decoder)
+        result = observation.read(scene, attempt.decoder)
         sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
         return result.failure is None and bool(np.array_equal(result.bits, sent))
 
 
-_FULL_WELL = "full-well"  # name of the effect by which full pixels are overexposed
+_FULL_WELL = "full-well"  # name of the effect that limits the electrons of a pixel
 _MILD_EXPOSURE = 1.8  # exposure in chips up to which decoders usually read
 
 
-def refusal_of(attempt: Attempt) -> Suspect | None:
-    """Return why a decoder cannot read the scene, whatever the picture shows; None if it can."""
+def _find_refusal(attempt: Attempt) -> Suspect | None:
+    """Return what prevents reading whatever the picture shows; None if nothing does."""
     scene = attempt.scene
     try:
         check_code(scene.transmitter)
     except ParameterError as refusal:
         remedy = Remedy("Send a code", {"light": "code"})
-        return Suspect("no code is sent", str(refusal), lambda one: one, (remedy,))
+        return Suspect("no code is sent", str(refusal), lambda other: other, (remedy,))
     if not theory.panel_readout_time(scene):
-        is_there = theory.is_panel_in_picture(scene)
+        is_in_picture = theory.is_panel_in_picture(scene)
         what = (
-            "the panel is smaller than a pixel" if is_there else "the panel is out of the picture"
+            "the panel is smaller than a pixel"
+            if is_in_picture
+            else "the panel is out of the picture"
         )
-        return Suspect(what, "No column shows it.", lambda one: one)
-    bits, compared = scheme_of(scene.transmitter).bits, compared_bits(scene)
-    if attempt.decoder != "matched" or bits <= compared:
+        return Suspect(what, "No column shows it.", lambda other: other)
+    bits, comparable = scheme_of(scene.transmitter).bits, count_comparable_bits(scene)
+    if attempt.decoder != "matched" or bits <= comparable:
         return None
     return Suspect(
         "too many bits to compare",
-        f"The matched decoder compares all payloads, of up to {compared} bits; this has {bits}.",
-        lambda one: replace(one, decoder="sequence"),
+        f"The matched decoder compares all payloads, of up to {comparable} bits; this has {bits}.",
+        lambda other: replace(other, decoder="sequence"),
         (Remedy("Try the sequence decoder", decoder="sequence"),),
     )
 
 
 def list_suspects(attempt: Attempt) -> list[Suspect]:
-    """List what may be wrong in a scene: light first, and last what is often harmless."""
+    """List what may be wrong in a scene: first the light, last what is often harmless."""
     scene = attempt.scene
-    enhanced, exposed, effects = (
+    enhancement, exposure, effects = (
         _suspect_enhancement(scene),
         suspect_long_exposure(scene),
         _effects_by_name(attempt),
     )
     is_mild = exposure_in_chips(scene) < _MILD_EXPOSURE
-    # These decoders are made to undo the exposure.
-    undoes = attempt.decoder in ("equalizer", "sequence")
-    found = [
+    # These decoders are designed to undo the exposure.
+    undoes_exposure = attempt.decoder in ("equalizer", "sequence")
+    suspects = [
         suspect_overexposure(scene, full_pixels=_FULL_WELL in effects), suspect_darkness(scene),
         suspect_other_light(scene), _suspect_small_panel(scene), suspect_narrow_chips(scene),
-        suspect_few_chips(attempt), enhanced if undoes else None,
-        None if is_mild else exposed,
-        *(_suspect_effect(one) for name, one in effects.items() if name != _FULL_WELL),
-        exposed if is_mild else None, suspect_few_columns(scene),
-        None if undoes else enhanced,
+        suspect_few_chips(attempt), enhancement if undoes_exposure else None,
+        None if is_mild else exposure,
+        *(_suspect_effect(effect) for name, effect in effects.items() if name != _FULL_WELL),
+        exposure if is_mild else None, suspect_few_columns(scene),
+        None if undoes_exposure else enhancement,
     ]  # fmt: skip
-    return [one for one in found if one is not None]
+    return [suspect for suspect in suspects if suspect is not None]
 
 
 def _effects_by_name(attempt: Attempt) -> dict[str, Effect]:
@@ -216,9 +220,9 @@ def _effects_by_name(attempt: Attempt) -> dict[str, Effect]:
 
 
 def _suspect_effect(effect: Effect) -> Suspect:
-    def switch_off(one: Attempt) -> Attempt:
-        force = {**one.settings.force, effect.name: False}
-        return replace(one, settings=replace(one.settings, force=force))
+    def switch_off(attempt: Attempt) -> Attempt:
+        force = {**attempt.settings.force, effect.name: False}
+        return replace(attempt, settings=replace(attempt.settings, force=force))
 
     return Suspect(
         in_sentence(effect.label), "Without this effect the code would be read.", switch_off
@@ -226,22 +230,22 @@ def _suspect_effect(effect: Effect) -> Suspect:
 
 
 def _suspect_small_panel(scene: Scene) -> Suspect | None:
-    """Suspect a panel that covers less of the picture than the receiver marks."""
+    """Suspect a panel that covers less of the picture than the receiver marks as bright."""
     camera = scene.camera
     panel = region_of(panel_corners(scene), camera.rows, camera.columns)
     if panel is None:
         return None
     fraction = panel.rows * panel.columns / (camera.rows * camera.columns)
-    wanted = scene.receiver.bright_fraction
-    if fraction >= wanted:
+    marked = scene.receiver.bright_fraction
+    if fraction >= marked:
         return None
     value = max(float(f"{0.5 * fraction:.2g}"), quantity("bright_fraction").low)
     return Suspect(
         "the panel is not found",
-        f"The receiver marks the brightest {PERCENT.format(wanted, 3)} of the pixels, but the "
+        f"The receiver marks the brightest {PERCENT.format(marked, 3)} of the pixels, but the "
         f"panel covers {PERCENT.format(fraction, 2)} of the picture: pixels beside it are marked "
         "as well.",
-        lambda one: one.change(bright_fraction=value),
+        lambda attempt: attempt.change(bright_fraction=value),
         (Remedy(f"Mark the brightest {PERCENT.format(value, 2)}", {"bright_fraction": value}),),
     )
 
@@ -253,6 +257,6 @@ def _suspect_enhancement(scene: Scene) -> Suspect | None:
     return Suspect(
         f"enhanced by {enhancement}",
         "Enhanced levels say less about the light; without enhancement the code would be read.",
-        lambda one: one.change(enhancement="none"),
+        lambda attempt: attempt.change(enhancement="none"),
         (Remedy("Turn off enhancement", {"enhancement": "none"}),),
     )

@@ -36,7 +36,7 @@ class Attempt:
 class Suspect:
     what: str  # A few words that can end a title
     why: str  # A sentence with facts about the scene
-    # Removes it, and leaves all else unchanged as far as possible
-    take_out: Callable[[Attempt], Attempt]
-    remedies: tuple[Remedy, ...] = ()  # Remedies; the first that helps is offered
+    # Removes the suspect, and leaves all else unchanged as far as possible
+    remove: Callable[[Attempt], Attempt]
+    remedies: tuple[Remedy, ...] = ()  # The first that helps is offered
     is_overexposed: bool = False

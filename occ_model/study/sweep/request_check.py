@@ -31,11 +31,11 @@ def build_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRe
         )
     if len(axes) > MOST_AXES:
         raise ParameterError(f"{len(axes)} parameters are varied; allowed: at most {MOST_AXES}.")
-    checked: dict[str, tuple[ParameterValue, ...]] = {}
+    checked_axes: dict[str, tuple[ParameterValue, ...]] = {}
     for name, values in axes.items():
-        checked[str(name)] = _check_axis(name, values)
-        check_points(checked)
-    return SweepRequest(scene, checked, settings)
+        checked_axes[str(name)] = _check_axis(name, values)
+        check_points(checked_axes)
+    return SweepRequest(scene, checked_axes, settings)
 
 
 def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
@@ -74,10 +74,10 @@ def decoders_of(decoder: object) -> tuple[str, ...]:
 def _check_axis(name: str, values: object) -> tuple[ParameterValue, ...]:
     parameter = parameter_named(name)
     if name == "pattern":
-        raise ParameterError("pattern cannot be varied: a raw pattern holds no code to be read.")
+        raise ParameterError("pattern cannot be varied: a raw pattern has no code to be read.")
     if not parameter.is_of("code"):
         raise ParameterError(
-            f"{name} cannot be varied: it is of the light {parameter.lights[0]}, which holds no "
+            f"{name} cannot be varied: it belongs to the light {parameter.lights[0]}, which has no "
             "code to be read.",
             parameters=(name,),
         )
@@ -85,17 +85,17 @@ def _check_axis(name: str, values: object) -> tuple[ParameterValue, ...]:
         raise parameter.refuse(
             f"varies over {shown(values)}", f"a list of values, {parameter.allowed}"
         )
-    checked: dict[ParameterValue, None] = {}
+    distinct_values: dict[ParameterValue, None] = {}
     for value in values:
-        own = parameter.check(value)
+        checked_value = parameter.check(value)
         if isinstance(parameter, Choice):
-            own = str(own)  # strings of an array are not plain ones
-        if own in checked:
-            text = parameter.format(own)  # type: ignore[arg-type]
+            checked_value = str(checked_value)  # strings of an array are not plain ones
+        if checked_value in distinct_values:
+            text = parameter.format(checked_value)  # type: ignore[arg-type]
             raise parameter.refuse(f"is {text} twice", "values that differ")
-        checked[own] = None
-        if len(checked) > MOST_POINTS:  # for example an endless iterator
+        distinct_values[checked_value] = None
+        if len(distinct_values) > MOST_POINTS:  # for example from an endless iterator
             raise parameter.refuse("has too many values", f"at most {MOST_POINTS:,}")
-    if not checked:
+    if not distinct_values:
         raise parameter.refuse("has no values to vary over", f"one or more, {parameter.allowed}")
-    return tuple(checked)
+    return tuple(distinct_values)

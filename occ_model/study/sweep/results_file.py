@@ -32,7 +32,7 @@ Point = TypeVar("Point", bound=Indexed)
 class TableText(Protocol[Point]):
     """The text form of a study's points."""
 
-    what: str  # name of the study, such as a sweep
+    study_name: str  # such as "sweep"
 
     title: str  # start of the header of every such table
 
@@ -64,10 +64,11 @@ class ResultsFile(Generic[Point]):
         self._path = path
         self._name = one_line(str(path))
         self._table = table
+        self._study_name = table.study_name
         self._header = table.header.encode("utf-8")
-        self._in_order = True
-        self._last = -1
-        self._synced = monotonic()
+        self._is_in_order = True
+        self._last_index = -1
+        self._sync_time = monotonic()
 
     def __enter__(self) -> Self:
         self._file = self._open_locked()
@@ -98,7 +99,7 @@ class ResultsFile(Generic[Point]):
             if lock(file) is False:
                 file.close()
                 raise OutputError(
-                    f"{self._name} is being written by another {self._table.what}; wait for it, or "
+                    f"{self._name} is being written by another {self._study_name}; wait for it, or "
                     "name another file."
                 )
             with suppress(FileNotFoundError):
@@ -108,25 +109,27 @@ class ResultsFile(Generic[Point]):
 
     def _check_header(self) -> None:
         """Refuse a file with other contents; complete the header of a file that was just begun."""
-        there = self._file.read(len(self._header))
-        if there == self._header:
+        content = self._file.read(len(self._header))
+        if content == self._header:
             return
-        if self._header.startswith(there):
+        if self._header.startswith(content):
             self._file.seek(0)
             self._write(self._header, keep=0)
             return
-        if not there.startswith(self._table.title.encode("utf-8")):
+        if not content.startswith(self._table.title.encode("utf-8")):
             raise OutputError(
-                f"{self._name} contains no results of a {self._table.what}; name another file."
+                f"{self._name} contains no results of a {self._study_name}; name another file."
             )
-        wanted = self._header.decode("utf-8").splitlines()
-        found = there.decode("utf-8", errors="replace").splitlines()
-        last = len(found) - 1  # may be cut, since only as many bytes as this header has were read
-        for place, (mine, other) in enumerate(zip(wanted, found, strict=False)):
-            if mine != other and not (place == last and mine.startswith(other)):
+        expected_lines = self._header.decode("utf-8").splitlines()
+        file_lines = content.decode("utf-8", errors="replace").splitlines()
+        last = (
+            len(file_lines) - 1
+        )  # may be cut, since only as many bytes as this header has were read
+        for index, (own_line, line) in enumerate(zip(expected_lines, file_lines, strict=False)):
+            if own_line != line and not (index == last and own_line.startswith(line)):
                 raise OutputError(
-                    f"{self._name} contains the results of another {self._table.what}: it says "
-                    f"{shown(_shorten(other))} where this one has {shown(_shorten(mine))}; name "
+                    f"{self._name} contains the results of another {self._study_name}: it says "
+                    f"{shown(_shorten(line))} where this one has {shown(_shorten(own_line))}; name "
                     "another file."
                 )
         raise OutputError(f"{self._name} was changed by another program; name another file.")
@@ -134,10 +137,10 @@ class ResultsFile(Generic[Point]):
     def read_points(self) -> Iterator[Point]:
         """Read the points in the file before any is appended; cut off an incomplete last one."""
         height = self._table.lines_a_point
-        seen = bytearray(self._table.point_count)
-        whole, line_number = len(self._header), self._header.count(b"\n")
+        is_read = bytearray(self._table.point_count)
+        end, line_number = len(self._header), self._header.count(b"\n")
         with open(self._file.fileno(), "rb", closefd=False) as buffered:
-            buffered.seek(whole)
+            buffered.seek(end)
             while True:
                 rows = (buffered.readline(_LONGEST_LINE) for _ in range(height))
                 lines = [line for line in rows if line]
@@ -153,33 +156,33 @@ class ResultsFile(Generic[Point]):
                         f"{self._name}, {impossible} Correct or remove the line, or name another "
                         "file."
                     ) from None
-                if point is None or seen[point.index] or self._text(point) != text:
+                if point is None or is_read[point.index] or self._text(point) != text:
                     raise OutputError(
                         f"Line {line_number + 1} of {self._name} is not a new row of this "
-                        f"{self._table.what}; correct or remove it, or name another file."
+                        f"{self._study_name}; correct or remove it, or name another file."
                     )
-                seen[point.index] = 1
-                whole, line_number = whole + len(text), line_number + height
+                is_read[point.index] = 1
+                end, line_number = end + len(text), line_number + height
                 self._note_order(point)
                 yield point
         try:
-            self._file.truncate(whole)
+            self._file.truncate(end)
         except OSError as error:
             raise self._unwritable(error) from None
-        self._file.seek(whole)
+        self._file.seek(end)
 
     def append(self, point: Point) -> None:
         self._note_order(point)
         self._write(self._text(point), keep=self._file.tell())
 
     def finish(self, lines: Iterable[str]) -> None:
-        """Rewrite the complete table in the order of the axes, unless it already is."""
+        """Rewrite the complete table in the order of the axes, unless it has this order."""
         try:
             os.fsync(self._file.fileno())
         except OSError as error:
             raise self._unwritable(error) from None
-        if not self._in_order:
-            # Without space for a second file the first one stays, which is as complete.
+        if not self._is_in_order:
+            # Without space for a second file the first one remains, which is complete, too.
             with suppress(OutputError):
                 write_whole(self._path, "".join(lines).encode("utf-8"))
 
@@ -187,18 +190,18 @@ class ResultsFile(Generic[Point]):
         return self._table.text(point).encode("utf-8")
 
     def _note_order(self, point: Point) -> None:
-        self._in_order &= point.index > self._last
-        self._last = point.index
+        self._is_in_order &= point.index > self._last_index
+        self._last_index = point.index
 
     def _write(self, text: bytes, keep: int) -> None:
         """Write at the end; if that fails, cut the file back to its length before."""
         try:
-            left = memoryview(text)
-            while left:
-                left = left[os.write(self._file.fileno(), left) :]
-            if monotonic() - self._synced > _SYNC_SECONDS:
+            remaining = memoryview(text)
+            while remaining:
+                remaining = remaining[os.write(self._file.fileno(), remaining) :]
+            if monotonic() - self._sync_time > _SYNC_SECONDS:
                 os.fsync(self._file.fileno())
-                self._synced = monotonic()
+                self._sync_time = monotonic()
         except OSError as error:
             # If this fails too, the incomplete line is cut off when the study is continued.
             with suppress(OSError):

@@ -59,25 +59,25 @@ def measure_point(
 ) -> SweepPoint:
     """Measure one point; a refusal of the model or a plug-in's faults become its note."""
     try:
-        at = scene.replace(**values)
-        check_rate(at, settings)
+        point_scene = scene.replace(**values)
+        check_rate(point_scene, settings)
         with Faults().counting() as faults:
-            right, whole = count_right_and_whole(at, settings, heartbeat)
+            right, whole = count_right_and_whole(point_scene, settings, heartbeat)
     except OccError as refusal:
-        none = (0,) * len(settings.decoders)
-        return SweepPoint(index, 0, none, join_lines(str(refusal)), none)
-    sent = settings.images * at.transmitter.payload_length
-    return SweepPoint(index, sent, right, join_lines(str(faults)), whole)
+        no_counts = (0,) * len(settings.decoders)
+        return SweepPoint(index, 0, no_counts, join_lines(str(refusal)), no_counts)
+    sent_bits = settings.images * point_scene.transmitter.payload_length
+    return SweepPoint(index, sent_bits, right, join_lines(str(faults)), whole)
 
 
 def measure_points(
     scene: Scene, settings: RateSettings, points: Iterable[PointValues], heartbeat: Heartbeat
 ) -> MeasuredPoints:
     start = perf_counter()
-    found = tuple(
+    results = tuple(
         measure_point(scene, settings, index, values, heartbeat) for index, values in points
     )
-    return MeasuredPoints(found, settings.images, perf_counter() - start)
+    return MeasuredPoints(results, settings.images, perf_counter() - start)
 
 
 def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:
@@ -97,7 +97,7 @@ class SweepCounts:
         self._ends = np.zeros((request.point_count, decoders, 2))
         self._notes: dict[int, str] = {}
 
-    def enter(self, point: SweepPoint) -> None:
+    def add(self, point: SweepPoint) -> None:
         self._sent[point.index] = point.sent
         self._right[point.index] = point.right
         self._whole[point.index] = point.whole
@@ -201,7 +201,7 @@ def run_sweep(
     """
     counts = SweepCounts(request)
     measure_study(
-        work_of(request), _SweepText(request), request.in_order_of_work(), counts.enter,
+        work_of(request), _SweepText(request), request.in_order_of_work(), counts.add,
         lambda: counts.table().csv(),
         executor=executor, jobs=jobs, progress=progress, results=results,
     )  # fmt: skip
@@ -216,12 +216,12 @@ def work_of(request: SweepRequest) -> StudyWork[SweepPoint]:
     return StudyWork("sweep", measure_points, arguments)
 
 
-def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
+def measure_study(  # noqa: PLR0913 - the study, and how it is measured
     work: StudyWork[Point],
     table: TableText[Point],
     order: Iterable[int],
-    enter: Callable[[Point], object],
-    whole: Callable[[], Iterable[str]],
+    add_point: Callable[[Point], object],
+    all_lines: Callable[[], Iterable[str]],
     *,
     executor: Executor | None,
     jobs: int,
@@ -230,8 +230,8 @@ def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
 ) -> None:
     """Measure the points of a study that its results file does not contain yet, in a given order.
 
-    ``enter``: called with each point, including those of the file. ``whole``: returns the lines of
-    all points in the order of the study. For the other arguments see :func:`run_sweep`.
+    ``add_point``: called with each point, including those of the file. ``all_lines``: returns the
+    lines of all points in the order of the study. For the other arguments see :func:`run_sweep`.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     reporter, is_measured = SweepProgress(table.point_count, progress), bytearray(table.point_count)
@@ -242,24 +242,24 @@ def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
         if file is not None:
             for point in file.read_points():
                 is_measured[point.index] = True
-                enter(point)
+                add_point(point)
             reporter.start(sum(is_measured))
-        todo = (index for index in order if not is_measured[index])
+        indices_left = (index for index in order if not is_measured[index])
         jobs = processes_for(jobs, table.point_count - sum(is_measured))
-        points = measure_anywhere(work, todo, executor, jobs, reporter.report_if_due)
-        # Closed here in every case, because workers that are not closed would go on.
+        points = measure_anywhere(work, indices_left, executor, jobs, reporter.report_if_due)
+        # Always closed here, because workers that are not closed would continue.
         stack.enter_context(closing(points))
         for point in points:
             if file is not None:
                 file.append(point)
-            enter(point)
+            add_point(point)
             reporter.count_point()
         if file is not None:
-            file.finish(whole())
+            file.finish(all_lines())
 
 
 class _SweepText:
-    what, title = "sweep", TITLE
+    study_name, title = "sweep", TITLE
 
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
@@ -279,11 +279,11 @@ class SweepProgress:
         self._progress = progress
         self._total = total
         self._done = self._from_file = 0
-        self._started = self._reported = perf_counter()
+        self._start_time = self._report_time = perf_counter()
 
     def start(self, from_file: int) -> None:
         self._done = self._from_file = from_file
-        self._started = self._reported = perf_counter()
+        self._start_time = self._report_time = perf_counter()
         if from_file:
             self._report()
 
@@ -293,13 +293,15 @@ class SweepProgress:
 
     def report_if_due(self) -> None:
         """Report the progress again if the last report was long ago."""
-        if perf_counter() - self._reported >= REPORT_PERIOD:
+        if perf_counter() - self._report_time >= REPORT_PERIOD:
             self._report()
 
     def _report(self) -> None:
-        self._reported = perf_counter()
+        self._report_time = perf_counter()
         if self._progress is None:
             return
-        measured = self._done - self._from_file
-        each = (self._reported - self._started) / measured if measured else math.nan
-        self._progress(self._done, self._total, each * (self._total - self._done))
+        point_count = self._done - self._from_file
+        seconds_a_point = (
+            (self._report_time - self._start_time) / point_count if point_count else math.nan
+        )
+        self._progress(self._done, self._total, seconds_a_point * (self._total - self._done))

@@ -30,7 +30,7 @@ _UNKNOWN_WORKERS = 32  # assumed for an executor that does not give the number
 class StudyWork(Generic[Point]):
     """The points of a study as jobs."""
 
-    what: str  # Name of the study, such as a sweep
+    study_name: str  # Such as "sweep"
     # The function of a job, called with its arguments and a heartbeat; returns an object with the
     # ``points`` and the ``seconds`` that they took. A worker process imports its module
     function: Callable[..., Any]
@@ -72,8 +72,7 @@ class GivenExecutor:
 
     def renew(self) -> None:
         """Cancel the jobs that have not begun."""
-        # A breaking executor ends its futures one by one; cancelling one in the meantime confuses
-        # it.
+        # A breaking executor ends its futures one by one, and fails if one is cancelled meanwhile.
         wait(list(self._futures), timeout=_WAIT)
         for future in list(self._futures):
             future.cancel()
@@ -85,28 +84,28 @@ class GivenExecutor:
 
 def measure_anywhere(
     work: StudyWork[Point],
-    todo: Iterator[int],
+    indices: Iterator[int],
     executor: Executor | None,
     jobs: int,
     heartbeat: Heartbeat,
 ) -> Generator[Point, None, None]:
     """Measure points by an executor, by a number of processes, or in this process."""
     if executor is not None:
-        return measure_by(GivenExecutor(executor), work, todo, heartbeat)
+        return measure_by(GivenExecutor(executor), work, indices, heartbeat)
     if jobs > 1:
         # Imported here because the import takes time.
         from occ_model.parallel.process_pool import ProcessPool
 
         try:
-            return measure_by(ProcessPool(jobs, work.function.__module__), work, todo, heartbeat)
+            return measure_by(ProcessPool(jobs, work.function.__module__), work, indices, heartbeat)
         except NO_PROCESSES as error:
             warnings.warn(
                 f"No processes can be started ({one_line(str(error))}); this one does the "
-                f"{work.what} alone.",
+                f"{work.study_name} alone.",
                 RuntimeWarning,
                 stacklevel=3,
             )
-    return work.measure_here(todo, heartbeat)
+    return work.measure_here(indices, heartbeat)
 
 
 def measure_by(
@@ -117,28 +116,29 @@ def measure_by(
     A limited number of jobs is in progress at a time. If workers die, their points are measured
     again by new ones or here, since a point does not depend on other points.
     """
-    sent: dict[int, None] = {}
+    unfinished: dict[int, None] = {}
     seconds_a_point = 0.0
 
     def jobs() -> Iterator[Job]:
         # One point per job until the time of a point is known.
-        while chosen := tuple(
+        while indices_of_job := tuple(
             islice(indices, max(1, int(_JOB_SECONDS / seconds_a_point)) if seconds_a_point else 1)
         ):
-            sent.update(dict.fromkeys(chosen))
-            yield work.job(chosen)
+            unfinished.update(dict.fromkeys(indices_of_job))
+            yield work.job(indices_of_job)
 
     try:
         with closing(results_of(jobs(), lambda: workers, heartbeat)) as results:
             for result in results:
                 seconds_a_point = result.seconds / len(result.points)
                 for point in result.points:
-                    del sent[point.index]
+                    del unfinished[point.index]
                 yield from result.points
     except WorkersLostError as error:
         warnings.warn(
-            f"The {work.what}'s workers are gone ({error.reason}); this process finishes it alone.",
+            f"The {work.study_name}'s workers are gone ({error.reason}); this process finishes it "
+            "alone.",
             RuntimeWarning,
             stacklevel=2,
         )
-    yield from work.measure_here(chain(sent, indices), heartbeat)
+    yield from work.measure_here(chain(unfinished, indices), heartbeat)

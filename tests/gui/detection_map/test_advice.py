@@ -210,7 +210,7 @@ def test_a_refusal_of_the_model_is_shown(
     advice_bench.scenes.change(pattern="1100")
     advice_bench.view.advice.again.click()
     qtbot.waitUntil(lambda: advice_bench.pane.advisor.channel.is_idle)
-    assert "A raw pattern holds no code" in advice_bench.view.advice.state.toolTip()
+    assert "A raw pattern has no code" in advice_bench.view.advice.state.toolTip()
 
 
 class EndlessWorkers(InlineWorkers):

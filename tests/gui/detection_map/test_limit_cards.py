@@ -126,7 +126,7 @@ def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
 
 
 def test_a_search_that_fails_gives_the_reason(cards: LimitCards, small_scene: Scene) -> None:
-    why = "A raw pattern holds no code; a success rate needs packets."
+    why = "A raw pattern has no code; a success rate needs packets."
     cards.show_begun()
     cards.show_ended(why)
     for card in cards.cards.values():

@@ -16,7 +16,7 @@ from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.search_controller import MostBitsController
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.scene import Scene
-from occ_model.study.most_bits import DECODERS, VARIED, reset_varied
+from occ_model.study.most_bits import DECODERS, VARIED_PARAMETERS, reset_varied
 
 LENGTHS = dict(zip(DECODERS, (112, 185, 40), strict=True))
 """Bits per picture that the fake decoders read."""
@@ -122,7 +122,7 @@ def test_go_applies_the_result_in_one_step(bench: Bench, qtbot: QtBot) -> None:
     assert bench.scenes.store.workspace.decoder == "equalizer"
     assert scene.transmitter.payload_length == LENGTHS["equalizer"]
     assert "1" in scene.transmitter.payload, "zeros alone are not typical of the payloads tried"
-    values = {name: before.value(name) for name in VARIED}
+    values = {name: before.value(name) for name in VARIED_PARAMETERS}
     assert scene.replace(**values) == before
     assert bench.card.go.isEnabled(), "the result does not depend on the values that it sets"
     bench.scenes.undo_stack.undo()

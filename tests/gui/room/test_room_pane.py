@@ -304,8 +304,8 @@ def test_the_error_of_a_map_is_written_without_an_exponent(
     same_picture: None, pane: RoomPane, metres: float, text: str
 ) -> None:
     point = RoomPoint(
-        index=0, shown=4, named=4, misread=0, wrong=0, sure_places=1, error=metres,
-        stated=metres, note="",
+        index=0, whole=4, named=4, misread=0, named_wrongly=0, sure_places=1, error=metres,
+        stated_error=metres, note="",
     )  # fmt: skip
     pane.view.show_map(FloorMap(RoomMapRequest(ROOM, (0.0,), (0.0,)), (point,)))
     assert pane.view.floor.text().endswith(f"Median error: {text}.")

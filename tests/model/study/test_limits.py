@@ -24,12 +24,12 @@ from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.limits import advice_of
 from occ_model.study.observation import panel_span
 from occ_model.study.sure_ends import (
-    OUTSIDE,
+    MOST_IMAGES_OUTSIDE,
     PICTURES,
+    confirm_end,
     count_until_refuted,
-    images_to_be_sure,
-    pairs_of,
-    sure_end,
+    images_to_prove,
+    pair_ends,
 )
 from occ_model.study.working_range import END_RATIO, FEW_IMAGES, STEP
 
@@ -172,7 +172,7 @@ def test_an_end_rests_on_reproducible_success_rates() -> None:
     range_end = search_range(scene, images=2, seed=5).highest
     for trial in (range_end.works, range_end.fails):
         at = scene.replace(switching_frequency=trial.value)
-        assert occ.success_rate(at, 2, seed=module.other_seed(5)) == trial.rate
+        assert occ.success_rate(at, 2, seed=module.derive_seed(5)) == trial.rate
         assert (trial.low, trial.high) == interval_of_pictures(trial.right, trial.sent, 2)
     assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
@@ -237,7 +237,7 @@ def test_few_images_suffice_if_the_rate_falls_abruptly(decoding: Decoding) -> No
     images = list(omit_own_frequency(read).values())
     # All images at each end: the coarse value, the end with both seeds, and the value beyond.
     assert images.count(20) <= 8
-    sure = images_to_be_sure(99.0)
+    sure = images_to_prove(99.0)
     assert {*images} <= {1, FEW_IMAGES, PICTURES, 20, sure}
     assert images.count(sure) == 2
 
@@ -303,13 +303,13 @@ def test_advice_contains_both_ends_found_and_the_limits_of_theory(decoding: Deco
 
 @pytest.mark.parametrize("rate", [50.0, 90.0, 99.0, 99.5])
 def test_no_more_images_are_requested_than_prove_a_rate(rate: float) -> None:
-    images = images_to_be_sure(rate)
+    images = images_to_prove(rate)
     assert interval_of_pictures(images, images, images)[0] >= rate
     assert interval_of_pictures(images - 1, images - 1, images - 1)[0] < rate
 
 
 def test_no_number_of_images_proves_that_all_are_read(decoding: Decoding) -> None:
-    assert (images_to_be_sure(100.0), images_to_be_sure(99.9)) == (0, 0)
+    assert (images_to_prove(100.0), images_to_prove(99.9)) == (0, 0)
     decoding(correct_within((0.0, 20e3)))
     range_end = occ.limits(SCENE, rate=100.0).frequency.highest
     assert (range_end.inside, range_end.interval) == (None, None)
@@ -333,8 +333,8 @@ def test_the_stated_interval_of_an_end_contains_it(decoding: Decoding) -> None:
     for seed in range(amount(80, 200)):
         settings = RateSettings(20, ("threshold",), seed)
         along = module.working_range(SCENE, "switching_frequency", 99.0, settings)
-        highest = pairs_of(along)[-1]
-        found.append(sure_end(SCENE, along.parameter, 99.0, settings, highest, lambda: None))
+        highest = pair_ends(along)[-1]
+        found.append(confirm_end(SCENE, along.parameter, 99.0, settings, highest, lambda: None))
     intervals = [end.interval for end in found if end.interval is not None]
     assert len(intervals) >= 0.99 * len(found)
     held = sum(low <= 10e3 <= high for low, high in intervals)
@@ -356,7 +356,10 @@ def test_a_rate_that_is_reached_is_rejected_in_at_most_one_of_forty_studies() ->
 
     def count_refuting_images(rate: float, studies: int) -> list[int]:
         """Return how many images each study took that rejects 99 %."""
-        read = (np.where(random.random(OUTSIDE) < rate, 10, 0).tolist() for _ in range(studies))
+        read = (
+            np.where(random.random(MOST_IMAGES_OUTSIDE) < rate, 10, 0).tolist()
+            for _ in range(studies)
+        )
         found = [count_until_refuted(counts, 10, 0.99) for counts in read]
         return [len(one) for one in found if one is not None]
 

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.study.most_bits import VARIED, list_candidates, make_example, reset_varied
+from occ_model.study.most_bits import VARIED_PARAMETERS, list_candidates, make_example, reset_varied
 
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
 
@@ -27,7 +27,7 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     assert found.bits_a_second == 20.0 * length
     assert found.scene.camera == FAR.camera
     assert occ.bit_error_rate(found.scene, "threshold", 2 * length).rate < 0.5
-    chosen = {name: found.scene.value(name) for name in VARIED}
+    chosen = {name: found.scene.value(name) for name in VARIED_PARAMETERS}
     assert FAR.replace(**chosen) == found.scene
     assert reset_varied(found.scene) == reset_varied(FAR)
     example = make_example(found)

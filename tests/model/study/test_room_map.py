@@ -27,12 +27,12 @@ from occ_model.transmitter.scheme import sent_chips
 def test_a_place_counts_what_its_picture_shows_which_is_nothing_far_away() -> None:
     request = RoomMapRequest(small_room(), (0.6, 40.0), (0.6,), images=2)
     near, far = room_map(request)
-    assert near.shown == 8
+    assert near.whole == 8
     assert near.named == 8
     assert near.wrong == 0
     assert near.sure_places == 2
-    assert near.error < 6.0 * near.stated < 0.2
-    assert (far.shown, far.named, far.sure_places) == (0, 0, 0)
+    assert near.error < 6.0 * near.stated_error < 0.2
+    assert (far.whole, far.named, far.sure_places) == (0, 0, 0)
     assert math.isnan(far.error)
     assert far.note.startswith("No lamp was found")
 
@@ -51,7 +51,7 @@ def test_a_lamp_given_another_ones_name_is_counted_as_wrong(
     )
     monkeypatch.setattr(study, "read_room", lambda image, _room: occ.read_room(image, other))
     (point,) = room_map(RoomMapRequest(room, (0.6,), (0.6,)))
-    assert (point.shown, point.named, point.misread, point.wrong) == (4, 0, 0, 4)
+    assert (point.whole, point.named, point.misread, point.named_wrongly) == (4, 0, 0, 4)
 
 
 def test_cut_lamps_do_not_count_as_whole_lamps_named() -> None:
@@ -62,7 +62,7 @@ def test_cut_lamps_do_not_count_as_whole_lamps_named() -> None:
     read = occ.read_room(frame.camera_image, frame.room)
     whole = sum(not one.is_cut for one in frame.lamps)
     assert sum(lamp.name is not None for lamp in read.lamps) > whole
-    assert point.named <= point.shown == 2 * whole
+    assert point.named <= point.whole == 2 * whole
 
 
 def test_a_code_that_no_lamp_at_the_place_sends_is_counted_as_misread(
@@ -77,7 +77,7 @@ def test_a_code_that_no_lamp_at_the_place_sends_is_counted_as_misread(
         lambda *_, **__: dataclasses.replace(frame, lamps=occ.render_room(room).lamps),
     )
     (point,) = room_map(RoomMapRequest(room, (0.6,), (0.6,)))
-    assert (point.shown, point.named, point.misread, point.wrong) == (1, 0, 1, 0)
+    assert (point.whole, point.named, point.misread, point.named_wrongly) == (1, 0, 1, 0)
 
 
 def test_a_killed_map_is_continued_with_the_same_result(tmp_path: Path) -> None:
@@ -187,7 +187,7 @@ def test_a_place_without_a_picture_has_no_whole_lamp() -> None:
     (point,) = room_map(request)
     (found,) = code_lengths(request, 64, (6,))
     assert "partly behind the camera" in point.note
-    assert (found.whole, found.packets) == (point.shown, 0.0) == (0, 0.0)
+    assert (found.whole, found.packets) == (point.whole, 0.0) == (0, 0.0)
 
 
 def test_code_lengths_do_not_depend_on_what_the_lamps_send_now() -> None:

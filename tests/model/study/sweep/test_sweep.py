@@ -94,7 +94,7 @@ def test_a_refused_sweep_leaves_no_file_of_results(scene: Scene, tmp_path: Path)
 
 
 def test_a_scene_with_a_raw_pattern_is_refused(scene: Scene) -> None:
-    with pytest.raises(occ.ParameterError, match="A raw pattern holds no code"):
+    with pytest.raises(occ.ParameterError, match="A raw pattern has no code"):
         occ.sweep(scene.replace(pattern="01"), AXES)
 
 

@@ -19,9 +19,9 @@ def check_answer(
 ) -> CheckedAnswer:
     """Check an answer that a student typed against the model's value.
 
-    The value is that of the scene shown, of the question's scene while nothing has been changed (a
+    The value is that of ``scene``, of the question's scene if nothing has been changed (a
     prediction), or of the ``match`` if the step is about the student's own photo. If the question
-    names values and the student has set others, the answer is not judged before these are set. A
+    names values and the student has set others, the answer is judged only after these are set. A
     wrong answer does not reveal the value.
     """
     text = text.strip()
@@ -33,65 +33,65 @@ def check_answer(
         return CheckedAnswer(
             text, None, "Match the photo first: your answer is compared with the match."
         )
-    own = match if step.own_photo else None
+    own_match = match if step.own_photo else None
     scene = check.scene if scene is None else step.scene_to_judge(scene)
-    first = "" if own else _name_unset_values(check, scene)
-    if first:
-        return CheckedAnswer(text, None, first)
+    instruction = "" if own_match else _name_unset_values(check, scene)
+    if instruction:
+        return CheckedAnswer(text, None, instruction)
     try:
-        expected = quantity.compute(scene, own or step.photo)
+        model_value = quantity.compute(scene, own_match or step.photo)
     except OccError as error:
         return CheckedAnswer(text, None, f"This cannot be checked. {error}")
-    plain = quantity.unit.factor(quantity.asked_in) or 1.0
-    given = quantity.unit.parse(text, plain)
-    if given is None or not math.isfinite(given):
+    default_factor = quantity.unit.factor(quantity.asked_in) or 1.0
+    answer = quantity.unit.parse(text, default_factor)
+    if answer is None or not math.isfinite(answer):
         hint = f" in {quantity.asked_in}" if quantity.asked_in else ""
         return CheckedAnswer(text, "unreadable", f"“{one_line(text, 40)}” is not a number{hint}.")
-    difference = abs(given - expected) / abs(expected) if expected else abs(given)
+    difference = abs(answer - model_value) / abs(model_value) if model_value else abs(answer)
     if difference <= check.tolerance * (1.0 + _SAME_DIFFERENCE):
-        value = result_text(quantity.unit, expected)
-        source = "The match" if own else "The model"
+        value = result_text(quantity.unit, model_value)
+        source = "The match" if own_match else "The model"
         return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
     if quantity.called:
         return CheckedAnswer(
             text, "wrong", f"Not yet: that is not the {quantity.called}. Try again."
         )
-    side = "high" if given > expected else "low"
+    direction = "high" if answer > model_value else "low"
     if difference <= max(_NEAR_TOLERANCES * check.tolerance, _MIN_NEAR_DIFFERENCE):
-        return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look again.")
-    return CheckedAnswer(text, "wrong", f"Not yet: that is too {side}. Try again.")
+        return CheckedAnswer(text, "near", f"Close, but a little too {direction}. Look again.")
+    return CheckedAnswer(text, "wrong", f"Not yet: that is too {direction}. Try again.")
 
 
 def _name_unset_values(check: Check, scene: Scene) -> str:
     """Name the values of the question that a scene does not have; empty if it has all."""
-    differing = []
+    settings = []
     for name in check.named:
-        now, asked = scene.value(name), check.scene.value(name)
-        if isinstance(now, float) and isinstance(asked, float):
-            allowed = max(check.tolerance, _SAME_DIFFERENCE) * abs(asked)
-            is_set = abs(now - asked) <= allowed
+        present, required = scene.value(name), check.scene.value(name)
+        if isinstance(present, float) and isinstance(required, float):
+            allowed = max(check.tolerance, _SAME_DIFFERENCE) * abs(required)
+            is_set = abs(present - required) <= allowed
         else:
-            is_set = now == asked
+            is_set = present == required
         if not is_set:
-            declared = PARAMETERS[name]
-            differing.append(f"{declared.label} to {declared.format(asked)}")  # type: ignore[arg-type]
-    if not differing:
+            parameter = PARAMETERS[name]
+            settings.append(f"{parameter.label} to {parameter.format(required)}")  # type: ignore[arg-type]
+    if not settings:
         return ""
-    return f"First set {' and '.join(differing)}, as in the question."
+    return f"First set {' and '.join(settings)}, as in the question."
 
 
 _MAX_NAMED = 2
 
 
 def explanation(step: LessonStep, scene: Scene) -> str:
-    """Return a step's explanation; it names the scene of its numbers if that is another one."""
+    """Return a step's explanation, which names the scene of its numbers if it is another one."""
     if step.own_photo or scene == step.asked:
         return step.answer
     names = (name for names in GROUPS.values() for name in names)
     differing = [name for name in names if scene.value(name) != step.asked.value(name)]
-    own = ", ".join(
+    values = ", ".join(
         f"{PARAMETERS[name].label}: {PARAMETERS[name].format(step.asked.value(name)) or 'empty'}"  # type: ignore[arg-type]
         for name in differing[:_MAX_NAMED]
     )
     more = ", …" if len(differing) > _MAX_NAMED else ""
-    return f"For the lesson's own scene ({own}{more}): {step.answer}"
+    return f"For the lesson's own scene ({values}{more}): {step.answer}"

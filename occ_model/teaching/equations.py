@@ -21,16 +21,16 @@ from occ_model.scene.units import HERTZ, NIT, SECOND
 from occ_model.study.theory import alternating_swing
 from occ_model.teaching.quantities import COLUMN, result_text
 
-_LIGHT = ("luminance", "illuminance", "reflectance")
+_LIGHT_PARAMETERS = ("luminance", "illuminance", "reflectance")
 
-_LIT = {"mains": "panel at its mean light"}
+_LIT_PANELS = {"mains": "panel at its mean light"}
 
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign
 _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
 _EXPOSURE = Term("t", ("exposure_time",))
 _READOUT = Term("t<sub>r</sub>", ("readout_time",))
 
-_PERIODS = {  # of the lights that are no code: the symbols, and what they depend on
+_PERIODS = {  # of lights other than codes: the symbols, and the parameters they depend on
     "lamp": ("(1/F)", "lamp_frequency"),
     "mains": ("(1/2F)", "mains_frequency"),
     "waveform": ("(n t<sub>LED</sub>)", "levels", "switching_frequency"),
@@ -43,7 +43,7 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
 
     They are the paper's equations (1) to (3), the band lengths of the band model where the light
     has states, the columns of a chip or of a light's period, the readout time of a picture, and
-    where an alternating pattern, or the light, has no stripes.
+    where an alternating pattern, or the light, shows no stripes.
     """
     is_code = scene.transmitter.light == "code"
     return (
@@ -52,7 +52,7 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
         *_band_lengths(scene),
         _chip_columns(scene) if is_code else _period_columns(scene),
         _frame_time(scene),
-        _null(scene) if is_code else _nulls(scene),
+        _null_frequency(scene) if is_code else _null_exposures(scene),
     )
 
 
@@ -67,7 +67,7 @@ def _terms(*parts: Term | str | tuple[str, str]) -> tuple[Term, ...]:
 
 
 def _period(scene: Scene) -> tuple[Term, Term]:
-    """Return the period of a light that is no code: in symbols, and as a number."""
+    """Return the period of a light other than a code, in symbols and as a number."""
     symbols, *names = _PERIODS[scene.transmitter.light]
     if scene.transmitter.waveform_file:
         symbols, names = "T", ["waveform_file"]
@@ -75,23 +75,23 @@ def _period(scene: Scene) -> tuple[Term, Term]:
     return Term(symbols, tuple(names)), Term(number, tuple(names))
 
 
-def _state(scene: Scene) -> tuple[Term, float, str] | None:
+def _shortest_state(scene: Scene) -> tuple[Term, float, str] | None:
     """Return the light's shortest lit state, in symbols and seconds, and its name; None if steady.
 
-    That of a code is a chip, that of a blinking lamp its pulse.
+    It is a chip of a code, or the pulse of a blinking lamp.
     """
-    sent = scene.transmitter
-    lamp = None if sent.light == "code" else blinking_lamp(sent)
+    transmitter = scene.transmitter
+    lamp = None if transmitter.light == "code" else blinking_lamp(transmitter)
     if lamp is not None and 0.0 < lamp.duty < 1.0:
         symbols, *names = (
             ("D/F", "duty", "lamp_frequency")
-            if sent.light == "lamp"
+            if transmitter.light == "lamp"
             else ("t<sub>flash</sub>", "pulse_length")
         )
         return Term(symbols, tuple(names)), lamp.duty / lamp.frequency, "pulse"
-    if PARAMETERS["switching_frequency"].is_of(sent.light) and not sent.waveform_file:
+    if PARAMETERS["switching_frequency"].is_of(transmitter.light) and not transmitter.waveform_file:
         term = Term("t<sub>LED</sub>", ("switching_frequency",))
-        return term, sent.switching_period, "switching period"
+        return term, transmitter.switching_period, "switching period"
     return None
 
 
@@ -102,49 +102,54 @@ def _value(scene: Scene, name: str) -> Term:
 def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
     dark, lit = luminance_levels(scene).tolist()
     low, high = level_values(scene).tolist()
-    found = []
-    for name, source, meaning, symbol, light, depends, value in (
+    kind, pixel_equations = scene.transmitter.light, []
+    for name, source, meaning, symbol, light, dependencies, value in (
         ("lit-panel", "(1)",
-         f"Pixel value of the {_LIT.get(scene.transmitter.light, 'lit panel')}, PV<sub>max</sub>",
-         "L<sub>v</sub> + E<sub>v</sub>R/π", lit, _LIGHT, high),
+         f"Pixel value of the {_LIT_PANELS.get(kind, 'lit panel')}, PV<sub>max</sub>",
+         "L<sub>v</sub> + E<sub>v</sub>R/π", lit, _LIGHT_PARAMETERS, high),
         ("dark-panel", "(2)", "Pixel value of the dark panel, PV<sub>min</sub>",
-         "E<sub>v</sub>R/π", dark, _LIGHT[1:], low),
+         "E<sub>v</sub>R/π", dark, _LIGHT_PARAMETERS[1:], low),
     ):  # fmt: skip
         symbols = _terms(
-            "118 (", ("S", "iso"), _EXPOSURE, Term(f"({symbol})", depends), "/ (",
+            "118 (", ("S", "iso"), _EXPOSURE, Term(f"({symbol})", dependencies), "/ (",
             ("K", "meter_constant"), ("N<sup>2</sup>", "f_number"), ")",
             (")<sup>1/γ</sup>", "gamma"),  # noqa: RUF001 - the equation's own letter
         )  # fmt: skip
         numbers = _terms(
             "118 (", _value(scene, "iso"), _TIMES, _value(scene, "exposure_time"), _TIMES,
-            Term(NIT.format(light, 4), depends), "/ (", _value(scene, "meter_constant"), _TIMES,
+            Term(NIT.format(light, 4), dependencies),
+            "/ (", _value(scene, "meter_constant"), _TIMES,
             (f"{scene.camera.f_number:g}<sup>2</sup>", "f_number"), ")",
             (f")<sup>1/{scene.camera.gamma:g}</sup>", "gamma"),
         )  # fmt: skip
         message = f"{value:.1f} grey levels"
         if value > WHITE:
             message += ", brighter than white"
-        found.append(Equation(name, source, meaning, symbols, numbers, message))
-    return found[0], found[1]
+        pixel_equations.append(Equation(name, source, meaning, symbols, numbers, message))
+    return pixel_equations[0], pixel_equations[1]
 
 
 def _column_value(scene: Scene) -> Equation:
     low, high = level_values(scene).tolist()
-    light = (*_LIGHT, "iso", "f_number", "gamma", "meter_constant", "exposure_time")
+    light = (*_LIGHT_PARAMETERS, "iso", "f_number", "gamma", "meter_constant", "exposure_time")
     kind = scene.transmitter.light
-    sent = (n for n, d in Transmitter.declarations().items() if d.lights and d.is_of(kind))
-    during = (*sent, "readout_time", "exposure_time", "start_time")
-    on, off = (Term(f"t<sub>{state}</sub>", during) for state in ("on", "off"))
+    light_parameters = (
+        name
+        for name, declaration in Transmitter.declarations().items()
+        if declaration.lights and declaration.is_of(kind)
+    )
+    time_parameters = (*light_parameters, "readout_time", "exposure_time", "start_time")
+    lit_time, dark_time = (Term(f"t<sub>{state}</sub>", time_parameters) for state in ("on", "off"))
     symbols, numbers = (
-        _terms("(", Term(lit, light), on, "+", Term(dark, light), off, ") /", exposure)
+        _terms("(", Term(lit, light), lit_time, "+", Term(dark, light), dark_time, ") /", exposure)
         for lit, dark, exposure in (
             ("PV<sub>max</sub>", "PV<sub>min</sub>", _EXPOSURE),
             (f"{high:.1f}", f"{low:.1f}", _value(scene, "exposure_time")),
         )
     )
-    sends = light_of(scene.transmitter)
-    if isinstance(sends, Cosine):  # its light exceeds its mean
-        swing = sends.depth_in(Fraction(scene.camera.exposure_time)) * np.array([-1.0, 1.0])
+    sent_light = light_of(scene.transmitter)
+    if isinstance(sent_light, Cosine):  # its light exceeds its mean
+        swing = sent_light.depth_in(Fraction(scene.camera.exposure_time)) * np.array([-1.0, 1.0])
         low, high = panel_values(scene, ColumnLight(1.0 + swing, np.ones(1))).tolist()
     message = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
     if scene.model.averaging == "light":
@@ -154,7 +159,7 @@ def _column_value(scene: Scene) -> Equation:
 
 
 def _band_lengths(scene: Scene) -> tuple[Equation, ...]:
-    state = _state(scene)
+    state = _shortest_state(scene)
     if state is None:
         return ()
     symbol, length, name = state
@@ -163,9 +168,9 @@ def _band_lengths(scene: Scene) -> tuple[Equation, ...]:
     # Only the length of one state can be undefined; a transition always has a length.
     transition = result_text(COLUMN, camera.exposure_time / camera.readout_time)
     if camera.exposure_time <= length:
-        complete = result_text(COLUMN, (length - camera.exposure_time) / camera.readout_time)
+        one_state = result_text(COLUMN, (length - camera.exposure_time) / camera.readout_time)
     else:
-        complete = f"undefined: the exposure is longer than the {name}; the simulation goes on"
+        one_state = f"undefined: the exposure is longer than the {name}; the simulation goes on"
     lit = "fully lit" if name == "pulse" else "of one state"
     return (
         Equation(
@@ -174,7 +179,7 @@ def _band_lengths(scene: Scene) -> tuple[Equation, ...]:
             _terms(
                 "(", Term(SECOND.format(length), symbol.parameters), _MINUS, exposure, ") /",
                 readout,
-            ), complete,
+            ), one_state,
         ),
         Equation(
             "transition", "band model", "Columns of a transition, h<sub>t</sub>",
@@ -186,21 +191,23 @@ def _band_lengths(scene: Scene) -> tuple[Equation, ...]:
 def _chip_columns(scene: Scene) -> Equation:
     period = scene.transmitter.switching_period
     named = ("switching_frequency",)
-    return _columns_of(
+    return _columns_equation(
         scene, "a chip", Term("t<sub>LED</sub>", named), Term(SECOND.format(period), named), period
     )
 
 
 def _period_columns(scene: Scene) -> Equation:
-    """Return the columns from bar to bar; the name is that of a code's chip, as lessons know it."""
-    return _columns_of(
+    """Return the columns from bar to bar, with the name of a chip's equation that lessons use."""
+    return _columns_equation(
         scene, "the light's period", *_period(scene), float(light_period(scene.transmitter))
     )
 
 
-def _columns_of(scene: Scene, what: str, symbol: Term, number: Term, seconds: float) -> Equation:
+def _columns_equation(
+    scene: Scene, noun: str, symbol: Term, number: Term, seconds: float
+) -> Equation:
     return Equation(
-        "chip-columns", "readout", f"Columns of {what}", _terms(symbol, "/", _READOUT),
+        "chip-columns", "readout", f"Columns of {noun}", _terms(symbol, "/", _READOUT),
         _terms(number, "/", _value(scene, "readout_time")),
         result_text(COLUMN, seconds / scene.camera.readout_time),
     )  # fmt: skip
@@ -216,7 +223,7 @@ def _frame_time(scene: Scene) -> Equation:
     )  # fmt: skip
 
 
-def _null(scene: Scene) -> Equation:
+def _null_frequency(scene: Scene) -> Equation:
     exposure = scene.camera.exposure_time
     in_chips = exposure * scene.transmitter.switching_frequency
     contrast = alternating_swing(scene)
@@ -231,8 +238,8 @@ def _null(scene: Scene) -> Equation:
     )
 
 
-def _nulls(scene: Scene) -> Equation:
-    """Return the exposures of whole periods, and how many the present one has."""
+def _null_exposures(scene: Scene) -> Equation:
+    """Return the exposures of whole periods, and the number of periods in the present one."""
     symbol, number = _period(scene)
     periods = scene.camera.exposure_time / float(light_period(scene.transmitter))
     return Equation(

@@ -28,11 +28,8 @@ EQUATIONS = (  # the equations that a step can show
     "frame-time", "null",
 )  # fmt: skip
 
-ACTIONS = (
-    "transmitter",
-    "photo",
-    "match",
-)  # of a step's button: write files, open or match a photo
+# Of a step's button: write files, open or match a photo
+ACTIONS = ("transmitter", "photo", "match")
 _FOLDER, _ENDING = "lessons", ".toml"
 _TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson from which a teacher starts
 
@@ -55,14 +52,14 @@ class MistakeError(SceneFileError):
 
 def lessons() -> LoadedLessons:
     """Load the lessons of the package in order, then those of the user's own folder."""
-    own: list[Lesson] = []
+    user_lessons: list[Lesson] = []
     problems: dict[str, str] = {}
     for path in files_in(lessons_folder(), _ENDING):
         try:
-            own.append(read_lesson(path))
+            user_lessons.append(read_lesson(path))
         except OccError as error:
             problems[one_line(path.name)] = str(error)
-    return LoadedLessons((*_package_lessons(), *own), problems)
+    return LoadedLessons((*_package_lessons(), *user_lessons), problems)
 
 
 @lru_cache(maxsize=1)
@@ -79,7 +76,7 @@ def lessons_folder() -> Path:
 
 
 def begin_lessons_folder() -> Path:
-    """Make the folder of the user's own lessons; an empty one gets a lesson to start from."""
+    """Make the folder of the user's own lessons, with a template if it is empty."""
     folder = lessons_folder()
     make_folder(folder)
     if not files_in(folder, _ENDING):
@@ -93,43 +90,43 @@ def read_lesson(path: Path) -> Lesson:
 
 
 def _parse_lesson(name: str, text: str) -> Lesson:
-    where = one_line(name)
+    lesson_name = one_line(name)
     try:
         content = parse_toml(text)
     except SceneFileError as error:
-        raise SceneFileError(f"{where} is not a lesson: {error}") from None
-    place: int | None = None
+        raise SceneFileError(f"{lesson_name} is not a lesson: {error}") from None
+    step_index: int | None = None
     try:
         _check_keys(content, _LESSON_KEYS, "lesson")
         title = one_line(_get_paragraph(content, "title"))
         summary = _get_paragraph(content, "summary", "")
-        listed = content.get("step")
-        if not isinstance(listed, list) or not listed:
+        step_tables = content.get("step")
+        if not isinstance(step_tables, list) or not step_tables:
             raise MistakeError("it has no steps; begin each with [[step]].", "step")
         steps = []
-        for place, item in enumerate(listed):  # noqa: B007 - its last value places an error
+        for step_index, item in enumerate(step_tables):  # noqa: B007 - its last value locates an error
             steps.append(_parse_step(item))
         return Lesson(name, title, summary, tuple(steps), _get_switch(content, "sheet"))
     except OccError as error:
         key = error.key if isinstance(error, MistakeError) else "set"
-        line = _find_line(text, place, key)
-        raise SceneFileError(f"{where} is not a lesson: line {line}: {error}") from None
+        line = _find_line(text, step_index, key)
+        raise SceneFileError(f"{lesson_name} is not a lesson: line {line}: {error}") from None
 
 
 def _find_line(text: str, step: int | None, key: str) -> int:
-    """Find the line, from 1, of a key at the head or in a step, else that of the step itself."""
+    """Find the line, from 1, of a key of the lesson or of a step, else that of the step itself."""
     lines = text.splitlines() or [""]
-    heads = [i for i, line in enumerate(lines) if re.match(r"\s*\[\[\s*step\s*\]\]", line)]
+    step_lines = [i for i, line in enumerate(lines) if re.match(r"\s*\[\[\s*step\s*\]\]", line)]
     if step is None:
-        begin, end = 0, heads[0] if heads else len(lines)
-    elif step < len(heads):
-        begin = heads[step]
-        end = heads[step + 1] if step + 1 < len(heads) else len(lines)
+        begin, end = 0, step_lines[0] if step_lines else len(lines)
+    elif step < len(step_lines):
+        begin = step_lines[step]
+        end = step_lines[step + 1] if step + 1 < len(step_lines) else len(lines)
     else:  # steps that are not separate tables
         begin, end = 0, len(lines)
-    wanted = re.compile(rf"\s*(?:\[+\s*(?:step\s*\.\s*)?)?{re.escape(key)}\s*(?:=|\.|\])")
-    found = (i for i in range(begin, end) if key and wanted.match(lines[i]))
-    return next(found, begin) + 1
+    pattern = re.compile(rf"\s*(?:\[+\s*(?:step\s*\.\s*)?)?{re.escape(key)}\s*(?:=|\.|\])")
+    matches = (i for i in range(begin, end) if key and pattern.match(lines[i]))
+    return next(matches, begin) + 1
 
 
 def _parse_step(content: object) -> LessonStep:
@@ -161,24 +158,24 @@ def _parse_step(content: object) -> LessonStep:
 
 
 def _parse_check(content: Mapping[str, Any], scene: Scene) -> Check | None:
-    asked = content.get("check")
-    if asked is None:
+    check = content.get("check")
+    if check is None:
         return None
     try:
-        if not isinstance(asked, Mapping):
-            raise MistakeError(f"check is {shown(asked)}, not a table with a quantity.")
-        _check_keys(asked, _CHECK_KEYS, "check")
-        quantity = _get_choice(asked, "quantity", tuple(QUANTITIES))
+        if not isinstance(check, Mapping):
+            raise MistakeError(f"check is {shown(check)}, not a table with a quantity.")
+        _check_keys(check, _CHECK_KEYS, "check")
+        quantity = _get_choice(check, "quantity", tuple(QUANTITIES))
         if not quantity:
             raise MistakeError(f"check has no quantity; known are {', '.join(QUANTITIES)}.")
-        percent = asked.get("tolerance", 2)
-        number = isinstance(percent, int | float) and not isinstance(percent, bool)
-        if not number or not 0.0 <= percent <= _MAX_TOLERANCE:
+        percent = check.get("tolerance", 2)
+        is_a_number = isinstance(percent, int | float) and not isinstance(percent, bool)
+        if not is_a_number or not 0.0 <= percent <= _MAX_TOLERANCE:
             raise MistakeError(
                 f"tolerance is {shown(percent)}; allowed: 0 to {_MAX_TOLERANCE:g}, in percent."
             )
-        unit, about = QUANTITIES[quantity].asked_in, _apply_settings(scene, asked)
-        return Check(quantity, unit, percent / 100.0, about, tuple(asked.get("set", ())))
+        unit, scene_asked = QUANTITIES[quantity].asked_in, _apply_settings(scene, check)
+        return Check(quantity, unit, percent / 100.0, scene_asked, tuple(check.get("set", ())))
     except OccError as error:
         raise MistakeError(str(error), "check") from None
 
@@ -209,7 +206,7 @@ def _get_text(content: Mapping[str, Any], key: str, default: str | None = None) 
     if value is None:
         raise MistakeError(f"{key} is missing.")
     if not isinstance(value, str):
-        raise MistakeError(f"{key} is {shown(value)} in place of a text.", key)
+        raise MistakeError(f"{key} is {shown(value)}; allowed: a text.", key)
     if default is None and not value.strip():
         raise MistakeError(f"{key} is empty; allowed: a text.", key)
     return value

@@ -1,4 +1,4 @@
-"""Places of the header and the bits among the chips that are sent or received."""
+"""Locate the header and the bits among the chips that are sent or received."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ _MAX_EXCEPTIONS = 0.05  # largest fraction of columns that a level may put on th
 
 @dataclass(frozen=True, slots=True)
 class PacketField:
-    # Its first chip, and the chip after its last
+    # The index of its first chip, and of the chip after its last
     first: int
     last: int
     bit: int | None  # The number of its bit, from 0; None for the header
@@ -25,23 +25,23 @@ class PacketField:
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
     """Return the header and the bits of the packet that a scene sends, as fields of its chips.
 
-    Empty if no packet is sent, if it is anything but a header and the bits, or a bit has no chips
+    Empty if no packet is sent, if it is not a header followed by the bits, or if a bit has no chips
     of its own.
     """
-    sent = scene.transmitter
-    if sent.light != "code" or sent.pattern:
+    transmitter = scene.transmitter
+    if transmitter.light != "code" or transmitter.pattern:
         return ()
-    code = scheme_of(sent).line_code
+    code = scheme_of(transmitter).line_code
     # A plug-in's code may be slow, and the fields are needed to draw the window.
     is_known = LINE_CODES.is_built_in(code.name) and code.block_bits == 1
-    if sent.error_correction != "none" or not is_known:
+    if transmitter.error_correction != "none" or not is_known:
         return ()
-    chips, bits = sent_chips(sent), np.array(sent.payload_bits, dtype=np.uint8)
+    chips, bits = sent_chips(transmitter), np.array(transmitter.payload_bits, dtype=np.uint8)
     header = len(chips) - code.chips_for(len(bits))
     if header <= 0 or not np.array_equal(chips[header:], code.encode(bits, int(chips[header - 1]))):
         return ()
     starts = range(header, len(chips), code.block_chips)
-    data = (PacketField(at, at + code.block_chips, bit) for bit, at in enumerate(starts))
+    data = (PacketField(start, start + code.block_chips, bit) for bit, start in enumerate(starts))
     return (PacketField(0, header, None), *data)
 
 
@@ -63,9 +63,9 @@ def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ..
 
 
 def received_edges(result: DecodeResult) -> FloatArray | None:
-    """Return the columns at which received chips begin, and at which the last one ends, or None.
+    """Return the columns at which received chips begin, and last the end of the last chip; or None.
 
-    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``, and a chip that was found
+    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``, and a chip that is found
     by its columns begins and ends with them. A decoder that finds chips by their light gives the
     times at which they are sent, on an axis on which the exposure of column ``i`` begins at ``i``.
     """
@@ -78,7 +78,7 @@ def received_edges(result: DecodeResult) -> FloatArray | None:
 
 
 def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, float] | None:
-    """Return the neighbouring levels of a profile between which a decoder's threshold is.
+    """Return the neighbouring levels of a profile between which a decoder's threshold lies.
 
     The decoder compares its enhanced signal with the threshold. Any level between the two divides
     the columns of the profile as the decoder does, with the fewest exceptions, which are columns at

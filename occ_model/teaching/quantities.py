@@ -34,22 +34,22 @@ class LessonQuantity:
     unit: Unit
     asked_in: str  # The unit of an answer without a unit
     of_scene: Callable[[Scene], float]  # Returns the value in SI units
-    of_photo: bool = False  # Whether it is of the scene that is matched to a photo
-    # The noun for a number that is only a name, such as "code", to which no other number is near;
+    of_photo: bool = False  # Whether it is computed from the scene matched to a photo
+    # The noun for a number that is only a name, such as "code", so that no answer is nearly right;
     # empty for a quantity
     called: str = ""
 
     def compute(self, scene: Scene, photo: str | Match = "") -> float:
         """Return the value; ``photo`` is the name of the step's photo, or a match of another."""
-        return self.of_scene(_match_photo(scene, photo) if self.of_photo else scene)
+        return self.of_scene(_matched_scene(scene, photo) if self.of_photo else scene)
 
 
 def _threshold_limit(scene: Scene) -> float:
-    # These take some tenths of a second to import, and few steps need them.
+    # Imported here because the import takes some tenths of a second, and few steps need it.
     from occ_model.study.success_rate import check_rate
     from occ_model.study.working_range import READ_RATE, working_range
 
-    # `limits` would take ten times as long, for exposure times and the confidence of each end.
+    # `limits` takes ten times as long, as it also searches exposure times and confirms each end.
     settings = RateSettings(5, ("threshold",))
     check_rate(scene, settings)
     highest = working_range(scene, "switching_frequency", READ_RATE, settings).highest
@@ -58,10 +58,10 @@ def _threshold_limit(scene: Scene) -> float:
     return highest.value
 
 
-def _match_photo(scene: Scene, photo: str | Match) -> Scene:
+def _matched_scene(scene: Scene, photo: str | Match) -> Scene:
     if isinstance(photo, Match):
         return photo.scene
-    # These are slow to import, and few steps need them.
+    # Imported here because the import is slow, and few steps need it.
     from occ_model.photo.match import match_photo
     from occ_model.photo.reading.load import load_photo
 
@@ -85,14 +85,16 @@ def _exposure_chips(scene: Scene) -> float:
 
 
 def _bit_rate(scene: Scene) -> float:
-    sent = scene.transmitter
-    check_code(sent)
-    if sent.pattern:
+    transmitter = scene.transmitter
+    check_code(transmitter)
+    if transmitter.pattern:
         raise OccError("A raw pattern has no bits.")
-    return sent.payload_length * sent.switching_frequency / len(sent_chips(sent))
+    return (
+        transmitter.payload_length * transmitter.switching_frequency / len(sent_chips(transmitter))
+    )
 
 
-def _fraction_seen(scene: Scene) -> float:
+def _readout_fraction(scene: Scene) -> float:
     return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
@@ -125,7 +127,7 @@ QUANTITIES = {  # by the name in a lesson's file
         null_frequency,
     ),
     "second-null": LessonQuantity(
-        "switching frequency at which they vanish for the second time, 4 / t", HERTZ, "kHz",
+        "switching frequency of the second null, 4 / t", HERTZ, "kHz",
         lambda scene: 2.0 * null_frequency(scene),
     ),
     "band-depth": LessonQuantity(
@@ -158,11 +160,11 @@ QUANTITIES = {  # by the name in a lesson's file
     ),
     "share-seen": LessonQuantity(
         f"fraction of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
-        _PERCENT, "%", _fraction_seen,
+        _PERCENT, "%", _readout_fraction,
     ),
     "bit-rate-seen": LessonQuantity(
         f"bits a second that a film of {FRAME_RATE:g} frames a second sees", _BITS_A_SECOND,
-        "bit/s", lambda scene: _bit_rate(scene) * _fraction_seen(scene),
+        "bit/s", lambda scene: _bit_rate(scene) * _readout_fraction(scene),
     ),
     "photo-readout-time": LessonQuantity(
         "readout time of the photo's camera", SECOND, "µs",
@@ -182,7 +184,7 @@ QUANTITIES = {  # by the name in a lesson's file
 }  # fmt: skip
 
 
-_DIGITS = 3  # significant digits that a student can read; integer parts are written in full
+_DIGITS = 3  # significant digits; integer parts are written in full
 
 
 def result_text(unit: Unit, value: float) -> str:

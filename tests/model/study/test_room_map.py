@@ -29,7 +29,7 @@ def test_a_place_counts_what_its_picture_shows_which_is_nothing_far_away() -> No
     near, far = room_map(request)
     assert near.whole == 8
     assert near.named == 8
-    assert near.wrong == 0
+    assert near.named_wrongly == 0
     assert near.sure_places == 2
     assert near.error < 6.0 * near.stated_error < 0.2
     assert (far.whole, far.named, far.sure_places) == (0, 0, 0)

@@ -149,7 +149,7 @@ def test_a_teachers_lessons_are_listed_after_those_of_the_program_and_bad_ones_a
     found = lessons()
     assert found.lessons[count:] == (read_lesson(tmp_path / "good.toml"),)
     assert list(found.problems) == ["bad.toml"]
-    assert "line 8: pane is 1 in place of a text." in found.problems["bad.toml"]
+    assert "line 8: pane is 1; allowed: a text." in found.problems["bad.toml"]
 
 
 def test_the_lesson_in_the_manual_is_valid_and_its_tables_are_complete(tmp_path: Path) -> None:

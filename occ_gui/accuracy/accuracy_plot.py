@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from occ_gui.accuracy.named_points import NamedPoint, choose_points
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import ElidedLabel, fill, push_button
-from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
+from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin_pen
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
     ACCURACY_PARTS,
@@ -73,7 +73,7 @@ class AccuracyPlot(QWidget):
         widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
         self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
         self._make_items()
-        self.plot.dress_with(self._dress)
+        self.plot.follow_palette(self._dress)
         self._lay_out()
         self._fit()
 
@@ -105,14 +105,14 @@ class AccuracyPlot(QWidget):
         for part, scatter in self.scatters.items():
             scatter.setBrush(lighten_for(palette, COLOURS[part]))
         for part, line in self.lines.items():
-            line.setPen(self.plot.stroke(thin(lighten_for(palette, COLOURS[part]))))
-        front_pen = thin(lighten_for(palette, COLOURS["effects"]))
+            line.setPen(self.plot.stroke(thin_pen(lighten_for(palette, COLOURS[part]))))
+        front_pen = thin_pen(lighten_for(palette, COLOURS["effects"]))
         self.front.setPen(self.plot.stroke(front_pen))
         self.front_points.setPen(front_pen)
         self.front_ring.setPen(ring)
         self._write_legend(palette)
         grey = palette.color(QPalette.ColorRole.Mid)
-        self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
+        self._floor.setPen(thin_pen(grey, Qt.PenStyle.DashLine))
 
     def _write_legend(self, palette: QPalette) -> None:
         entries = [

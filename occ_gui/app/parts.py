@@ -168,7 +168,7 @@ class ViewOptions(QObject):
         window.apply_style()
         self.layout = DockLayout(window, window.modes, preferences)
         self.theme.chosen.connect(self._on_theme)
-        self.theme.coloured.connect(window.apply_style)
+        self.theme.colours_changed.connect(window.apply_style)
         self.text_size.chosen.connect(self._on_text_size)
         hold.switched.connect(self._on_hold)
         window.actions_by_name["hold_brightness"].triggered.connect(hold.switch)

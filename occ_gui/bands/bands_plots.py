@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from occ_gui.bands.jobs import SceneBars
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import fill, paragraph
-from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, thin
+from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, thin_pen
 from occ_gui.widgets.plot import LineLegend, marker, new_plot
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND, Unit
@@ -46,7 +46,7 @@ class DepthPlot(QWidget):
         self.plot.setMouseEnabled(False, False)
         room = self.fontMetrics().height() / 2.0  # numbers and descents reach beyond
         self.plot.getPlotItem().layout.setContentsMargins(0.0, room, 2.0 * room, room)
-        self.valleys = [self.plot.plot(pen=thin(QColor("white"))) for _ in range(_VALLEYS)]
+        self.valleys = [self.plot.plot(pen=thin_pen(QColor("white"))) for _ in range(_VALLEYS)]
         self.setting = self.plot.plot(
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
         )
@@ -104,22 +104,22 @@ class RiskPlot(QWidget):
             self.palette(), LogAxis("left"), LogAxis("bottom"),
         )  # fmt: skip
         self.plot.setMouseEnabled(False, False)
-        self.low_risk = self.plot.add_curve(thin(BAND))
-        self.no_effect = self.plot.add_curve(thin(BAND, _DASHES))
+        self.low_risk = self.plot.add_curve(thin_pen(BAND))
+        self.no_effect = self.plot.add_curve(thin_pen(BAND, _DASHES))
         self.sines, self.whole = (
             self.plot.plot([], [], pen=None, symbol="o", symbolSize=size) for size in _SIZES
         )
-        self.plot.dress_with(
+        self.plot.follow_palette(
             lambda palette: self.sines.setSymbolBrush(pg.mkBrush(lighten_for(palette, SIMULATION)))
         )
-        self.plot.dress_with(
+        self.plot.follow_palette(
             lambda palette: self.whole.setSymbolPen(pg.mkPen(palette.text().color(), width=1.5))
         )
         self.whole.setSymbolBrush(pg.mkBrush(None))
         self.sines.setSymbolPen(pg.mkPen(None))
         lines, points = LineLegend(), LineLegend()
-        lines.add_line("low", thin(BAND), "below: low risk")
-        lines.add_line("none", thin(BAND, _DASHES), "below: no effect")
+        lines.add_line("low", thin_pen(BAND), "below: low risk")
+        lines.add_line("none", thin_pen(BAND, _DASHES), "below: no effect")
         points.add_sample("whole", marker("o", _SIZES[1], None), _SAMPLE, "the lamp as a whole")
         points.add_sample("sines", marker("o", _SIZES[0], SIMULATION), _SAMPLE, "its sines")
         self.source = paragraph(

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QHBoxLayout, QHeaderView, QTableWidget, QTableWidg
 
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import fill, make_read_only
-from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
+from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin_pen
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bit_errors import BenchBounds, BenchPoint, BenchRequest
 
@@ -93,20 +93,20 @@ class BenchPlots(QWidget):
             self.bounds[axis] = pg.PlotCurveItem()
             plot.addItem(self.bounds[axis], ignoreBounds=True)
             self.plots[axis] = plot
-            plot.dress_with(self._dress)
+            plot.follow_palette(self._dress)
             row.addWidget(plot, 3 if axis == "exposure" else 2)
 
     def _dress(self, palette: QPalette) -> None:
         grey = palette.color(QPalette.ColorRole.Text)
         for bound in self.bounds.values():
-            bound.setPen(thin(grey, Qt.PenStyle.DashLine))
+            bound.setPen(thin_pen(grey, Qt.PenStyle.DashLine))
         for null in self._nulls:
-            null.setPen(thin(palette.color(QPalette.ColorRole.Mid), Qt.PenStyle.DotLine))
+            null.setPen(thin_pen(palette.color(QPalette.ColorRole.Mid), Qt.PenStyle.DotLine))
         for curves in self.curves.values():
             for number, curve in enumerate(curves):
                 colour = lighten_for(palette, COLOURS[number % len(COLOURS)])
                 for item in (curve.line, curve.intervals, curve.without_errors):
-                    item.setPen(thin(colour))
+                    item.setPen(thin_pen(colour))
                 curve.with_errors.setBrush(colour)
 
     def show_begun(self, decoders: Sequence[str]) -> None:

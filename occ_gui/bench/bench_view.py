@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QStackedWidget, QV
 from occ_gui.bench.bench_results import BITS, COLOURS, RATES, SYMBOLS, BenchPlots, BenchTable
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
-from occ_gui.widgets.colours import thin
+from occ_gui.widgets.colours import thin_pen
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.plot import LineLegend, marker
 from occ_gui.widgets.work_bar import WorkBar
@@ -177,10 +177,10 @@ class BenchView(QWidget):
         )  # fmt: skip
         ink = self.palette().color(QPalette.ColorRole.Text)
         self.legend.add_line(
-            "nulls", thin(ink, Qt.PenStyle.DotLine), "alternating chips leave no stripes"
+            "nulls", thin_pen(ink, Qt.PenStyle.DotLine), "alternating chips leave no stripes"
         )
         self.legend.add_line(
-            "most", thin(ink, Qt.PenStyle.DashLine), "most that Gaussian light carries"
+            "most", thin_pen(ink, Qt.PenStyle.DashLine), "most that Gaussian light carries"
         )
         self._show_bound_entry()
 

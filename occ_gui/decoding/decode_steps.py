@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.widgets.axes import Axis
 from occ_gui.widgets.building import fill
-from occ_gui.widgets.colours import BAND, SIMULATION, THRESHOLD, lighten_for, thin
+from occ_gui.widgets.colours import BAND, SIMULATION, THRESHOLD, lighten_for, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import ByteArray, FloatArray
@@ -45,15 +45,15 @@ class SignalPlot(QWidget):
         self.plot = new_plot(*labels, self.palette(), _LevelAxis("left"))
         self.legend = LineLegend()
         dash = Qt.PenStyle.DashLine
-        self.legend.add_line("signal", thin(SIMULATION), "signal")
-        self.legend.add_line("threshold", thin(THRESHOLD, dash), "threshold")
+        self.legend.add_line("signal", thin_pen(SIMULATION), "signal")
+        self.legend.add_line("threshold", thin_pen(THRESHOLD, dash), "threshold")
         self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), "chips: lit")
-        self.legend.add_line("model", thin(BAND, dash), "model of the code")
-        self.signal = self.plot.add_curve(thin(SIMULATION), is_crowded=True)
-        self.model = self.plot.add_curve(thin(BAND, dash))
-        self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
+        self.legend.add_line("model", thin_pen(BAND, dash), "model of the code")
+        self.signal = self.plot.add_curve(thin_pen(SIMULATION), is_crowded=True)
+        self.model = self.plot.add_curve(thin_pen(BAND, dash))
+        self.threshold = pg.InfiniteLine(angle=0, pen=thin_pen(THRESHOLD, dash))
         self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[])
-        self.plot.dress_with(
+        self.plot.follow_palette(
             lambda palette: self.chips.setOpts(brush=lighten_for(palette, SIMULATION))
         )
         for item in (self.threshold, self.chips):
@@ -140,11 +140,11 @@ class RunLengthPlot(QWidget):
         self.bars, self.splits = [], []
         for colour in _COLOURS:
             bars = pg.BarGraphItem(x=[], height=[], width=0.8)
-            split = self.plot.add_curve(thin(colour, Qt.PenStyle.DashLine))
+            split = self.plot.add_curve(thin_pen(colour, Qt.PenStyle.DashLine))
             self.plot.addItem(bars)
             self.bars.append(bars)
             self.splits.append(split)
-        self.plot.dress_with(self._dress)
+        self.plot.follow_palette(self._dress)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         fill(QVBoxLayout(self), title, (self.plot, 1), margins=0, spacing=0)
 

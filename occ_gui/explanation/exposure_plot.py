@@ -8,7 +8,7 @@ from PySide6.QtGui import QBrush, QColor, QKeyEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QSpinBox, QVBoxLayout, QWidget
 
 from occ_gui.widgets.building import check_box, fill, name_widget, paragraph
-from occ_gui.widgets.colours import BAND, REGION, SIMULATION, pen_on, thin
+from occ_gui.widgets.colours import BAND, REGION, SIMULATION, pen_on, thin_pen
 from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import Plot, new_plot
@@ -44,7 +44,7 @@ class ColumnPicker(QObject):
         plot.scene().sigMouseMoved.connect(self._hover)
         plot.scene().sigMouseClicked.connect(self._click)
         plot.installEventFilter(self)
-        plot.dress_with(self._dress)
+        plot.follow_palette(self._dress)
 
     def set_active(self, active: bool) -> None:
         self._active = active
@@ -59,7 +59,7 @@ class ColumnPicker(QObject):
 
     def _dress(self, palette: QPalette) -> None:
         style = Qt.PenStyle.SolidLine if self._held else Qt.PenStyle.DashLine
-        self.marker.setPen(thin(palette.color(QPalette.ColorRole.Text), style))
+        self.marker.setPen(thin_pen(palette.color(QPalette.ColorRole.Text), style))
 
     def _hover(self, place: QPointF) -> None:
         column = self._column_at(place)
@@ -126,12 +126,14 @@ class ExposurePlot(QWidget):
         self.plot.getAxis("left").setTicks([[(0.0, "off"), (1.0, "on")]])
         colour = QColor(REGION)
         colour.setAlpha(_SHADE)
-        self.shade = pg.LinearRegionItem(brush=colour, pen=thin(REGION), movable=False)
+        self.shade = pg.LinearRegionItem(brush=colour, pen=thin_pen(REGION), movable=False)
         self.shade.setZValue(-10)
         hatched = QBrush(BAND, Qt.BrushStyle.BDiagPattern)
-        self.lit = pg.BarGraphItem(x0=[], x1=[], y0=0.0, y1=1.0, pen=thin(BAND), brush=hatched)
+        self.lit = pg.BarGraphItem(x0=[], x1=[], y0=0.0, y1=1.0, pen=thin_pen(BAND), brush=hatched)
         self.chips = pg.PlotCurveItem()
-        self.plot.dress_with(lambda palette: self.chips.setPen(pen_on(palette, thin(SIMULATION))))
+        self.plot.follow_palette(
+            lambda palette: self.chips.setPen(pen_on(palette, thin_pen(SIMULATION)))
+        )
         for item in (self.shade, self.lit, self.chips):
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)

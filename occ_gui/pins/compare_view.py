@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 from occ_gui.pins.pin_controller import DifferenceRow, Pin, PinController, PinnedPair
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.building import fill, make_read_only, paragraph, push_button
-from occ_gui.widgets.colours import BAND, SIMULATION, thin
+from occ_gui.widgets.colours import BAND, SIMULATION, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.plot import LineLegend, new_plot
@@ -86,7 +86,7 @@ class CompareView(QWidget):
         )
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
-        pens = {"A": thin(SIMULATION), "B": thin(BAND, Qt.PenStyle.DashLine)}
+        pens = {"A": thin_pen(SIMULATION), "B": thin_pen(BAND, Qt.PenStyle.DashLine)}
         self.legend = LineLegend()
         for name, pen in pens.items():
             self.legend.add_line(name, pen, name)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import ElidedLabel, fill
 from occ_gui.widgets.chip_cell import draw_chips
-from occ_gui.widgets.colours import PHOTO, THRESHOLD, thin
+from occ_gui.widgets.colours import PHOTO, THRESHOLD, thin_pen
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.plot import Plot, new_plot
@@ -53,9 +53,9 @@ class ResidualPlot(QWidget):
         self._linked = linked
         self._follow_columns(linked.getViewBox(), linked.viewRange()[0])
         self.plot.getViewBox().sigRangeChangedManually.connect(self._move_linked_plot)
-        zero = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, Qt.PenStyle.DashDotLine))
+        zero = pg.InfiniteLine(angle=0, pen=thin_pen(THRESHOLD, Qt.PenStyle.DashDotLine))
         self.plot.addItem(zero, ignoreBounds=True)
-        self.curve = self.plot.add_curve(thin(PHOTO))
+        self.curve = self.plot.add_curve(thin_pen(PHOTO))
         self._photo: Photo | None = None
         self._limit = _STEPS[0]
         """Limit of the axis; for one photo it never shrinks, so that a smaller residual shows."""

@@ -13,7 +13,7 @@ from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import check_box, fill, paragraph, push_button
-from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
@@ -66,13 +66,13 @@ class ProfileView(QWidget):
     def _make_curves(self) -> None:
         line = Qt.PenStyle
         pens = {
-            "simulation": ("simulation", thin(SIMULATION)),
-            "before": ("before", thin(BEFORE)),
-            "band": ("band model", thin(BAND, line.DashLine)),
-            "photo": ("photo", thin(PHOTO)),
+            "simulation": ("simulation", thin_pen(SIMULATION)),
+            "before": ("before", thin_pen(BEFORE)),
+            "band": ("band model", thin_pen(BAND, line.DashLine)),
+            "photo": ("photo", thin_pen(PHOTO)),
             # Scaled to the mean and contrast of the simulation, as the camera's gain is unknown.
-            "fitted": ("photo, fitted levels", thin(PHOTO)),
-            "threshold": ("threshold", thin(THRESHOLD, line.DashDotLine)),
+            "fitted": ("photo, fitted levels", thin_pen(PHOTO)),
+            "threshold": ("threshold", thin_pen(THRESHOLD, line.DashDotLine)),
         }
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
@@ -90,7 +90,7 @@ class ProfileView(QWidget):
             item.setZValue(-10)
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
-        self.plot.dress_with(self._dress)
+        self.plot.follow_palette(self._dress)
 
     def _dress(self, palette: QPalette) -> None:
         shade = palette.color(QPalette.ColorRole.Text)
@@ -158,7 +158,7 @@ class ProfileView(QWidget):
         vertical = QSizePolicy.Policy.Preferred if has_residual else QSizePolicy.Policy.Maximum
         policy.setVerticalPolicy(vertical)
         self.residual.setSizePolicy(policy)
-        self.plot.name_bottom(not has_residual)
+        self.plot.show_axis_name(not has_residual)
         self.plot.getAxis("bottom").setStyle(showValues=not has_residual)
 
     def show_reading(self, reading: Reading) -> None:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from occ_gui.room.jobs import FloorMap, RoomPicture, RoomPlan
 from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.building import fill
-from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, pen_on, thin
+from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, pen_on, thin_pen
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
 from occ_model.errors import counted
@@ -44,9 +44,9 @@ class PlanPlot(QWidget):
         self.plot.setMouseEnabled(False, False)
         self.floor = pg.ScatterPlotItem(pen=None, symbol="s")
         self.plot.addItem(self.floor)
-        self.lamps = self.plot.add_curve(thin(SIMULATION))
-        self.view = self.plot.add_curve(thin(PHOTO, _DASHED))
-        self.ellipse = self.plot.add_curve(thin(BAND))
+        self.lamps = self.plot.add_curve(thin_pen(SIMULATION))
+        self.view = self.plot.add_curve(thin_pen(PHOTO, _DASHED))
+        self.ellipse = self.plot.add_curve(thin_pen(BAND))
         self.names: list[pg.TextItem] = []
         self.cross = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
         self.aim = pg.TargetItem((0.0, 0.0), size=30, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
@@ -55,7 +55,7 @@ class PlanPlot(QWidget):
         self.camera.setZValue(self.aim.zValue() + 1.0)
         self._report_drags(self.camera, self.camera_moved)
         self._report_drags(self.aim, self.aim_moved)
-        self.plot.dress_with(self._dress)
+        self.plot.follow_palette(self._dress)
         fill(QVBoxLayout(self), self.plot, margins=0)
 
     def _report_drags(self, target: pg.TargetItem, moved: SignalInstance) -> None:
@@ -172,7 +172,7 @@ class PicturePlot(QWidget):
         for lamp in picture.reading.lamps if picture.reading else ():
             colour = SIMULATION if lamp.name else BAND
             loop = np.vstack([lamp.hull, lamp.hull[:1]])
-            outline = pg.PlotCurveItem(loop[:, 0], loop[:, 1], pen=thin(colour))
+            outline = pg.PlotCurveItem(loop[:, 0], loop[:, 1], pen=thin_pen(colour))
             name = pg.TextItem(lamp.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
             # The whole name stays visible, even for a lamp at the edge.
             middle = np.clip(lamp.hull.mean(axis=0), margin, (columns - margin, rows - margin))

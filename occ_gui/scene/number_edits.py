@@ -10,7 +10,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QSpinBox
 
-from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
+from occ_gui.widgets.event_filters import leave_undo_to_window, select_number_on_double_click
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Count, Quantity
 from occ_model.scene.refusal import refusal_of
@@ -62,7 +62,7 @@ class DecimalEdit(QDoubleSpinBox):
 def _prepare(field: CountEdit | DecimalEdit) -> None:
     field.setKeyboardTracking(False)
     leave_undo_to_window(field)
-    select_numbers_whole(field)
+    select_number_on_double_click(field)
 
 
 def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str) -> float:
@@ -104,7 +104,7 @@ class QuantityEdit(QAbstractSpinBox):
         self.editingFinished.connect(self.accept_text)
         self._is_edited = False
         leave_undo_to_window(self)
-        select_numbers_whole(self)
+        select_number_on_double_click(self)
         self._show()
 
     def value(self) -> float:

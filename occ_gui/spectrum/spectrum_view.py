@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPen
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
-from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, pen_on, thin
+from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, pen_on, thin_pen
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.results.spectrum import LevelHistogram, Spectrum
 from occ_model.scene.units import HERTZ
@@ -15,7 +15,7 @@ _KILOHERTZ = 1e-3  # kilohertz per hertz
 _HEADROOM = 1.15  # height of an axis, relative to the largest value
 _LEAST_AMPLITUDE = 1.0  # smallest height of the axis, in grey levels
 _MOST_MARKS, _HARMONICS_IN_VIEW = 12, 24
-_HARMONIC = thin(SIMULATION, Qt.PenStyle.DotLine)
+_HARMONIC = thin_pen(SIMULATION, Qt.PenStyle.DotLine)
 
 
 class SpectrumView(QWidget):
@@ -43,15 +43,15 @@ class SpectrumView(QWidget):
             "Spectrum of the column profile", "frequency of the light, F (kHz)",
             "amplitude (levels)", self.palette(),
         )  # fmt: skip
-        self.amplitudes = self.spectrum.add_curve(thin(SIMULATION))
-        self.response = self.spectrum.add_curve(thin(BAND, Qt.PenStyle.DashLine))
+        self.amplitudes = self.spectrum.add_curve(thin_pen(SIMULATION))
+        self.response = self.spectrum.add_curve(thin_pen(BAND, Qt.PenStyle.DashLine))
         self.zeros: list[pg.InfiniteLine] = []
         self.harmonics: list[pg.InfiniteLine] = []
         self.legend = LineLegend()
-        self.legend.add_line("profile", thin(SIMULATION), "profile")
+        self.legend.add_line("profile", thin_pen(SIMULATION), "profile")
         self.legend.add_line(
             "response",
-            thin(BAND, Qt.PenStyle.DashLine),
+            thin_pen(BAND, Qt.PenStyle.DashLine),
             "response of the exposure, |sinc(F t)|; zero at F = k / t",
         )
         self.legend.add_line("harmonics", _HARMONIC, "light's harmonics")
@@ -63,16 +63,16 @@ class SpectrumView(QWidget):
         )  # fmt: skip
         self.bars = pg.BarGraphItem(x=np.arange(256), height=np.zeros(256), width=1.0)
         self.histogram.addItem(self.bars, ignoreBounds=True)
-        self.histogram.dress_with(
+        self.histogram.follow_palette(
             lambda palette: self.bars.setOpts(
-                brush=lighten_for(palette, SIMULATION), pen=pen_on(palette, thin(SIMULATION))
+                brush=lighten_for(palette, SIMULATION), pen=pen_on(palette, thin_pen(SIMULATION))
             )
         )
         self.histogram.setXRange(-2, 257, padding=0)
 
     def show_spectrum(self, spectrum: Spectrum | None) -> None:
         zeros = () if spectrum is None else spectrum.zeros
-        self.zeros = self._replace_lines(self.zeros, zeros, thin(BAND))
+        self.zeros = self._replace_lines(self.zeros, zeros, thin_pen(BAND))
         harmonics = () if spectrum is None else spectrum.harmonics
         self.harmonics = self._replace_lines(self.harmonics, harmonics, _HARMONIC)
         self.legend.show_line("harmonics", bool(harmonics))

@@ -15,7 +15,7 @@ from occ_gui.story.column_facts import PacketField, received_edges, received_fie
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.colours import SIMULATION
-from occ_gui.widgets.guarded_paint import are_same
+from occ_gui.widgets.guarded_paint import are_equal
 from occ_gui.widgets.state_look import State
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
@@ -49,7 +49,7 @@ class CodeRow(StoryRow):
             result.region, result.failure, result.code, result.chips, result.bits,
             result.chip_starts, result.headers, reading.sent, fields, payload,
         )  # fmt: skip
-        if are_same(inputs, self._drawn_inputs):
+        if are_equal(inputs, self._drawn_inputs):
             return
         self._drawn_inputs = inputs
         self._result, self._sent_bits = result, reading.sent

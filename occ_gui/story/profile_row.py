@@ -14,7 +14,7 @@ from occ_gui.story.curve_lines import DASH, keep_extremes, make_lines
 from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
-from occ_gui.widgets.guarded_paint import are_same
+from occ_gui.widgets.guarded_paint import are_equal
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
 
@@ -111,7 +111,7 @@ class ProfileRow(StoryRow):
         region = None if self._result is None else self._result.region
         inputs = (*curves, self.threshold, region, self._photo)
         # The results from the picture mostly equal the early ones.
-        if not are_same(inputs, self._drawn_inputs):
+        if not are_equal(inputs, self._drawn_inputs):
             self._drawn_inputs = inputs
             self.redraw()
 

@@ -21,7 +21,7 @@ from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import fill, push_button
-from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import PICTURES
@@ -85,11 +85,11 @@ class StoryRows(QWidget):
         line = Qt.PenStyle
         self.legend = CurveLegend(
             {
-                "simulation": (thin(SIMULATION), "simulation"),
-                "band": (thin(BAND, line.DashLine), "band model"),
-                "photo": (thin(PHOTO), "photo"),
-                "fitted": (thin(PHOTO), "photo, fitted levels"),
-                "threshold": (thin(THRESHOLD, line.DashDotLine), "threshold"),
+                "simulation": (thin_pen(SIMULATION), "simulation"),
+                "band": (thin_pen(BAND, line.DashLine), "band model"),
+                "photo": (thin_pen(PHOTO), "photo"),
+                "fitted": (thin_pen(PHOTO), "photo, fitted levels"),
+                "threshold": (thin_pen(THRESHOLD, line.DashDotLine), "threshold"),
             },
             usual=("simulation", "threshold", "band"),
         )

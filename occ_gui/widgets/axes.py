@@ -13,7 +13,7 @@ from occ_gui.widgets.guarded_paint import guarded
 
 NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number takes along the axis
 
-_LEAST_SPACING = 3.0  # least distance, in pixels, of unnumbered ticks at powers of ten
+_LEAST_SPACING = 3.0  # least distance in pixels between unnumbered ticks at powers of ten
 
 _LEAST_NUMBERS = 2  # with fewer powers of ten in view, other round values have numbers, too
 
@@ -55,30 +55,30 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
         room = self.height() + 2.0 * place.y() if is_upright else self.width()
         label.setHtml(self.labelString())
         label.setToolTip("")
-        missing = label.boundingRect().width() - room
-        if missing <= 0.0 or room <= 0.0:
+        excess = label.boundingRect().width() - room
+        if excess <= 0.0 or room <= 0.0:
             return
         metrics = QFontMetricsF(label.font())
-        width = metrics.horizontalAdvance(name) - missing
-        short = metrics.elidedText(name, Qt.TextElideMode.ElideRight, max(width, 0.0))
-        label.setHtml(self.labelString().replace(name, short, 1))
+        width = metrics.horizontalAdvance(name) - excess
+        short_name = metrics.elidedText(name, Qt.TextElideMode.ElideRight, max(width, 0.0))
+        label.setHtml(self.labelString().replace(name, short_name, 1))
         label.setToolTip(name)
 
     def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name
         self, painter: QPainter
     ) -> tuple[Any, Any, list[tuple[QRectF, Any, str]]] | None:
-        """Lay out the axis with numbers at whole pixels, which all versions of Qt draw alike."""
-        found = super().generateDrawSpecs(painter)
-        if found is None:
+        """Lay out the axis with numbers at integer pixels, which all versions of Qt draw alike."""
+        specs = super().generateDrawSpecs(painter)
+        if specs is None:
             return None
-        line, ticks, numbers = found
+        line, ticks, numbers = specs
         return line, ticks, [(QRectF(box.toRect()), *rest) for box, *rest in numbers]
 
 
 class LogAxis(Axis):
     """An axis for decimal logarithms, labelled with the values themselves.
 
-    ``least``: the exponent at which all smaller values are drawn; its label begins with ≤.
+    ``least``: the exponent at which smaller values are drawn, too; its label begins with ≤.
     """
 
     def __init__(self, side: str, least: int | None = None) -> None:
@@ -103,8 +103,8 @@ class LogAxis(Axis):
         powers = self._powers(low, high, max(1, math.ceil(_LEAST_SPACING * decades_a_pixel)))
         digits = range(1, 10) if step == 1 else (1,)
         ticks = [power + math.log10(digit) for power in powers for digit in digits]
-        between = [tick for tick in ticks if low <= tick <= high and tick not in numbered]
-        return [(1.0, numbered), (0.1, between)]
+        unnumbered = [tick for tick in ticks if low <= tick <= high and tick not in numbered]
+        return [(1.0, numbered), (0.1, unnumbered)]
 
     def _round_values(self, low: float, high: float, decades_a_pixel: float) -> list[float]:
         """Return evenly spaced round values, with room for a number where they are densest."""

@@ -32,18 +32,18 @@ _HEADING = 16 / 13  # size of a heading relative to text: 16 pixels if text has 
 
 
 def resize_font(font: QFont, factor: float) -> QFont:
-    found = QFont(font)
+    new_font = QFont(font)
     if font.pointSizeF() > 0.0:
-        found.setPointSizeF(factor * font.pointSizeF())
+        new_font.setPointSizeF(factor * font.pointSizeF())
     else:  # a font whose size is given in pixels
-        found.setPixelSize(round(factor * font.pixelSize()))
-    return found
+        new_font.setPixelSize(round(factor * font.pixelSize()))
+    return new_font
 
 
 def heading_font(font: QFont) -> QFont:
-    found = resize_font(font, _HEADING)
-    found.setBold(True)
-    return found
+    new_font = resize_font(font, _HEADING)
+    new_font.setBold(True)
+    return new_font
 
 
 def embolden(label: Label, factor: float = 1.0) -> Label:
@@ -65,7 +65,7 @@ class ElidedLabel(QLabel):
         super().__init__()
         self._how = how
         self._full = ""
-        self._fitted_to: tuple[str, int] | None = None
+        self._last_fit: tuple[str, int] | None = None
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.set_full_text(text)
 
@@ -77,15 +77,15 @@ class ElidedLabel(QLabel):
         self._fit()
 
     def _fit(self) -> None:
-        wanted = (self._full, self.contentsRect().width())
-        if wanted != self._fitted_to:  # setting a text lays out the surrounding widgets again
-            self._fitted_to = wanted
-            self.setText(self.fontMetrics().elidedText(self._full, self._how, wanted[1]))
+        fit = (self._full, self.contentsRect().width())
+        if fit != self._last_fit:  # avoids laying out the surrounding widgets again
+            self._last_fit = fit
+            self.setText(self.fontMetrics().elidedText(self._full, self._how, fit[1]))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "_how"):
-            self._fitted_to = None
+            self._last_fit = None
             self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -126,16 +126,16 @@ class ScrollPane(QScrollArea):
 
 def bring_into_view(widget: QWidget, margin: int = 50) -> None:
     """Select the tabs and scroll the areas that contain a widget, so that it is visible."""
-    scrolled: list[QScrollArea] = []
-    page, around = widget, widget.parentWidget()
-    while around is not None:
-        tabs = around.parentWidget()
-        if isinstance(around, QScrollArea):
-            scrolled.append(around)
+    areas: list[QScrollArea] = []
+    page, ancestor = widget, widget.parentWidget()
+    while ancestor is not None:
+        tabs = ancestor.parentWidget()
+        if isinstance(ancestor, QScrollArea):
+            areas.append(ancestor)
         elif isinstance(tabs, QTabWidget):
             tabs.setCurrentWidget(page)
-        page, around = around, tabs
-    for area in scrolled:  # only now, when a page that was never in front has been laid out
+        page, ancestor = ancestor, tabs
+    for area in areas:  # now that pages brought to the front have been laid out
         area.ensureWidgetVisible(widget, 0, margin)
 
 
@@ -196,15 +196,15 @@ def fill(
     if spacing is not None:
         layout.setSpacing(spacing)
     for part in parts:
-        what, *how = part if isinstance(part, tuple) else (part,)
-        if what is None:
-            layout.addStretch(*how)
-        elif isinstance(what, int):
-            layout.addSpacing(what)
-        elif isinstance(what, QLayout):
-            layout.addLayout(what, *how)
+        item, *options = part if isinstance(part, tuple) else (part,)
+        if item is None:
+            layout.addStretch(*options)
+        elif isinstance(item, int):
+            layout.addSpacing(item)
+        elif isinstance(item, QLayout):
+            layout.addLayout(item, *options)
         else:
-            layout.addWidget(what, *how)
+            layout.addWidget(item, *options)
     return layout
 
 
@@ -227,21 +227,21 @@ def push_button(
     name: str = "",
 ) -> QPushButton:
     """Make a button; without ``name``, screen readers get its text."""
-    made = name_widget(QPushButton(text), name, tip)
+    button = name_widget(QPushButton(text), name, tip)
     if do is not None:
-        made.clicked.connect(do)
-    return made
+        button.clicked.connect(do)
+    return button
 
 
 def check_box(
     text: str, tip: str = "", do: Callable[..., object] | SignalInstance | None = None
 ) -> QCheckBox:
-    """Make a check box; ``do`` is called at every change, also by the program."""
-    made = QCheckBox(text)
-    made.setToolTip(tip)
+    """Make a check box; ``do`` is called at every change, even by the program."""
+    button = QCheckBox(text)
+    button.setToolTip(tip)
     if do is not None:
-        made.toggled.connect(do)
-    return made
+        button.toggled.connect(do)
+    return button
 
 
 def make_read_only(table: Table, name: str, tip: str = "") -> Table:

@@ -26,21 +26,21 @@ def _digit_text(value: float) -> QStaticText:
 def draw_digits(
     painter: QPainter, cells: Sequence[tuple[int, QRectF]], within: QRectF | None = None
 ) -> None:
-    """Write the digit of each chip into its cell, if there is room ``within`` the visible area."""
+    """Write the digit of each chip into its cell, if it has room ``within`` the visible area."""
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()
     for chip, cell in cells:
         left = cell.left() + (cell.width() - width) / 2
-        is_whole = within is None or within.left() <= left <= within.right() - width
-        if cell.width() >= _LEAST_DIGIT_WIDTH and is_whole:
+        is_in_view = within is None or within.left() <= left <= within.right() - width
+        if cell.width() >= _LEAST_DIGIT_WIDTH and is_in_view:
             top = cell.top() + (cell.height() - height) / 2
             painter.drawStaticText(QPointF(left, top), _digit_text(chip))
 
 
 def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
     """Return whether most cells have room for a digit; if not, no digit is drawn."""
-    wide = sum(cell.width() >= _LEAST_DIGIT_WIDTH for _, cell in cells)
-    return wide >= _MIN_FITTING_FRACTION * len(cells)
+    fitting_count = sum(cell.width() >= _LEAST_DIGIT_WIDTH for _, cell in cells)
+    return fitting_count >= _MIN_FITTING_FRACTION * len(cells)
 
 
 def draw_chips(
@@ -52,18 +52,18 @@ def draw_chips(
     within: QRectF | None = None,
 ) -> None:
     """Draw chips; uncertain chips are faded, with digits in the colour of text."""
-    lit = lighten_for(palette, colour)
+    ink = lighten_for(palette, colour)
     base, text = (
         palette.color(role) for role in (QPalette.ColorRole.Base, QPalette.ColorRole.Text)
     )
     with_digits = have_room_for_digits(cells)
     for value in (0, 1):
-        some = [(chip, cell) for chip, cell in cells if chip == value]
+        equal_chips = [(chip, cell) for chip, cell in cells if chip == value]
         painter.setOpacity(1.0 if certain else _FADED_OPACITY)
-        painter.setPen(QPen(lit))
-        painter.setBrush(lit if value else base)
-        painter.drawRects([cell for _, cell in some])
+        painter.setPen(QPen(ink))
+        painter.setBrush(ink if value else base)
+        painter.drawRects([cell for _, cell in equal_chips])
         painter.setOpacity(1.0)
         painter.setPen(base if value and certain else text)
         if with_digits:
-            draw_digits(painter, some, within)
+            draw_digits(painter, equal_chips, within)

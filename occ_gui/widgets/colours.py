@@ -8,7 +8,7 @@ from PySide6.QtGui import QBrush, QColor, QPalette, QPen
 from occ_model import colours
 
 _LEAST_CONTRAST = 4.5  # between text and its background by WCAG 2.1 (success criterion 1.4.3)
-_LIGHTNESS_STEP = 108  # each step makes the lightness this many percent of what it was
+_LIGHTNESS_STEP = 108  # percent by which each step multiplies the lightness
 
 
 def luminance(colour: QColor) -> float:
@@ -20,9 +20,9 @@ def luminance(colour: QColor) -> float:
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
-def contrast(one: QColor, other: QColor) -> float:
+def contrast(first: QColor, second: QColor) -> float:
     """Return the contrast ratio of two colours, 1 to 21, by WCAG 2.1."""
-    dark, light = sorted((luminance(one), luminance(other)))
+    dark, light = sorted((luminance(first), luminance(second)))
     return (light + 0.05) / (dark + 0.05)
 
 
@@ -42,17 +42,17 @@ def _lighten(paper_rgba: int, ink_rgba: int) -> QColor:
     return ink
 
 
-def mix_colours(one: QColor, other: QColor, fraction: float) -> QColor:
+def mix_colours(upper: QColor, lower: QColor, fraction: float) -> QColor:
     """Return the opaque colour that results from one colour over another with this opacity."""
-    parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
+    parts = zip(upper.getRgb()[:3], lower.getRgb()[:3], strict=True)  # type: ignore[index]
     return QColor(*(round(fraction * a + (1.0 - fraction) * b) for a, b in parts))
 
 
 def pen_on(palette: QPalette, pen: QPen) -> QPen:
     """Return a pen with a colour of sufficient contrast to the palette's background."""
-    seen = QPen(pen)
-    seen.setColor(lighten_for(palette, pen.color()))
-    return seen
+    visible_pen = QPen(pen)
+    visible_pen.setColor(lighten_for(palette, pen.color()))
+    return visible_pen
 
 
 SIMULATION = QColor(colours.SIMULATION)
@@ -65,7 +65,7 @@ BEFORE = QColor("#8A8A8A")
 """Colour of the results from before the last change: a grey that nothing else uses."""
 
 
-def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
+def thin_pen(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
     """Return a pen of width one, for lines that divide or mark."""
     pen = QPen(QBrush(colour), 1.0, style)
     pen.setCosmetic(True)

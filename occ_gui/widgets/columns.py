@@ -1,4 +1,4 @@
-"""What axes over columns have in common: key steps, tick steps, and the first range in view."""
+"""Shared parts of axes over columns: key steps, tick steps, and the first range in view."""
 
 import math
 
@@ -13,9 +13,9 @@ KEY_STEPS = {
     Qt.Key.Key_PageDown: -10,
     Qt.Key.Key_PageUp: 10,
 }
-"""Keys that choose another column, and how many columns to the right of the present one it is."""
+"""Keys that move to another column, and the number of columns to the right."""
 
-_STEP_TOLERANCE = 1e-9  # relative amount by which a step may be smaller than requested
+_STEP_TOLERANCE = 1e-9  # relative amount by which a step may fall short of the least
 PACKETS_IN_VIEW = 2  # packets in the first view of a plot over columns
 
 

@@ -41,15 +41,15 @@ class _NumberFilter(QObject):
         ):
             place = watched.cursorPositionAt(event.position().toPoint())
             watched.mouseDoubleClickEvent(event)  # so that a third click selects the whole text
-            for found in _NUMBER.finditer(watched.text()):
-                if found.start() <= place <= found.end():
-                    watched.setSelection(found.start(), found.end() - found.start())
+            for match in _NUMBER.finditer(watched.text()):
+                if match.start() <= place <= match.end():
+                    watched.setSelection(match.start(), match.end() - match.start())
                     break
             return True
         return False
 
 
-def select_numbers_whole(field: QAbstractSpinBox) -> None:
+def select_number_on_double_click(field: QAbstractSpinBox) -> None:
     """Let a double click select a number with its decimals, and without its unit."""
     line = field.lineEdit()
     line.installEventFilter(_NumberFilter(line))

@@ -12,7 +12,7 @@ _WIDTH = 2
 
 
 class FrameOver(QWidget):
-    """A frame in ``parent`` where ``place`` says, which is asked again when ``watched`` moves."""
+    """A frame in ``parent`` at the rectangle ``place()``, updated when ``watched`` moves."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""Paint methods whose exceptions are reported, and a comparison that saves painting."""
+"""Paint methods whose exceptions are reported, and a comparison that avoids needless painting."""
 
 import sys
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ def guarded(paint: Paint) -> Paint:
     def draw(*arguments: Any) -> None:
         try:
             paint(*arguments)
-        except Exception as error:  # noqa: BLE001 - Qt cannot handle any
+        except Exception as error:  # noqa: BLE001 - Qt cannot handle exceptions
             sys.excepthook(type(error), error, error.__traceback__)
             # A painter that is still active when Qt continues would crash the program.
             clear_frames(error.__traceback__)
@@ -26,16 +26,16 @@ def guarded(paint: Paint) -> Paint:
     return draw  # type: ignore[return-value]
 
 
-def are_same(ones: Sequence[object], others: Sequence[object]) -> bool:
+def are_equal(first: Sequence[object], second: Sequence[object]) -> bool:
     """Return whether two lists of values are equal, with arrays compared element by element."""
-    return len(ones) == len(others) and all(map(_is_same, ones, others))
+    return len(first) == len(second) and all(map(_is_equal, first, second))
 
 
-def _is_same(one: object, other: object) -> bool:
-    if one is other:
+def _is_equal(first: object, second: object) -> bool:
+    if first is second:
         return True
-    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-        return bool(np.array_equal(one, other))
-    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+    if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
+        return bool(np.array_equal(first, second))
+    if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
         return False
-    return one == other
+    return first == second

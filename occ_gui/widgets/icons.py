@@ -14,7 +14,7 @@ PROGRAM = "occ-explorer"
 PROGRAM_SIZES = (16, 32, 48, 64, 128, 256)  # sides of the program's icon in pixels
 
 _FOLDER, _ENDING = "icons", ".svg"
-_INK = "currentColor"  # what the drawings contain in place of a colour, as in CSS
+_INK = "currentColor"  # the drawings' placeholder for a colour, as in CSS
 
 
 @cache
@@ -28,21 +28,21 @@ def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
     ``size``: width and height in device-independent pixels.
     ``ratio``: screen pixels per device-independent pixel.
     """
-    found = QIcon()
+    new_icon = QIcon()
     for mode, group in (
         (QIcon.Mode.Normal, QPalette.ColorGroup.Active),
         (QIcon.Mode.Disabled, QPalette.ColorGroup.Disabled),
     ):
         colour = palette.color(group, QPalette.ColorRole.WindowText)
-        found.addPixmap(pixmap(name, colour, size, ratio), mode)
-    return found
+        new_icon.addPixmap(pixmap(name, colour, size, ratio), mode)
+    return new_icon
 
 
 def program_icon() -> QIcon:
-    found = QIcon()
+    new_icon = QIcon()
     for size in PROGRAM_SIZES:
-        found.addPixmap(pixmap(PROGRAM, QColor(), size, 1.0))
-    return found
+        new_icon.addPixmap(pixmap(PROGRAM, QColor(), size, 1.0))
+    return new_icon
 
 
 def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
@@ -51,13 +51,13 @@ def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
     from PySide6.QtSvg import QSvgRenderer
 
     side = round(size * ratio)
-    drawn = QPixmap(side, side)
-    drawn.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(drawn)
+    image = QPixmap(side, side)
+    image.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(image)
     QSvgRenderer(QByteArray(_drawing(name).replace(_INK, colour.name()).encode())).render(painter)
     painter.end()
-    drawn.setDevicePixelRatio(ratio)
-    return drawn
+    image.setDevicePixelRatio(ratio)
+    return image
 
 
 class IconButton(QToolButton):

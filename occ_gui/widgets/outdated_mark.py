@@ -25,8 +25,8 @@ class OutdatedMark(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.hide()
-        self._waiting = QTimer(self, singleShot=True)
-        self._waiting.timeout.connect(self._appear)
+        self._delay_timer = QTimer(self, singleShot=True)
+        self._delay_timer.timeout.connect(self._appear)
         pane.installEventFilter(self)
 
     def show_age(self, age: float, text: str) -> None:
@@ -34,17 +34,17 @@ class OutdatedMark(QWidget):
 
         ``age``: for how many seconds it has been outdated; 0 if it is not.
         """
-        if age == 0.0 and self.isHidden() and not self._waiting.isActive():
+        if age == 0.0 and self.isHidden() and not self._delay_timer.isActive():
             return
         self._set_text(text)
         if age == 0.0 or (self.isHidden() and age < DELAY) or age < _FRESH_AGE:
             self.hide()
         if age == 0.0:
-            self._waiting.stop()
+            self._delay_timer.stop()
         elif age >= DELAY:
             self._appear()
         else:
-            self._waiting.start(math.ceil(1e3 * (DELAY - age)))
+            self._delay_timer.start(math.ceil(1e3 * (DELAY - age)))
 
     def _set_text(self, text: str) -> None:
         if text != self.text:
@@ -53,7 +53,7 @@ class OutdatedMark(QWidget):
             self.update()
 
     def _appear(self) -> None:
-        self._waiting.stop()
+        self._delay_timer.stop()
         if self.isHidden():
             self.setGeometry(self._pane.rect())
             self.show()

@@ -29,7 +29,7 @@ def in_title(text: str) -> str:
     return one_line(text).replace("[*]", "[*][*]")
 
 
-def plain(text: str) -> str:
+def strip_mnemonics(text: str) -> str:
     """Return the text of a menu entry without the marks of shortcut letters."""
     return text.replace("&&", "\0").replace("&", "").replace("\0", "&")
 
@@ -39,5 +39,5 @@ _MAX_SHOWN_CHARACTERS = 80  # characters of a copied text that the message shows
 
 def copy_text(text: str) -> str:
     QGuiApplication.clipboard().setText(text)
-    first, _, more = text.strip().partition("\n")
-    return f"Copied: {one_line(f'{first} …' if more else first, _MAX_SHOWN_CHARACTERS)}"
+    first, _, rest = text.strip().partition("\n")
+    return f"Copied: {one_line(f'{first} …' if rest else first, _MAX_SHOWN_CHARACTERS)}"

@@ -29,14 +29,14 @@ class LineLegend(QWidget):
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
         """Add an entry, which is shown until :meth:`show_line` hides it."""
-        thick = QPen(pen)
-        thick.setWidth(max(2, pen.width()))
-        thick.setCosmetic(False)  # as wide as the curve on any screen
+        thick_pen = QPen(pen)
+        thick_pen.setWidth(max(2, pen.width()))
+        thick_pen.setCosmetic(False)  # as wide as the curve on any screen
 
         def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
             middle = place.center().y()
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-            painter.setPen(pen_on(palette, thick))
+            painter.setPen(pen_on(palette, thick_pen))
             painter.drawLine(QPointF(place.left(), middle), QPointF(place.right(), middle))
 
         self.add_sample(key, draw, _LINE, text)
@@ -87,42 +87,42 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     """A plot that shows the name of its lower axis if it is high enough."""
 
     _is_named = False
-    _dressers: tuple[Callable[[QPalette], None], ...] = ()
+    _palette_callbacks: tuple[Callable[[QPalette], None], ...] = ()
 
-    def dress(self, palette: QPalette) -> None:
+    def apply_palette(self, palette: QPalette) -> None:
         self.setBackground(palette.color(QPalette.ColorRole.Base))
         for side in ("bottom", "left"):
             axis = self.getAxis(side)
             axis.setPen(palette.color(QPalette.ColorRole.Mid))
             axis.setTextPen(palette.color(QPalette.ColorRole.Text))
-        for dress in self._dressers:
-            dress(palette)
+        for apply_palette in self._palette_callbacks:
+            apply_palette(palette)
 
-    def dress_with(self, dress: Callable[[QPalette], None]) -> None:
+    def follow_palette(self, apply_palette: Callable[[QPalette], None]) -> None:
         """Call a function with the palette, now and whenever it changes."""
-        self._dressers = (*self._dressers, dress)
-        dress(self.palette())
+        self._palette_callbacks = (*self._palette_callbacks, apply_palette)
+        apply_palette(self.palette())
 
     def add_curve(self, pen: QPen, *, is_crowded: bool = False) -> pg.PlotDataItem:
-        """Add an empty curve of sufficient contrast; a crowded curve is as thin as its pen."""
+        """Add an empty curve of sufficient contrast; a crowded curve keeps the width of its pen."""
         curve = self.plot(pen=pen)
-        width = QPen if is_crowded else self.stroke
-        self.dress_with(lambda palette: curve.setPen(width(pen_on(palette, pen))))
+        set_width = QPen if is_crowded else self.stroke
+        self.follow_palette(lambda palette: curve.setPen(set_width(pen_on(palette, pen))))
         return curve
 
     def stroke(self, pen: QPen) -> QPen:
         """Return a pen with the width of a curve on the present screen."""
-        wide = QPen(pen)
+        wide_pen = QPen(pen)
         # pyqtgraph takes the width of a pen in pixels of the screen.
-        wide.setWidthF(CURVE_WIDTH * self.devicePixelRatioF())
-        return wide
+        wide_pen.setWidthF(CURVE_WIDTH * self.devicePixelRatioF())
+        return wide_pen
 
     def event(self, event: QEvent) -> bool:
-        """Draw the curves again, equally wide, if the window moves to another kind of screen."""
-        done = bool(super().event(event))
+        """Redraw the curves, equally wide, on a screen of another resolution."""
+        is_handled = bool(super().event(event))
         if event.type() == QEvent.Type.DevicePixelRatioChange and self.plotItem is not None:
-            self.dress(self.palette())
-        return done
+            self.apply_palette(self.palette())
+        return is_handled
 
     def limit(self, side: str, farthest: float, least_span: float) -> None:
         """Limit panning and zooming to what can be drawn.
@@ -137,10 +137,10 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self.plotItem is not None:
-            self.dress(self.palette())
+            self.apply_palette(self.palette())
 
-    def name_bottom(self, wanted: bool) -> None:
-        self._is_named = wanted
+    def show_axis_name(self, visible: bool) -> None:
+        self._is_named = visible
         self._show_name()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -182,8 +182,8 @@ def new_plot(
     plot.setAccessibleName(name)
     for side, label in (("bottom", x), ("left", y)):
         plot.setLabel(side, label)
-    plot.dress(palette)
-    plot.name_bottom(True)
+    plot.apply_palette(palette)
+    plot.show_axis_name(True)
     plot.setMinimumHeight(_LEAST_HEIGHT)
     # As high as its pane, because the size hint of pyqtgraph is far too large.
     plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)

@@ -21,14 +21,14 @@ class StateBar(QWidget):
     """A title in the colours and with the icon of its state, a sentence, and a row of badges."""
 
     MOST_LINES = 1  # most lines that a sentence may take
-    changed = Signal()  # the bar shows something else
+    changed = Signal()  # the contents of the bar have changed
     step_taken = Signal()  # the user presses the button of the step that helps
 
     def __init__(self) -> None:
         super().__init__()
         self._title = ""
         self._sentences: tuple[str, ...] = ("",)
-        self._shown: tuple[object, ...] = ()
+        self._shown_state: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
         self.title = embolden(ElidedLabel(), _TEXT_SCALE)
         self.sentence = ElidedLabel()
@@ -57,27 +57,27 @@ class StateBar(QWidget):
         metrics = self.sentence.fontMetrics()
         return title, metrics.height() + (self._lines - 1) * metrics.lineSpacing() + 2
 
-    def _place(self) -> None:
+    def _lay_out(self) -> None:
         """Give the title the width that it needs, and the badges the rest."""
         left = 2 * _PADDING + _ICON
-        room = whole = max(0, self.width() - left - _PADDING)
+        room = full_width = max(0, self.width() - left - _PADDING)
         if not self.step.isHidden():
             size = self.step.sizeHint()
-            room = max(0, whole - size.width() - _PADDING)
+            room = max(0, full_width - size.width() - _PADDING)
             top = (self.height() - size.height()) // 2
             self.step.setGeometry(left + room + _PADDING, top, size.width(), size.height())
         text = self._choose_sentence(room)
-        self._take_lines(text, room)
+        self._set_line_count(text, room)
         first, second = self._heights()
-        wanted = self.title.fontMetrics().horizontalAdvance(self._title) + 4
+        title_width = self.title.fontMetrics().horizontalAdvance(self._title) + 4
         badges = self.badges.minimumSizeHint().width() if self.badges.badges else 0
-        title = max(0, min(wanted, room - _PADDING - badges))
+        title = max(0, min(title_width, room - _PADDING - badges))
         self.icon.move(_PADDING, (self.height() - _ICON) // 2)
         self.title.setGeometry(left, _MARGIN, title, first)
-        beside = left + title + _PADDING
+        badges_left = left + title + _PADDING
         height = self.badges.sizeHint().height()
         top = _MARGIN + (first - height) // 2
-        self.badges.setGeometry(beside, top, max(0, left + room - beside), height)
+        self.badges.setGeometry(badges_left, top, max(0, left + room - badges_left), height)
         for label in (self.sentence, self.wrapped):
             label.setGeometry(left, _MARGIN + first, room, second)
         # A widget that is not shown yet gets no resize event.
@@ -88,14 +88,14 @@ class StateBar(QWidget):
         self.wrapped.setVisible(self._lines > 1)
         self.sentence.setVisible(self._lines == 1)
 
-    def _take_lines(self, text: str, room: int) -> None:
-        lines = self._lines_of(text, room)
+    def _set_line_count(self, text: str, room: int) -> None:
+        lines = self._count_lines(text, room)
         lines = lines if lines <= self.MOST_LINES else 1
         if lines != self._lines:
             self._lines = lines
             self.updateGeometry()
 
-    def _lines_of(self, text: str, room: int) -> int:
+    def _count_lines(self, text: str, room: int) -> int:
         metrics = self.sentence.fontMetrics()
         if room <= 0 or metrics.horizontalAdvance(text) <= room:
             return 1
@@ -105,12 +105,16 @@ class StateBar(QWidget):
 
     def _choose_sentence(self, room: int) -> str:
         """Return the longest sentence that fits, or else the shortest."""
-        fitting = (t for t in self._sentences if self._lines_of(t, room) <= self.MOST_LINES)
+        fitting = (
+            sentence
+            for sentence in self._sentences
+            if self._count_lines(sentence, room) <= self.MOST_LINES
+        )
         return next(fitting, self._sentences[-1])
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._place()
+        self._lay_out()
 
     @property
     def heading(self) -> str:
@@ -124,16 +128,16 @@ class StateBar(QWidget):
     def show_state(
         self, state: State, title: str, *sentences: str, badges: Sequence[Badge] = ()
     ) -> None:
-        shown = (state, title, sentences, tuple(badges))
-        if shown == self._shown:
+        new_state = (state, title, sentences, tuple(badges))
+        if new_state == self._shown_state:
             return
-        self._shown = shown
+        self._shown_state = new_state
         if state is not self.icon.state:
             self.icon.show_state(state)
-            self._take_colours()
+            self._apply_colours()
         self._title, self._sentences = title, sentences or ("",)
         self.badges.show_badges(badges)
-        self._place()
+        self._lay_out()
         self.setAccessibleDescription(f"{title}. {self._sentences[0]}".strip())
         self.changed.emit()
 
@@ -144,9 +148,9 @@ class StateBar(QWidget):
         if label:
             self.step.setAccessibleName(label)
         self.step.setVisible(bool(label))
-        self._place()
+        self._lay_out()
 
-    def _take_colours(self) -> None:
+    def _apply_colours(self) -> None:
         ink = colours_of(self.state, self.palette()).ink
         for label in (self.title, self.sentence, self.wrapped):
             palette = QPalette()  # all other colours stay those of the theme
@@ -159,10 +163,10 @@ class StateBar(QWidget):
         if not hasattr(self, "badges"):
             return
         if event.type() == QEvent.Type.PaletteChange:
-            self._take_colours()
+            self._apply_colours()
         if event.type() == QEvent.Type.FontChange:
             self.updateGeometry()
-            self._place()
+            self._lay_out()
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name

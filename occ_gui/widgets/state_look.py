@@ -160,7 +160,7 @@ class Badge:
     text: str  # a few words, as HTML with ``sub`` only
     meaning: str
     state: State = State.NEUTRAL
-    stays: bool = False  # whether it is shown however little room there is
+    stays: bool = False  # whether it is shown even without room for all badges
 
 
 class BadgeLabel(QWidget):
@@ -172,14 +172,14 @@ class BadgeLabel(QWidget):
         option.setWrapMode(QTextOption.WrapMode.NoWrap)
         self._text.setTextOption(option)
         self.badge = badge
-        self._take(badge)
+        self._update_text(badge)
 
     def show_badge(self, badge: Badge) -> None:
         if badge != self.badge:
             self.badge = badge
-            self._take(badge)
+            self._update_text(badge)
 
-    def _take(self, badge: Badge) -> None:
+    def _update_text(self, badge: Badge) -> None:
         self._text.setText(badge.text)
         self._text.prepare(font=self.font())
         self._left = _PADDING + (0 if badge.state is State.NEUTRAL else _ICON + 4)
@@ -223,8 +223,8 @@ class BadgeRow(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.badges: tuple[Badge, ...] = ()
-        # Labels that are not needed are kept hidden: making and deleting one at each movement of a
-        # slider took longer than drawing it.
+        # Unused labels are kept hidden: making and deleting them at each movement of a slider takes
+        # longer than drawing them.
         self._labels: list[BadgeLabel] = []
         self._spare: list[BadgeLabel] = []
         self._more = BadgeLabel(Badge("more", "", ""), self)
@@ -236,33 +236,33 @@ class BadgeRow(QWidget):
         if badges == self.badges:
             return
         self.badges = badges
-        former = [*self._labels, *self._spare]
+        free_labels = [*self._labels, *self._spare]
         self._labels = [
-            _take_label(former, badge) or BadgeLabel(badge, self) for badge in self.badges
+            _take_label(free_labels, badge) or BadgeLabel(badge, self) for badge in self.badges
         ]
-        self._spare = former
+        self._spare = free_labels
         for label in self._spare:
             label.hide()
-        self._place()
+        self._lay_out()
 
-    def _place(self) -> None:
+    def _lay_out(self) -> None:
         widths = [label.sizeHint().width() for label in self._labels]
         fitting = len(widths)
         if sum(widths) + _GAP * (fitting - 1) > self.width():
             room = self.width() - _MORE_WIDTH
             ends = accumulate(width + _GAP for width in widths)
-            fitting = max(sum(end <= room for end in ends), self._staying)
+            fitting = max(sum(end <= room for end in ends), self._staying_count)
         hidden = self._labels[fitting:]
-        shown = self._labels[:fitting]
+        visible = self._labels[:fitting]
         self._more.setVisible(bool(hidden))
         if hidden:
             meaning = "\n".join(plain_text_of(label.badge.text) for label in hidden)
             self._more.show_badge(Badge("more", f"+ {len(hidden)}", meaning))
-            shown = [*shown, self._more]
+            visible = [*visible, self._more]
         for label in hidden:
             label.hide()
         right = self.width()
-        for label in reversed(shown):
+        for label in reversed(visible):
             width = label.sizeHint().width()
             label.setGeometry(right - width, 0, width, self.height())
             label.show()
@@ -270,7 +270,7 @@ class BadgeRow(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._place()
+        self._lay_out()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         hints = [label.sizeHint() for label in self._labels]
@@ -278,12 +278,12 @@ class BadgeRow(QWidget):
         return QSize(width, self.fontMetrics().height() + 6)
 
     @property
-    def _staying(self) -> int:
+    def _staying_count(self) -> int:
         return sum(badge.stays for badge in self.badges)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        staying = (label.sizeHint().width() + _GAP for label in self._labels[: self._staying])
-        return QSize(sum(staying) + _MORE_WIDTH, self.sizeHint().height())
+        widths = (label.sizeHint().width() + _GAP for label in self._labels[: self._staying_count])
+        return QSize(sum(widths) + _MORE_WIDTH, self.sizeHint().height())
 
 
 def plain_text_of(html: str) -> str:
@@ -294,7 +294,7 @@ def _take_label(labels: list[BadgeLabel], badge: Badge) -> BadgeLabel | None:
     """Take a label for a badge, preferably the one with the same key; None if none is left."""
     if not labels:
         return None
-    alike = (place for place, label in enumerate(labels) if label.badge.key == badge.key)
-    label = labels.pop(next(alike, len(labels) - 1))
+    matches = (place for place, label in enumerate(labels) if label.badge.key == badge.key)
+    label = labels.pop(next(matches, len(labels) - 1))
     label.show_badge(badge)
     return label

@@ -9,7 +9,7 @@ from occ_gui.widgets.building import fill, name_widget, push_button
 
 _STEPS = 1000
 
-_PATIENCE_MS = 300  # work that takes less time is not shown, because the bar would only flash
+_DELAY_MS = 300  # shorter work is not shown, because the bar would only flash
 
 
 class _Reports(Protocol):
@@ -27,14 +27,14 @@ class _Work(Protocol):
 class WorkBar(QWidget):
     cancelled = Signal()
 
-    def __init__(self, what: str, parent: QWidget | None = None) -> None:
+    def __init__(self, name: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.progress = name_widget(QProgressBar(), what, what)
+        self.progress = name_widget(QProgressBar(), name, name)
         self.progress.setRange(0, _STEPS)
         self.cancel = push_button("Cancel", "Cancel this work.", self.cancelled)
-        self._patience = QTimer(self, singleShot=True)
-        self._patience.setInterval(_PATIENCE_MS)
-        self._patience.timeout.connect(self.show)
+        self._delay = QTimer(self, singleShot=True)
+        self._delay.setInterval(_DELAY_MS)
+        self._delay.timeout.connect(self.show)
         fill(QHBoxLayout(self), self.progress, self.cancel, margins=0)
         self.hide()
 
@@ -47,11 +47,11 @@ class WorkBar(QWidget):
     def begin(self) -> None:
         self.progress.setValue(0)
         if self.isHidden():
-            self._patience.start()
+            self._delay.start()
 
     def show_progress(self, fraction: float) -> None:
         self.progress.setValue(round(_STEPS * fraction))
 
     def end(self) -> None:
-        self._patience.stop()
+        self._delay.stop()
         self.hide()

@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
 from occ_gui.widgets.building import bring_into_view, fill, make_read_only, name_widget, paragraph
-from occ_gui.widgets.plain_text import plain
+from occ_gui.widgets.plain_text import strip_mnemonics
 from occ_gui.window.menus import search_words
 from occ_model.scene.parameters import PARAMETERS
 
@@ -67,8 +67,8 @@ class CommandPalette(QDialog):
         self.list.setUniformItemSizes(True)
         self.list.itemActivated.connect(self._accept_chosen)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._nothing = QLabel("No command has these words.")
-        fill(QVBoxLayout(self), self.line, self.list, self._nothing)
+        self._no_match_label = QLabel("No command has these words.")
+        fill(QVBoxLayout(self), self.line, self.list, self._no_match_label)
         self.resize(_WIDTH, _HEIGHT)
         self._filter("")
 
@@ -76,13 +76,15 @@ class CommandPalette(QDialog):
         words = text.casefold().split()
         matches = [command for command in self._commands if command.matches(words)]
         # Commands whose names contain the words come first.
-        self._matches = sorted(matches, key=lambda each: not each.matches(words, by_name=True))
+        self._matches = sorted(
+            matches, key=lambda command: not command.matches(words, by_name=True)
+        )
         self.list.clear()
         for command in self._matches:
             hint = f"    {command.hint}" if command.hint else ""
             self.list.addItem(f"{command.title}{hint}")
         self.list.setCurrentRow(0)
-        self._nothing.setVisible(not self._matches)
+        self._no_match_label.setVisible(not self._matches)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         """Move in the list by the arrow keys and choose by Enter while text is typed."""
@@ -103,22 +105,22 @@ class CommandPalette(QDialog):
             self.accept()
 
 
-def entries(menu: QMenu | QMenuBar, path: str = "") -> Iterator[tuple[str, QAction]]:
+def menu_entries(menu: QMenu | QMenuBar, path: str = "") -> Iterator[tuple[str, QAction]]:
     for action in menu.actions():
-        inner = action.menu()
-        if isinstance(inner, QMenu):
-            name = plain(action.text())
-            yield from entries(inner, f"{path} > {name}" if path else name)
+        submenu = action.menu()
+        if isinstance(submenu, QMenu):
+            name = strip_mnemonics(action.text())
+            yield from menu_entries(submenu, f"{path} > {name}" if path else name)
         elif not action.isSeparator():
             yield path, action
 
 
 def shortcuts_of(bar: QMenuBar) -> Iterator[tuple[str, str, str]]:
     """Return menu, text and keys of every entry that has a keyboard shortcut."""
-    for path, action in entries(bar):
+    for path, action in menu_entries(bar):
         keys = ", ".join(key.toString(_NATIVE) for key in action.shortcuts())
         if keys:
-            yield path, plain(action.text()).rstrip("…"), keys
+            yield path, strip_mnemonics(action.text()).rstrip("…"), keys
 
 
 def commands_of(
@@ -127,18 +129,18 @@ def commands_of(
     """List the enabled menu entries, and a command for each parameter that selects its field."""
     commands = [
         Command(
-            f"{path}: {plain(action.text())}",
+            f"{path}: {strip_mnemonics(action.text())}",
             action.shortcut().toString(_NATIVE),
             action.trigger,
             f"{action.toolTip()} {search_words(action)}",
         )
-        for path, action in entries(bar)
+        for path, action in menu_entries(bar)
         if action.isEnabled()
     ]
     commands.append(_jump_command("Scene", "light", controls.light, bring_to_front))
     for page, panel in controls.panels.items():
         for name, row in panel.rows.items():
-            if not row.isHidden():  # one of another kind of light is
+            if not row.isHidden():  # rows for other kinds of light are hidden
                 commands.append(_jump_command(page, name, row, bring_to_front))
     return commands
 
@@ -151,7 +153,7 @@ def _jump_command(
     def jump() -> None:
         bring_to_front("controls")
         bring_into_view(row)
-        field: QWidget = getattr(row, "field")  # noqa: B009 - each kind of row has one of its own
+        field: QWidget = getattr(row, "field")  # noqa: B009 - each kind of row defines it
         field.setFocus()
         if isinstance(field, QAbstractSpinBox | QLineEdit):
             field.selectAll()

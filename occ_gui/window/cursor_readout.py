@@ -11,10 +11,10 @@ from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.profile.profile_view import ProfileView
 
 
-class _Follower(QObject):
-    """Shows a text for each position of the mouse in a view, an empty one when it leaves.
+class _MouseFollower(QObject):
+    """Shows a text for each position of the mouse in a view, and none when the mouse leaves it.
 
-    The scene's own signal skips positions in quick succession, even that where the mouse stops.
+    The signal of pyqtgraph's scene skips positions in quick succession, even the last one.
     """
 
     # A signal, because the label that shows the text may be deleted before the view.
@@ -48,15 +48,15 @@ def follow_profile(profile: ProfileView, show: Callable[[str], None]) -> None:
         level = profile.level_at(column)
         return "" if level is None else f"Profile: column {column}, level {level:.1f}"
 
-    _Follower(profile.plot, text_at, show)
+    _MouseFollower(profile.plot, text_at, show)
 
 
 def follow_pictures(image: ImageView, show: Callable[[str], None]) -> None:
     """Show column, row and level under the mouse in picture and photo; empty outside."""
 
     def pixel_at(pane: PicturePane, point: QPointF) -> tuple[int, int]:
-        at = pane.box.mapSceneToView(point)
-        return round(at.x()), round(at.y())
+        position = pane.box.mapSceneToView(point)
+        return round(position.x()), round(position.y())
 
     def describe_simulation(point: QPointF) -> str:
         column, row = pixel_at(image.simulation, point)
@@ -71,5 +71,5 @@ def follow_pictures(image: ImageView, show: Callable[[str], None]) -> None:
         level = image.photo.level_at(column, row)
         return "" if level is None else f"Photo: column {column}, row {row}, level {level}"
 
-    _Follower(image.simulation.graphics, describe_simulation, show)
-    _Follower(image.photo.graphics, describe_photo, show)
+    _MouseFollower(image.simulation.graphics, describe_simulation, show)
+    _MouseFollower(image.photo.graphics, describe_photo, show)

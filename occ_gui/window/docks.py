@@ -28,14 +28,14 @@ class DeclaredPane:
 class Panes(dict[str, DeclaredPane]):
     """The panes by name, and which of them each mode shows."""
 
-    def shown_in(self, mode: str) -> dict[str, PanePlace]:
+    def places_in(self, mode: str) -> dict[str, PanePlace]:
         """Return the places of the panes in a mode, the main ones first."""
         places = {name: pane.places[mode] for name, pane in self.items() if mode in pane.places}
         return dict(sorted(places.items(), key=lambda item: not item[1].is_main))
 
     def main_of(self, mode: str) -> str:
         """Return the main pane of a mode; empty if its subject is in the middle."""
-        return next((name for name, at in self.shown_in(mode).items() if at.is_main), "")
+        return next((name for name, place in self.places_in(mode).items() if place.is_main), "")
 
     def home_of(self, name: str) -> str:
         """Return the mode whose main pane this is; empty if there is none."""
@@ -50,7 +50,7 @@ class Panes(dict[str, DeclaredPane]):
         window.setCorner(Qt.Corner.BottomLeftCorner, corner)
         corner = _SIDES["right"] if layout.is_right_high else _SIDES["bottom"]
         window.setCorner(Qt.Corner.BottomRightCorner, corner)
-        places = self.shown_in(mode)
+        places = self.places_in(mode)
         for side, area in _SIDES.items():
             docks = [self[name].dock for name, place in places.items() if place.side == side]
             _show_as_tabs(window, area, docks)
@@ -59,8 +59,14 @@ class Panes(dict[str, DeclaredPane]):
                 window.addDockWidget(_SIDES[pane.default_side], pane.dock)
                 pane.dock.hide()
         for orientation, sizes in (
-            (Qt.Orientation.Horizontal, {n: at.width for n, at in places.items() if at.width}),
-            (Qt.Orientation.Vertical, {n: at.height for n, at in places.items() if at.height}),
+            (
+                Qt.Orientation.Horizontal,
+                {n: place.width for n, place in places.items() if place.width},
+            ),
+            (
+                Qt.Orientation.Vertical,
+                {n: place.height for n, place in places.items() if place.height},
+            ),
         ):
             window.resizeDocks([self[n].dock for n in sizes], [*sizes.values()], orientation)
 
@@ -84,9 +90,9 @@ _WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
 
 
 class ModeSwitch(QObject):
-    """The present mode of a window, and the layouts of the modes used before.
+    """The present mode of a window, and the last layouts of the other modes.
 
-    ``panes``: may be added to until the first mode is shown. ``show_page``: shows the page of this
+    ``panes``: may grow until the first mode is shown. ``show_page``: shows the page of this
     name in the middle, or hides the middle if the name is empty.
     """
 
@@ -104,7 +110,7 @@ class ModeSwitch(QObject):
         self.layouts: dict[str, QByteArray] = {}
         """The last layouts of the other modes, by name."""
         self.is_shown = False  # whether the window has been laid out
-        self.version = 0  # of stored layouts, so that those of other panes are ignored
+        self.version = 0  # of stored layouts; those of other sets of panes are ignored
 
     def begin(self) -> None:
         """Lay out the present mode, when the window is first shown."""
@@ -113,7 +119,7 @@ class ModeSwitch(QObject):
         self._enter()
 
     def switch(self, name: str) -> None:
-        """Change to a mode, laid out as it was left; an unknown name changes nothing."""
+        """Change to a mode with its last layout; an unknown name changes nothing."""
         if name == self.mode or name not in MODES:
             return
         if self.is_shown:
@@ -128,7 +134,7 @@ class ModeSwitch(QObject):
         self.layouts.pop(self.mode, None)
         self._enter()
 
-    def present_layouts(self) -> dict[str, QByteArray]:
+    def collect_layouts(self) -> dict[str, QByteArray]:
         if not self.is_shown:
             return dict(self.layouts)
         return {**self.layouts, self.mode: self._window.saveState(self.version)}
@@ -163,17 +169,17 @@ class ModeSwitch(QObject):
 
         Qt would divide it among the panes.
         """
-        has_page, places = bool(MODES[self.mode].centre), self.panes.shown_in(self.mode)
+        has_page, places = bool(MODES[self.mode].centre), self.panes.places_in(self.mode)
         for name, pane in self.panes.items():
             is_limited = not has_page and name in places and places[name].side == "left"
             pane.dock.setMaximumWidth(_WIDEST_SIDE if is_limited else _ANY_WIDTH)
 
 
-_OFFSET = 24  # pixels from its place to which a pane moves, so that it is seen to float
+_OFFSET = 24  # pixels by which a pane moves when it starts to float, so that this is visible
 
 
 def floating_place(place: QRect, screen: QRect) -> QRect:
-    """Return the place of a floating pane: near its former place, and whole on the screen."""
+    """Return the place of a floating pane: near its former place, and entirely on the screen."""
     size = QSize(min(place.width(), screen.width()), min(place.height(), screen.height()))
     corner = place.topLeft() + QPoint(_OFFSET, _OFFSET)
     return QRect(
@@ -243,14 +249,14 @@ class CurrentPane(QObject):
         if is_visible and tabs and self._window.isActiveWindow():
             self.name = name
 
-    def _on_focus(self, _before: QWidget | None, now: QWidget | None) -> None:
-        if now is None or now.window() is not self._window:
+    def _on_focus(self, _old: QWidget | None, widget: QWidget | None) -> None:
+        if widget is None or widget.window() is not self._window:
             return
         middle = self._window.centralWidget()
-        if middle is not None and (now is middle or middle.isAncestorOf(now)):
+        if middle is not None and (widget is middle or middle.isAncestorOf(widget)):
             self.name = PICTURE
         for name, dock in self._docks.items():
-            if dock.isAncestorOf(now):
+            if dock.isAncestorOf(widget):
                 self.name = name
 
 
@@ -272,7 +278,9 @@ class DockLayout(QObject):
         if not geometry.isEmpty():
             self._window.restoreGeometry(geometry)
         layouts = {name: _bytes(recall(f"{_STATE}/{name}")) for name in MODES}
-        self._modes.layouts |= {name: each for name, each in layouts.items() if not each.isEmpty()}
+        self._modes.layouts |= {
+            name: layout for name, layout in layouts.items() if not layout.isEmpty()
+        }
         self._modes.switch(recall(_MODE))
 
     def keep(self) -> None:
@@ -280,7 +288,7 @@ class DockLayout(QObject):
             return
         self._preferences.keep(_GEOMETRY, _text(self._window.saveGeometry()))
         self._preferences.keep(_MODE, self._modes.mode)
-        for name, layout in self._modes.present_layouts().items():
+        for name, layout in self._modes.collect_layouts().items():
             self._preferences.keep(f"{_STATE}/{name}", _text(layout))
 
 

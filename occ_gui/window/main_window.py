@@ -19,15 +19,15 @@ from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar import ToolBar
 
 _OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
-"""Fractions of the window's height and width for a pane opened below the middle, or beside it."""
+"""Fractions of the window's height and width for a pane opening below the middle or beside it."""
 
 _LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
-_WITH_PICTURE = "photo"  # the pane shown with the whole picture, which has the photo beside it
+_WITH_PICTURE = "photo"  # the pane that is shown together with the whole picture and the photo
 
-_IN_STORY = ("profile", "decode")  # panes on a subject that has a row in the story
+_IN_STORY = ("profile", "decode")  # panes whose subject has a row in the story
 
 
 _CONTROLS = {
@@ -81,7 +81,7 @@ class MainWindow(QMainWindow):
         self.show_accuracy = self._status_line.show_accuracy
         self.show_plan_change = self._status_line.show_plan_change
         self.modes.changed.connect(
-            lambda mode: line.show_times("controls" in self._panes.shown_in(mode))
+            lambda mode: line.show_times("controls" in self._panes.places_in(mode))
         )
         self.resize(_FIRST_SIZE)
 
@@ -97,7 +97,7 @@ class MainWindow(QMainWindow):
         dock = self.sender()
         if isinstance(dock, Dock):
             self._join_tabs(dock)
-            QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
+            QTimer.singleShot(0, dock, lambda: self._bring_forward(dock, True))
 
     def add_pane(
         self, name: str, title: str, content: QWidget, places: Places, default_side: Side
@@ -126,7 +126,7 @@ class MainWindow(QMainWindow):
         if is_new:
             self._join_tabs(dock)
         # A window that has just been shown arranges its docks once more, in another order.
-        QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
+        QTimer.singleShot(0, dock, lambda: self._bring_forward(dock, is_new))
 
     def _join_tabs(self, dock: Dock) -> None:
         """Make a pane that has just opened a tab of another one if there is no room for both.
@@ -150,7 +150,7 @@ class MainWindow(QMainWindow):
         if _LEAST_BELOW * (len(others) + 1) > room:
             self.tabifyDockWidget(others[-1], dock)
 
-    def _give_place(self, dock: Dock, is_new: bool) -> None:
+    def _bring_forward(self, dock: Dock, is_new: bool) -> None:
         """Bring a pane to the front, and enlarge it if it is too small when it opens."""
         dock.raise_()
         if not is_new or dock.isFloating():
@@ -159,13 +159,13 @@ class MainWindow(QMainWindow):
             dock.raise_()
         area = self.dockWidgetArea(dock)
         if area == Qt.DockWidgetArea.BottomDockWidgetArea:
-            least, now = round(_OPENED_BELOW * self.height()), dock.height()
+            least_length, length = round(_OPENED_BELOW * self.height()), dock.height()
             orientation = Qt.Orientation.Vertical
         else:
-            least, now = round(_OPENED_BESIDE * self.width()), dock.width()
+            least_length, length = round(_OPENED_BESIDE * self.width()), dock.width()
             orientation = Qt.Orientation.Horizontal
-        if now < least:
-            self.resizeDocks([dock], [least], orientation)
+        if length < least_length:
+            self.resizeDocks([dock], [least_length], orientation)
         if orientation == Qt.Orientation.Horizontal:
             self._give_half_height(dock)
 
@@ -187,8 +187,8 @@ class MainWindow(QMainWindow):
         ]
         if not others:
             return False
-        near = [other for other in others if self.dockWidgetArea(other) == area]
-        self.tabifyDockWidget((near or others)[-1], dock)
+        neighbours = [other for other in others if self.dockWidgetArea(other) == area]
+        self.tabifyDockWidget((neighbours or others)[-1], dock)
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         self.resize(self.width(), dock.height_before)
         return True
@@ -223,7 +223,7 @@ class MainWindow(QMainWindow):
 
     def hide_pane(self, name: str) -> None:
         """Hide a pane that the present mode does not show."""
-        if name not in self._panes.shown_in(self.modes.mode):
+        if name not in self._panes.places_in(self.modes.mode):
             self.docks[name].hide()
 
     def _show_page(self, page: str) -> None:

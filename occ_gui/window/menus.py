@@ -28,7 +28,7 @@ class _Entry(NamedTuple):
     text: str
     keys: QKeySequence.StandardKey | str = ""
     tip: str = ""
-    words: str = ""  # search words, besides those of its text
+    words: str = ""  # search words beyond those of its text
     is_checkable: bool = False
 
 
@@ -166,7 +166,7 @@ class Menus(QObject):
         super().__init__(window)
         self._bar = window.menuBar()
         self.actions: dict[str, QAction] = {}
-        self.tops: dict[str, QMenu] = {}
+        self.top_menus: dict[str, QMenu] = {}
         self.figures: dict[str, QAction] = {}
         self._animations: dict[str, QAction] = {}
         self.drop_downs: dict[str, QMenu] = {}  # the menus that the toolbar opens, too
@@ -177,8 +177,8 @@ class Menus(QObject):
         self._fill(self._add_menu("help", "&Help"), *_HELP)
 
     def _add_menu(self, name: str, text: str) -> QMenu:
-        self.tops[name] = self._bar.addMenu(text)
-        return self.tops[name]
+        self.top_menus[name] = self._bar.addMenu(text)
+        return self.top_menus[name]
 
     def _fill(self, menu: QMenu, *entries: _Entry | None) -> None:
         for entry in entries:
@@ -256,7 +256,7 @@ class Menus(QObject):
             self._animations[name] = action
 
     def show_animations(self, names: Container[str]) -> None:
-        """Offer those of the sliders that the scene's light has."""
+        """Offer only the sliders of the scene's light."""
         for name, action in self._animations.items():
             action.setVisible(name in names)
 
@@ -321,7 +321,7 @@ class Menus(QObject):
 
 
 def search_words(action: QAction) -> str:
-    """Return the search words of an entry besides its text."""
+    """Return the search words of an entry beyond its text."""
     return str(action.property(_SEARCH_WORDS) or "")
 
 
@@ -339,7 +339,7 @@ def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], No
 
 
 class FullScreen(QObject):
-    """Keeps the entry of the menu and the window's state equal, whichever changes."""
+    """Keeps the menu entry and the window's state in step, whichever changes."""
 
     def __init__(self, window: QMainWindow, action: QAction) -> None:
         super().__init__(window)

@@ -17,8 +17,8 @@ Span = tuple[int, int]
 def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWidget | None:
     """Return the widget of a window that gets the focus next; None if there is none.
 
-    ``after``: the widget that has the focus. One that the Tab key does not reach, or None, counts
-    as before the first and after the last.
+    ``after``: the widget that has the focus. If it is None or the Tab key does not
+    reach it, the first widget comes next, or backward the last.
     """
     stops = list(focus_stops(window))
     if not stops:
@@ -47,7 +47,11 @@ def _children(widget: QWidget) -> list[QWidget]:
     ]
     # A pane behind another one is not hidden: Qt puts it beside the window.
     area = widget.rect()
-    return [c for c in visible if c.geometry().intersects(area)] if widget.isWindow() else visible
+    return (
+        [child for child in visible if child.geometry().intersects(area)]
+        if widget.isWindow()
+        else visible
+    )
 
 
 def _sort(widgets: Sequence[QWidget]) -> list[QWidget]:
@@ -55,8 +59,8 @@ def _sort(widgets: Sequence[QWidget]) -> list[QWidget]:
     for span in (_vertical_span, _horizontal_span):
         groups = _group(widgets, span)
         if len(groups) > 1:
-            return [each for group in groups for each in _sort(group)]
-    return sorted(widgets, key=lambda each: (each.y(), each.x()))
+            return [widget for group in groups for widget in _sort(group)]
+    return sorted(widgets, key=lambda widget: (widget.y(), widget.x()))
 
 
 def _vertical_span(widget: QWidget) -> Span:
@@ -77,7 +81,9 @@ def _group(widgets: Sequence[QWidget], span: Callable[[QWidget], Span]) -> list[
     """Divide widgets into groups whose spans do not overlap, from first to last."""
     groups: list[list[QWidget]] = []
     end = 0
-    for start, stop, place in sorted((*span(w), place) for place, w in enumerate(widgets)):
+    for start, stop, place in sorted(
+        (*span(widget), place) for place, widget in enumerate(widgets)
+    ):
         if not groups or start >= end:
             groups.append([])
             end = stop

@@ -54,7 +54,7 @@ class StatusLine(QStatusBar):
         """Show a message in place of the previous one, until :meth:`clearMessage`."""
         self._message = one_line(message, LONGEST_TEXT)
         if self._message:
-            self._plan_change = ""  # it is older news
+            self._plan_change = ""  # which is older than the message
         self._show_sentence()
 
     def clearMessage(self) -> None:  # noqa: N802 - Qt's name
@@ -75,7 +75,7 @@ class StatusLine(QStatusBar):
         return super().eventFilter(watched, event)
 
     def _is_shown_elsewhere(self) -> bool:
-        texts = (each.text() for each in self._other_labels if each.isVisible())
+        texts = (label.text() for label in self._other_labels if label.isVisible())
         return bool(self._message) and any(self._message in _join_lines(text) for text in texts)
 
     def show_accuracy(self, badge: Badge | None) -> None:
@@ -112,8 +112,8 @@ class StatusLine(QStatusBar):
         return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
 
     def _show_sentence(self) -> None:
-        is_shown = self._is_shown_elsewhere()
-        self._sentence.set_full_text("" if is_shown else self._message or self._plan_change)
+        is_elsewhere = self._is_shown_elsewhere()
+        self._sentence.set_full_text("" if is_elsewhere else self._message or self._plan_change)
 
 
 def _join_lines(text: str) -> str:

@@ -12,7 +12,7 @@ THEMES = ("system", "light", "dark")
 _SCHEMES = dict(
     zip(THEMES, (Qt.ColorScheme.Unknown, Qt.ColorScheme.Light, Qt.ColorScheme.Dark), strict=True)
 )
-_STYLE = "fusion"  # the style that draws any palette, on every system
+_STYLE = "fusion"  # the style that follows any palette, on every system
 
 _ROLE = QPalette.ColorRole
 
@@ -43,10 +43,10 @@ def palette_of(theme: str) -> QPalette:
 
 
 class ThemeController(QObject):
-    """Sets the application's colours: those of the system until another theme is chosen."""
+    """Sets the application's colours: the system's until another theme is chosen."""
 
     chosen = Signal(str)  # the theme that is shown from now on, one of THEMES
-    coloured = Signal()  # the application may have other colours
+    colours_changed = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -63,13 +63,13 @@ class ThemeController(QObject):
             return
         self.theme = theme
         if show_theme(theme):
-            self.coloured.emit()
+            self.colours_changed.emit()
             self.chosen.emit(theme)
 
     def _follow_system(self) -> None:
         if self.theme == THEMES[0]:
             show_theme(self.theme)
-            self.coloured.emit()
+            self.colours_changed.emit()
 
 
 def show_theme(theme: str) -> bool:

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QTabBar, QToolBar, QToolButton
 from shiboken6 import isValid
 
 from occ_gui.widgets.icons import icon
-from occ_gui.widgets.plain_text import in_tool_tip, plain
+from occ_gui.widgets.plain_text import in_tool_tip, strip_mnemonics
 
 ICON_SIZE = 20
 
@@ -40,7 +40,7 @@ class ToolButton(QToolButton):
         action = self.source
         if not isValid(action):  # Qt reports changes while it deletes the window
             return
-        name = plain(action.text()).rstrip("…")
+        name = strip_mnemonics(action.text()).rstrip("…")
         keys = action.shortcut().toString(_NATIVE)
         self.setAccessibleName(name)
         text = f"{name} ({keys})" if keys else name
@@ -71,9 +71,11 @@ class ModeBar(QTabBar):
         self.setExpanding(False)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))
         for action in self._actions:
-            place = self.addTab(plain(action.text()))
+            place = self.addTab(strip_mnemonics(action.text()))
             keys = action.shortcut().toString(_NATIVE)
-            self.setTabToolTip(place, f"{plain(action.text())} ({keys})\n{action.toolTip()}")
+            self.setTabToolTip(
+                place, f"{strip_mnemonics(action.text())} ({keys})\n{action.toolTip()}"
+            )
             action.toggled.connect(self._follow)
         self._follow()
         self.currentChanged.connect(self._choose)

@@ -356,7 +356,7 @@ class Monkey:
         if not guide.step.next.isVisibleTo(guide):
             guide.list.choices[0].click()
         step = guide.step
-        buttons = (step.next, step.next, step.back, step.again, step.reveal, step.control)
+        buttons = (step.next, step.next, step.back, step.reset, step.reveal, step.control)
         self._random.choice(buttons).click()
 
     def leave_the_lesson(self) -> None:

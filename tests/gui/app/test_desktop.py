@@ -276,11 +276,11 @@ def test_each_button_of_the_welcome_page_leads_to_its_mode(
     dialogs: list[object] = []
     monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: dialogs.append(a) or ("", ""))
     page = application.shell.pane("welcome")
-    doors = {"photo": "photo", "explore": "explore", "bars": "limits", "learn": "lessons"}
-    for door, mode in doors.items():
+    modes = {"photo": "photo", "explore": "explore", "bars": "limits", "learn": "lessons"}
+    for task, mode in modes.items():
         assert application.store.scene == small_scene
         user.choose("&Welcome…")
-        page.dialog.doors[door].click()
+        page.dialog.buttons[task].click()
         user.wait_until_idle()
         assert application.window.modes.mode == mode
         assert page.dialog is None

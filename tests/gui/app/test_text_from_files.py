@@ -20,7 +20,7 @@ from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.building import ElidedLabel
-from occ_gui.widgets.plain_text import in_tool_tip, plain
+from occ_gui.widgets.plain_text import in_tool_tip, strip_mnemonics
 from occ_model.results.teaching import LoadedLessons
 from occ_model.scene.presets import USER_FOLDER, delete_preset, save_preset
 from occ_model.scene.scene import Scene
@@ -91,7 +91,7 @@ def test_neither_a_files_name_nor_its_notes_become_markup(
     place = combo.findData("hostile")
     assert render_tip(combo.itemData(place, Qt.ItemDataRole.ToolTipRole)) == SHOWN
     recent = window.menus.recent.actions()[0]
-    assert plain(recent.text()) == f"{SHOWN}.png"
+    assert strip_mnemonics(recent.text()) == f"{SHOWN}.png"
     assert render_tip(recent.toolTip()).endswith(f"{SHOWN}.png")
     scene = hostile_photo.with_suffix(".toml")
     application.files.save_scene(scene)
@@ -100,7 +100,7 @@ def test_neither_a_files_name_nor_its_notes_become_markup(
     application.files.open_scene(scene)
     assert window.statusBar().currentMessage() == f"Opened {SHOWN}.toml"
     undo = application.store.undo_stack.undoText()
-    assert plain(undo) == f"opening of {SHOWN}.toml"
+    assert strip_mnemonics(undo) == f"opening of {SHOWN}.toml"
     assert not any(RichText.mightBeRichText(text) and "<img" in text for text in texts(window))
     delete_preset("hostile")
     application.presets.update()
@@ -122,7 +122,7 @@ def test_a_lessons_title_is_plain_text(
     controller = LessonController(application.store.store, application.results_store, view, answers)
     answers.runner.stop()
     controller.set_visible(True)
-    assert plain(view.list.choices[0].text()).startswith(f"{TAG} & co")
+    assert strip_mnemonics(view.list.choices[0].text()).startswith(f"{TAG} & co")
     controller.choose(hostile[0].name)
     assert view.step.position.textFormat() == Qt.TextFormat.PlainText
     assert view.step.position.text().startswith(f"{TAG} & co · step 1")

@@ -140,7 +140,7 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         assert modes.mode == "limits"
         assert window.toolbar.modes.currentIndex() == [*MODES].index("limits")
         for mode, panes in (
-            ("limits", {*modes.panes.shown_in("limits")}),
+            ("limits", {*modes.panes.places_in("limits")}),
             ("photo", {"photo", "profile", "photos"}),
         ):
             modes.switch(mode)

@@ -220,7 +220,7 @@ def test_the_factor_of_the_difference_is_in_the_caption(
         qtbot.keyClick(view.gain, Qt.Key.Key_Down)
 
 
-def shown_in(view: ImageView) -> AveragedImage:
+def places_in(view: ImageView) -> AveragedImage:
     """Find the simulated picture on the screen."""
     items = view.simulation.box.childGroup.childItems()
     return next(item for item in items if isinstance(item, AveragedImage))
@@ -231,20 +231,20 @@ def test_the_camera_s_picture_is_shown_first_and_the_switch_shows_the_receiver_s
 ) -> None:
     frame = snapshot_of().frame
     view.show_picture(Picture.of(frame, "camera"))
-    assert shown_in(view).image is frame.camera_image
+    assert places_in(view).image is frame.camera_image
     assert view.simulation.caption.text() == "Camera's picture"
     assert view.switch.key() == "camera"
     assert not np.array_equal(frame.camera_image, frame.image)
     chosen = collect(view.picture_chosen)
     qtbot.keyClick(view.switch, Qt.Key.Key_Down)
     assert chosen == ["receiver"]
-    assert shown_in(view).image is frame.image
+    assert places_in(view).image is frame.image
     assert view.simulation.caption.text() == "Receiver's picture, enhanced by equalization"
     assert view.simulation.graphics.accessibleName() == view.simulation.caption.text()
     assert view.overlay.simulated is frame.image
     other = snapshot_of(enhancement="none").frame
     view.show_picture(Picture.of(other, "receiver"))
-    assert shown_in(view).image is other.image
+    assert places_in(view).image is other.image
     assert view.simulation.caption.text() == "Receiver's picture, not enhanced"
 
 
@@ -254,10 +254,10 @@ def test_the_smaller_copies_are_those_of_the_picture_shown(
     frame = snapshot_of(rows=1200).frame
     view.choose_picture("receiver")
     view.show_picture(Picture.of(frame, "camera"))  # prepared before the choice
-    assert shown_in(view).halves == ()
+    assert places_in(view).halves == ()
     view.show_picture(Picture.of(frame, "receiver"))
-    assert len(shown_in(view).halves) == 2
-    assert abs(shown_in(view).halves[0].mean() - frame.image.mean()) < 1.0
+    assert len(places_in(view).halves) == 2
+    assert abs(places_in(view).halves[0].mean() - frame.image.mean()) < 1.0
 
 
 def test_before_is_of_the_same_picture_as_now(view: ImageView, snapshot_of: SnapshotOf) -> None:

@@ -27,9 +27,9 @@ def test_the_page_appears_by_itself_only_once(qtbot: QtBot, small_scene: Scene) 
     )
     page.show_once()
     assert page.dialog is not None
-    for door in page.dialog.doors.values():
-        assert door.accessibleName()
-        assert door.accessibleDescription().endswith(".")
+    for button in page.dialog.buttons.values():
+        assert button.accessibleName()
+        assert button.accessibleDescription().endswith(".")
     page.dialog.close()
     assert page.dialog is None
     page.show_once()

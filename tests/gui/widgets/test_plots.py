@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.colours import SIMULATION, thin
+from occ_gui.widgets.colours import SIMULATION, thin_pen
 from occ_gui.widgets.plot import LineLegend, new_plot
 
 
@@ -20,7 +20,7 @@ def test_a_curve_is_two_pixels_wide_on_every_screen(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, ratio: float
 ) -> None:
     plot = add_widget(qtbot, new_plot("name", "x", "y", QPalette()))
-    curve = plot.add_curve(thin(SIMULATION))
+    curve = plot.add_curve(thin_pen(SIMULATION))
     monkeypatch.setattr(plot, "devicePixelRatioF", lambda: ratio)
     QApplication.sendEvent(plot, QEvent(QEvent.Type.DevicePixelRatioChange))
     assert curve.opts["pen"].widthF() == 2.0 * ratio

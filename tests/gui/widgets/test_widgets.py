@@ -19,7 +19,7 @@ from occ_gui.widgets.building import (
     fill,
     resize_font,
 )
-from occ_gui.widgets.guarded_paint import are_same
+from occ_gui.widgets.guarded_paint import are_equal
 from occ_gui.widgets.plain_text import in_tool_tip
 
 LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
@@ -105,7 +105,7 @@ ARRAY = np.array([1.0, 2.0])
 def test_lists_are_the_same_where_every_value_is(
     ones: list[object], others: list[object], same: bool
 ) -> None:
-    assert are_same(ones, others) is same
+    assert are_equal(ones, others) is same
 
 
 @pytest.mark.parametrize(("height", "asked"), [(500, 120), (70, 70)])

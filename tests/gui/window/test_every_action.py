@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.app.application import Application
-from occ_gui.window.command_lists import entries
+from occ_gui.window.command_lists import menu_entries
 from occ_model.teaching.lessons import lessons
 
 READ_LATER = ("Fit gamma too",)
@@ -93,7 +93,7 @@ def test_each_pane_can_be_hidden_and_shown_and_its_controls_are_named_explained_
         assert dock.objectName() == name  # which a stored layout contains
         assert dock.windowTitle()
         toggle = dock.toggleViewAction()
-        if name not in window.modes.panes.shown_in("explore"):
+        if name not in window.modes.panes.places_in("explore"):
             assert not dock.isVisible()
             toggle.trigger()
         for on in (True, False, True):
@@ -108,7 +108,7 @@ def test_each_pane_can_be_hidden_and_shown_and_its_controls_are_named_explained_
 
 
 def all_entries(application: Application) -> list[tuple[str, QAction]]:
-    return list(entries(application.window.menuBar()))
+    return list(menu_entries(application.window.menuBar()))
 
 
 def test_keys_are_unique_and_each_entry_has_a_letter_unique_in_its_menu(

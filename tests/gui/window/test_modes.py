@@ -34,7 +34,7 @@ def is_in_front(application: Application, name: str) -> bool:
 
 
 def panes_of(application: Application, mode: str) -> set[str]:
-    return {*application.window.modes.panes.shown_in(mode)}
+    return {*application.window.modes.panes.places_in(mode)}
 
 
 def test_panes_declare_places_in_every_mode_one_of_them_as_its_main_pane(
@@ -43,7 +43,7 @@ def test_panes_declare_places_in_every_mode_one_of_them_as_its_main_pane(
     panes = application.window.modes.panes
     assert {mode for pane in panes.values() for mode in pane.places} == {*MODES}
     for mode, layout in MODES.items():
-        mains = [name for name, place in panes.shown_in(mode).items() if place.is_main]
+        mains = [name for name, place in panes.places_in(mode).items() if place.is_main]
         # The subject of Explore is the story in the middle.
         assert len(mains) == (0 if layout.centre == STORY and mode != "lessons" else 1), mode
 

@@ -9,7 +9,7 @@ from shiboken6 import delete
 from occ_gui.app.application import Application
 from occ_gui.values.modes import MODES
 from occ_gui.widgets.icons import pixmap
-from occ_gui.window.command_lists import entries
+from occ_gui.window.command_lists import menu_entries
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import palette_of
 from occ_gui.window.toolbar import TOOLS, ToolButton
@@ -19,7 +19,7 @@ def test_each_button_is_an_entry_of_the_menus(application: Application) -> None:
     # Qt's own menu cannot hide the toolbar, as it could not show it again.
     assert not application.window.toolbar.toggleViewAction().isVisible()
     bar = application.window.menuBar()
-    actions = {action for _, action in entries(bar)}
+    actions = {action for _, action in menu_entries(bar)}
     actions |= {menu.menuAction() for menu in bar.findChildren(QMenu)}
     buttons = application.window.toolbar.buttons
     assert {button.source for button in buttons.values()} <= actions

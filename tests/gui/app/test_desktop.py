@@ -286,6 +286,6 @@ def test_each_button_of_the_welcome_page_leads_to_its_mode(
         assert page.dialog is None
         assert len(dialogs) == 1  # opened by the first button only
         asks_for_lamp = application.shell.pane("bands").view.lamp.form.lamp.isVisible()
-        assert asks_for_lamp == (door == "bars")
+        assert asks_for_lamp == (task == "bars")
     place = application.shell.pane("lessons").view.step.position.text()
     assert place == "What is a rolling shutter? · step 1 of 3"

@@ -147,7 +147,7 @@ def show_all_of_photo(application: Application) -> None:
     photo.form.sent.show_key("lamp")
     photo.form.sent.chosen.emit("lamp")
     photo.result.show()
-    photo.verdict.show_ended(["No scene explains the stripes of this photo at all. " * 4])
+    photo.verdict.end_match(["No scene explains the stripes of this photo at all. " * 4])
     photo.form.show_running(True)
 
 

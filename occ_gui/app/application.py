@@ -42,7 +42,7 @@ class Application(Parts):
         menus.add_figures(titles, lambda name: self.shell.pane("export").ask(name))
         sliders = {name: PARAMETERS[name].label for name in self.controls.main_rows()}
         menus.add_animations(sliders, self._animate)
-        self.controls.player.film_asked.connect(self._animate)
+        self.controls.player.animation_asked.connect(self._animate)
 
     def _connect_parts(self) -> None:
         window, story = self.window, self.story

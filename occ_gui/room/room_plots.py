@@ -63,7 +63,7 @@ class PlanPlot(QWidget):
         gestures = Gestures()
 
         def emit_position(item: pg.TargetItem) -> None:
-            gesture = gestures.of_change(held=item.moving)
+            gesture = gestures.of_change(is_held=item.moving)
             moved.emit(float(item.pos().x()), float(item.pos().y()), gesture)
 
         target.sigPositionChanged.connect(emit_position)

@@ -24,7 +24,7 @@ class CodeEntry(QWidget):
     """Two fields that show the code as a number and as bits; either can be edited.
 
     The field of the bits also accepts a payload, such as ``HELLO``, which is then shown alone; when
-    cleared, it shows the code again. Unreadable text stays, with the reason, until it is corrected.
+    cleared, it shows the code again. Invalid text stays, with the reason, until it is corrected.
     """
 
     edited = Signal(str, object, int)
@@ -36,7 +36,7 @@ class CodeEntry(QWidget):
         super().__init__()
         self._bits, self._code, self._payload = 0, -1, ""
         self._gestures = Gestures()
-        self.title = QLabel()  # what is sent, to stand above the fields
+        self.title = QLabel()  # what is sent; shown above the fields
         self.number = CountEdit(count("code"))
         self.number.setAccessibleName("Code as a number")
         self.bits = QLineEdit()
@@ -48,8 +48,8 @@ class CodeEntry(QWidget):
         layout.setVerticalSpacing(1)
         layout.setColumnStretch(1, 1)
         self.notices = (RefusalNotice(self.number), RefusalNotice(self.bits))
-        for place, field in enumerate((self.number, self.bits)):
-            layout.addWidget(field, 0, place)
+        for column, field in enumerate((self.number, self.bits)):
+            layout.addWidget(field, 0, column)
         for line in (self.number.lineEdit(), self.bits):
             line.textEdited.connect(self._gestures.end)
         leave_undo_to_window(self.bits)
@@ -58,7 +58,7 @@ class CodeEntry(QWidget):
         self.number.refused.connect(self.show_problem)
         self.number.refused.connect(self.refused)
         self.bits.editingFinished.connect(self._read_bits)
-        self.notices[1].dismissed.connect(self._write)
+        self.notices[1].dismissed.connect(self._show_bits)
         self._show_title(None)
 
     def show_scene(self, scene: Scene) -> None:
@@ -68,8 +68,8 @@ class CodeEntry(QWidget):
         # A raw pattern or a payload is sent in place of the code.
         self.setEnabled(not transmitter.pattern)
         self._show_title(scene)
-        current = (self._bits, self._code, self._payload)
-        if (transmitter.bits, transmitter.code, transmitter.payload) == current:
+        last_values = (self._bits, self._code, self._payload)
+        if (transmitter.bits, transmitter.code, transmitter.payload) == last_values:
             return
         self._bits, self._payload = transmitter.bits, transmitter.payload
         with QSignalBlocker(self.number):
@@ -94,9 +94,9 @@ class CodeEntry(QWidget):
         self._code = code
         with QSignalBlocker(self.number):
             self.number.setValue(code)
-        self._write()
+        self._show_bits()
 
-    def _write(self) -> None:
+    def _show_bits(self) -> None:
         self.bits.setText(self._bits_text)
         self.bits.setCursorPosition(0)
         self.notices[1].end()
@@ -120,16 +120,16 @@ class CodeEntry(QWidget):
         self.edited.emit("code", code, self._gestures.of_change())
 
     def _read_bits(self) -> None:
-        typed = self.bits.text()
-        text = "".join(typed.split())
-        if typed == self._bits_text:
+        typed_text = self.bits.text()
+        text = "".join(typed_text.split())
+        if typed_text == self._bits_text:
             self.notices[1].end()
         elif not text and not self._payload:
-            self._write()
+            self._show_bits()
         elif text and set(text) <= set("0123456789"):
             self._read_digits(text)
         else:
-            self._enter_payload(typed)
+            self._enter_payload(typed_text)
 
     def _read_digits(self, text: str) -> None:
         if not re.fullmatch(f"[01]{{{self._bits}}}", text):
@@ -140,7 +140,7 @@ class CodeEntry(QWidget):
             self._refuse(sentence)
             return
         self._enter_payload("")
-        self._write()
+        self._show_bits()
         if int(text, 2) != self._code:
             self._enter(int(text, 2))
 
@@ -151,10 +151,10 @@ class CodeEntry(QWidget):
             self._refuse(refusal_of(error))
             return
         self.notices[0].end()
-        changed = payload != self._payload
+        is_changed = payload != self._payload
         self._payload = payload
-        self._write()
-        if changed:
+        self._show_bits()
+        if is_changed:
             self.edited.emit("payload", payload, self._gestures.of_change())
 
     def _refuse(self, sentence: str) -> None:

@@ -69,13 +69,13 @@ class ControlPanel(QWidget):
         self.light = row_for(PARAMETERS["light"])
         self.code = CodeEntry()
         self.forced = ForcedEffects()
-        others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code", "light")]
-        model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
+        others = [name for name in PARAMETERS if name not in (*MAIN, *effects, "code", "light")]
+        model = [name for name in others if name in (*GROUPS["model"], *GROUPS["receiver"])]
         self._scene: Scene | None = None
         self._editor: SceneEditor | None = None
         self._pages = {
             "Main": ParameterPage(MAIN, lambda: ParameterPanel(MAIN, with_scales=True)),
-            "Panel and camera": ParameterPage([n for n in others if n not in model]),
+            "Panel and camera": ParameterPage([name for name in others if name not in model]),
             "Effects": ParameterPage(
                 effects, lambda: ParameterPanel(effects, self._headings(stages))
             ),
@@ -83,7 +83,7 @@ class ControlPanel(QWidget):
         }
         self._main = self._pages["Main"].panel()
         for page in self._pages.values():
-            page.made.connect(self._on_made)
+            page.made.connect(self._set_up_panel)
         self.player = Player(self.main_rows(), self._main.play_buttons, self)
         self._lay_out()
 
@@ -95,7 +95,7 @@ class ControlPanel(QWidget):
     def _existing_panels(self) -> list[ParameterPanel]:
         return [page.content for page in self._pages.values() if page.content is not None]
 
-    def _on_made(self, panel: ParameterPanel) -> None:
+    def _set_up_panel(self, panel: ParameterPanel) -> None:
         if self._editor is not None:
             _connect(panel.rows.values(), self._editor)
         if self._scene is not None:
@@ -103,16 +103,16 @@ class ControlPanel(QWidget):
             self._show_bits(self._scene)
 
     def _headings(self, stages: Mapping[str, str]) -> dict[str, str]:
-        words = {
+        titles = {
             "light": "Light: LED and room",
             "optics": "Optics: from the panel through the lens",
             "sensor": "Sensor",
             "processing": "File",
         }
-        first: dict[str, str] = {}
+        first_names: dict[str, str] = {}
         for name, stage in stages.items():
-            first.setdefault(stage, name)
-        return {name: words[stage] for stage, name in first.items()}
+            first_names.setdefault(stage, name)
+        return {name: titles[stage] for stage, name in first_names.items()}
 
     def connect_editor(self, editor: SceneEditor) -> None:
         self._editor = editor
@@ -123,40 +123,40 @@ class ControlPanel(QWidget):
         for title, page in self._pages.items():
             pages.addTab(page, title)
         light = fill(QHBoxLayout(), QLabel(PARAMETERS["light"].label), (self.light, 1), margins=0)
-        above = (
+        rows_above = (
             QLabel("Preset"), self.preset, self.forced, light, self.code.title, self.code
         )  # fmt: skip
-        fill(QVBoxLayout(self), *above, (pages, 1))
+        fill(QVBoxLayout(self), *rows_above, (pages, 1))
 
     def list_presets(
         self,
         presets: Sequence[tuple[str, str]],
         unreadable: Sequence[tuple[str, str]] = (),
-        own: Collection[str] = (),
+        user_presets: Collection[str] = (),
     ) -> None:
         """Replace the listed presets by these, each given as (name, title).
 
-        ``unreadable``: (name, reason) of presets that cannot be loaded, nor chosen. ``own``: names
-        of the user's presets, which are listed by name instead of title.
+        ``unreadable``: (name, reason) of presets that cannot be loaded or chosen. ``user_presets``:
+        names of the user's presets, which are listed by name instead of title.
         """
         self.preset.clear()
         for name, title in presets:
-            by_name = name in own
+            by_name = name in user_presets
             self._add_preset(one_line(name if by_name else title), name, title if by_name else name)
         for name, reason in unreadable:
             text = f"{one_line(name)}: cannot be read"
-            place = self._add_preset(text, None, reason)
+            index = self._add_preset(text, None, reason)
             entries = self.preset.model()
             if isinstance(entries, QStandardItemModel):
-                entries.item(place).setEnabled(False)
+                entries.item(index).setEnabled(False)
         self.preset.setCurrentIndex(-1)
 
     def _add_preset(self, text: str, name: str | None, tip: str) -> int:
         self.preset.addItem(text, name)
-        place = self.preset.count() - 1
+        index = self.preset.count() - 1
         tip = in_tool_tip(one_line(tip, LONGEST_TEXT))
-        self.preset.setItemData(place, tip, Qt.ItemDataRole.ToolTipRole)
-        return place
+        self.preset.setItemData(index, tip, Qt.ItemDataRole.ToolTipRole)
+        return index
 
     def add_foot(self, widget: QWidget) -> None:
         self._main.add_foot(widget)
@@ -185,7 +185,7 @@ class ControlPanel(QWidget):
         self._main.show_marks(name, marks)
 
     def show_problem(self, sentence: str, names: Iterable[str]) -> None:
-        """Show, at the fields of parameters, what is wrong with their values."""
+        """Show at the fields of parameters what is wrong with their values."""
         for field in self._make_fields(names):
             field.show_problem(sentence)
 
@@ -211,11 +211,12 @@ class ControlPanel(QWidget):
             fields.update(panel.rows)
         return fields
 
-    def show_preset(self, name: str, changed: str = "") -> None:
+    def show_preset(self, name: str, base: str = "") -> None:
+        """Show the scene's preset, or ``base``, the preset that it was changed from."""
         text = "Choose a preset"
-        place = self.preset.findData(changed) if changed else -1
-        if place >= 0:
-            text = f"{self.preset.itemText(place)}, changed"
+        index = self.preset.findData(base) if base else -1
+        if index >= 0:
+            text = f"{self.preset.itemText(index)}, changed"
         if text != self.preset.placeholderText():
             self.preset.setPlaceholderText(text)
         self.preset.setCurrentIndex(self.preset.findData(name) if name else -1)

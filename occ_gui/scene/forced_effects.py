@@ -1,4 +1,4 @@
-"""Describe which accuracy settings the user has changed by hand, and show them in a line."""
+"""Accuracy settings that the user has changed by hand, in words and in a line of the window."""
 
 import math
 from collections.abc import Mapping
@@ -17,18 +17,18 @@ _MOST_NAMED = 1  # effects switched by hand that a badge names
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
     """Describe how an effect is switched: on or off by hand, or by the plan (None)."""
-    how = {True: "on by hand", False: "off by hand", None: "as planned"}[included]
-    return f"{labels.get(effect, effect)} {how}"
+    state = {True: "on by hand", False: "off by hand", None: "as planned"}[included]
+    return f"{labels.get(effect, effect)} {state}"
 
 
 def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
-    places = {name: place for place, name in enumerate(labels)}
-    names = sorted(force, key=lambda name: places.get(name, len(places)))
+    order = {name: index for index, name in enumerate(labels)}
+    names = sorted(force, key=lambda name: order.get(name, len(order)))
     return ", ".join(switch_text(name, force[name], labels) for name in names)
 
 
 def describe_accuracy(settings: SimulationSettings, labels: Mapping[str, str]) -> str:
-    """Describe how the accuracy differs from what a new window plans; empty where it does not."""
+    """Describe how the accuracy differs from that of a new window; empty if it does not."""
     texts = (_tolerance_text(settings), forced_text(settings.force, labels))
     listed = ", ".join(text for text in texts if text)
     return f"{listed[:1].upper()}{listed[1:]}"
@@ -51,14 +51,14 @@ def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> B
     forced = forced_text(settings.force, labels)
     if count > _MOST_NAMED:
         forced = f"{counted(count, 'effect')} by hand"
-    short = (_tolerance_text(settings), forced, "reused noise" if is_reused else "")
-    text = " · ".join(part for part in short if part)
+    parts = (_tolerance_text(settings), forced, "reused noise" if is_reused else "")
+    text = " · ".join(part for part in parts if part)
     if not text:
         return None
     meanings = [f"{by_hand}."] if by_hand else []
     if is_reused:
         meanings.append(
-            "The noise is read from a stored plane, which is much faster than drawing it anew."
+            "The noise is read from a stored plane, which is much faster than drawing new noise."
         )
     meanings.append("The mode Effects shows what this changes.")
     state = State.DOUBTFUL if by_hand else State.NEUTRAL

@@ -1,6 +1,6 @@
 """Fields for numbers, which may be typed with a decimal comma, or as ``0b101`` or ``0x1f``.
 
-Any text can be typed, and what is not an allowed number is refused with a sentence. Qt's own fields
+Any text can be typed; all but allowed numbers are refused with a sentence. Qt's own fields
 would read ``1,5`` as 15, and ignore characters that they do not allow.
 """
 
@@ -17,7 +17,7 @@ from occ_model.scene.refusal import refusal_of
 
 
 def _validate(_field: object, text: str, position: int) -> tuple[QValidator.State, str, int]:
-    """Allow any text while typing; the end of the input refuses invalid text."""
+    """Allow any text while typing; invalid text is refused at the end of the input."""
     return QValidator.State.Acceptable, text, position
 
 
@@ -30,19 +30,19 @@ class CountEdit(QSpinBox):
         super().__init__()
         self._declared = declared
         self.setRange(declared.low, declared.high)
-        _prepare(self)
+        _set_up(self)
 
     def limit(self, high: int) -> None:
         self._declared = replace(self._declared, high=high)
         self.setRange(self._declared.low, high)
 
     def valueFromText(self, text: str) -> int:  # noqa: N802 - Qt's name
-        return int(_read(self, self._declared, text.strip()))
+        return int(_parse(self, self._declared, text.strip()))
 
 
 class DecimalEdit(QDoubleSpinBox):
     validate = _validate
-    accepted = Signal()  # both as in CountEdit
+    accepted = Signal()  # both signals as in CountEdit
     refused = Signal(str)
 
     def __init__(self, declared: Quantity, decimals: int) -> None:
@@ -52,20 +52,20 @@ class DecimalEdit(QDoubleSpinBox):
         self.setRange(declared.low, declared.high)
         if declared.unit.symbol:
             self.setSuffix(f" {declared.unit.symbol}")
-        _prepare(self)
+        _set_up(self)
 
     def valueFromText(self, text: str) -> float:  # noqa: N802 - Qt's name
         # Qt appends the suffix even to a unit that was typed.
-        return _read(self, self._declared, text.removesuffix(self.suffix()))
+        return _parse(self, self._declared, text.removesuffix(self.suffix()))
 
 
-def _prepare(field: CountEdit | DecimalEdit) -> None:
+def _set_up(field: CountEdit | DecimalEdit) -> None:
     field.setKeyboardTracking(False)
     leave_undo_to_window(field)
     select_number_on_double_click(field)
 
 
-def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str) -> float:
+def _parse(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str) -> float:
     """Parse the typed number, or return the last value if it is refused."""
     try:
         value = declared.parse(text)
@@ -76,7 +76,7 @@ def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str)
     return value
 
 
-_STEP = 0.01  # step of the arrows, as a fraction of the slider's range
+_STEP_FRACTION = 0.01  # step of the arrows, as a fraction of the slider's range
 
 _WIDEST_TEXT = "888.888 cd/m²"
 
@@ -100,7 +100,7 @@ class QuantityEdit(QAbstractSpinBox):
         self._value = quantity.default
         self.setKeyboardTracking(False)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
-        self.lineEdit().textEdited.connect(self._note_typing)
+        self.lineEdit().textEdited.connect(self._mark_edited)
         self.editingFinished.connect(self.accept_text)
         self._is_edited = False
         leave_undo_to_window(self)
@@ -120,15 +120,15 @@ class QuantityEdit(QAbstractSpinBox):
         self._is_edited = False
         self.lineEdit().setText(self._quantity.format(self._value))
 
-    def _note_typing(self) -> None:
+    def _mark_edited(self) -> None:
         self._is_edited = True
 
     def accept_text(self) -> None:
         if not self._is_edited:  # leaving the field must not round the value
             return
-        plain = self._quantity.unit.display(self._value)[1]
+        shown_unit = self._quantity.unit.display(self._value)[1]
         try:
-            value = self._quantity.parse(self.lineEdit().text(), plain)
+            value = self._quantity.parse(self.lineEdit().text(), shown_unit)
         except ParameterError as error:
             self._show()
             self.refused.emit(refusal_of(error))
@@ -138,7 +138,7 @@ class QuantityEdit(QAbstractSpinBox):
 
     def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
         self.accept_text()  # the step starts from the typed value
-        fraction = self._quantity.fraction(self._value) + steps * _STEP
+        fraction = self._quantity.fraction(self._value) + steps * _STEP_FRACTION
         self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
         self.edited.emit(self._value)
 

@@ -1,4 +1,4 @@
-"""Parameter panel: a form of parameter rows with their labels, and the page that it stands on."""
+"""Parameter panel: a form of labelled parameter rows, and the page that contains it."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
@@ -25,9 +25,9 @@ from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, Transmitter
 
-_ABOVE = 6  # pixels above the label of each row but the first
+_SPACE_ABOVE = 6  # pixels above the label of each row but the first
 
-_MARGINS = (9, 9, 9, 2)  # pixels beside the rows; below them stands the margin of the pane
+_MARGINS = (9, 9, 9, 2)  # pixels around the rows; the pane adds a margin below them
 
 
 class ParameterPanel(QWidget):
@@ -49,13 +49,13 @@ class ParameterPanel(QWidget):
         self._light = ""
         layout = fill(QVBoxLayout(self), margins=_MARGINS, spacing=2)
         for name in names:
-            self._spaces[name] = QSpacerItem(0, _ABOVE)
+            self._spaces[name] = QSpacerItem(0, _SPACE_ABOVE)
             layout.addItem(self._spaces[name])
             if name in headings:
-                layout.addWidget(_heading(headings[name]))
+                layout.addWidget(_make_heading(headings[name]))
             row = row_for(PARAMETERS[name])
             self.rows[name] = row
-            self.labels[name] = _label(PARAMETERS[name])
+            self.labels[name] = _make_label(PARAMETERS[name])
             line = QHBoxLayout()
             line.addWidget(self.labels[name], 1)
             layout.addLayout(line)
@@ -70,14 +70,14 @@ class ParameterPanel(QWidget):
         if light == self._light:
             return
         self._light = light
-        above = 0
+        space_above = 0
         for name, row in self.rows.items():
-            is_there = PARAMETERS[name].is_of(light)
+            is_shown = PARAMETERS[name].is_of(light)
             for part in (row, self.labels[name], self.play_buttons.get(name)):
                 if part is not None:
-                    part.setVisible(is_there)
-            self._spaces[name].changeSize(0, above if is_there else 0)
-            above = _ABOVE if is_there else above
+                    part.setVisible(is_shown)
+            self._spaces[name].changeSize(0, space_above if is_shown else 0)
+            space_above = _SPACE_ABOVE if is_shown else space_above
         layout = self.layout()
         if layout is not None:
             layout.invalidate()
@@ -91,13 +91,13 @@ class ParameterPanel(QWidget):
             line.addWidget(self.play_buttons[name])
 
     def add_foot(self, widget: QWidget) -> None:
-        foot = self.layout()
-        if foot is not None:
-            foot.addWidget(widget)
+        layout = self.layout()
+        if layout is not None:
+            layout.addWidget(widget)
 
     def show_scene(self, scene: Scene) -> None:
         self.show_light(scene.transmitter.light)
-        for name in ("levels", "switching_frequency"):  # a recorded waveform is sent instead
+        for name in ("levels", "switching_frequency"):  # unused if a recorded waveform is sent
             if name in self.rows:
                 self.rows[name].setEnabled(not replaces_levels(scene))
         for name, row in self.rows.items():
@@ -115,13 +115,13 @@ def replaces_levels(scene: Scene) -> bool:
     return scene.transmitter.light == "waveform" and bool(scene.transmitter.waveform_file)
 
 
-def _heading(text: str) -> QLabel:
+def _make_heading(text: str) -> QLabel:
     label = embolden(QLabel(text))
     label.setContentsMargins(0, 8, 0, 4)
     return label
 
 
-def _label(declared: Parameter) -> QLabel:
+def _make_label(declared: Parameter) -> QLabel:
     text = declared.label
     if declared.symbol:
         base, _, index = declared.symbol.partition("_")

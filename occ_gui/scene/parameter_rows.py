@@ -91,7 +91,7 @@ class QuantityRow(ParameterRow):
         self._layout.addWidget(self.field, 0, 1)
         self.notice = RefusalNotice(self.field)
         for control in (self.slider, self.field):
-            _name(control, quantity)
+            _describe_control(control, quantity)
             keep_wheel_for_scrolling(control)
         self.slider.sliderPressed.connect(self.gestures.end)
         self.slider.sliderReleased.connect(self.gestures.end)
@@ -147,7 +147,7 @@ class QuantityRow(ParameterRow):
         self._announce_value(value)
 
     def _announce_value(self, value: float) -> None:
-        """Announce the value to a screen reader, which would otherwise read the slider's step."""
+        """Set the value as the text for screen readers, which would read the slider's step."""
         self.slider.setAccessibleDescription(self._quantity.format(value, _DIGITS))
 
     def _slide(self, position: int) -> None:
@@ -155,8 +155,8 @@ class QuantityRow(ParameterRow):
         self.end_refusal()
         self.field.set_value(value)
         self._announce_value(value)
-        held = self.slider.isSliderDown() or self._is_running
-        gesture = self.gestures.of_change(held=held)
+        is_held = self.slider.isSliderDown() or self._is_running
+        gesture = self.gestures.of_change(is_held=is_held)
         self.edited.emit(self.name, value, gesture)
 
     def _accept(self, value: float) -> None:
@@ -206,7 +206,7 @@ class ChoiceRow(ParameterRow):
 
 
 class OpenChoiceBox(QComboBox):
-    """A list that gets the choices of plug-ins before it opens."""
+    """A list to which the choices of plug-ins are added before it opens."""
 
     def __init__(self, declared: OpenChoice) -> None:
         super().__init__()
@@ -226,7 +226,7 @@ class OpenChoiceRow(ChoiceRow):
         super().__init__(declared, OpenChoiceBox(declared))
 
     def _display(self, value: ParameterValue) -> None:
-        if self.field.findText(str(value)) < 0:  # a plug-in's
+        if self.field.findText(str(value)) < 0:  # a choice of a plug-in
             self.field.addItem(str(value))
         super()._display(value)
 
@@ -242,7 +242,7 @@ class PatternRow(ParameterRow):
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self.gestures.end)
-        self.field.editingFinished.connect(self._read)
+        self.field.editingFinished.connect(self._read_field)
         self.notice.dismissed.connect(lambda: self.field.setText(self._value_text))
 
     def _text_of(self, value: str) -> str:
@@ -258,13 +258,13 @@ class PatternRow(ParameterRow):
         if self.field.text() == self._value_text:
             super().end_refusal()
 
-    def _read(self) -> None:
+    def _read_field(self) -> None:
         if self.field.text() == self._value_text:
             self.end_refusal()
             return
-        self._take(self.field.text())
+        self._apply_text(self.field.text())
 
-    def _take(self, text: str) -> None:
+    def _apply_text(self, text: str) -> None:
         try:
             value = self._declared.parse(text)
         except ParameterError as error:
@@ -277,13 +277,13 @@ class PatternRow(ParameterRow):
 
 
 class WaveformRow(PatternRow):
-    """The path of a CSV file is typed or chosen; how much it has is shown once it is read."""
+    """A CSV file, by its path; once read, its number of levels and its length are shown."""
 
     def __init__(self, declared: LightText) -> None:
         super().__init__(declared)
         self.open = push_button("Open…", "Choose a CSV file of seconds and levels.", self._ask)
         self.remove = push_button(
-            "Remove", "Send the levels again in place of the file.", lambda: self._take("")
+            "Remove", "Send the levels again in place of the file.", lambda: self._apply_text("")
         )
         buttons = fill(QHBoxLayout(), self.open, self.remove, (None, 1), margins=0)
         layout = self.layout()
@@ -297,7 +297,7 @@ class WaveformRow(PatternRow):
     def _ask(self) -> None:
         path, _ = QFileDialog.getOpenFileName(self, "Open waveform", "", "Tables (*.csv *.txt)")
         if path:
-            self._take(path)
+            self._apply_text(path)
 
 
 def row_for(declared: Parameter) -> ParameterRow:
@@ -322,7 +322,7 @@ def explain(declared: Parameter) -> str:
     return f"{declared.label}{symbol}\n{declared.meaning}\nAllowed: {declared.allowed}"
 
 
-def _name(control: QWidget, declared: Parameter) -> None:
+def _describe_control(control: QWidget, declared: Parameter) -> None:
     control.setAccessibleName(declared.label)
     control.setToolTip(explain(declared))
 
@@ -330,4 +330,4 @@ def _name(control: QWidget, declared: Parameter) -> None:
 def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
     fill(QVBoxLayout(row), control, margins=0, spacing=1)
     row.notice = RefusalNotice(control)
-    _name(control, declared)
+    _describe_control(control, declared)

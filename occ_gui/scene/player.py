@@ -11,7 +11,7 @@ from occ_model.scene.scene import Scene
 
 _FRAME_MS = 40
 
-_ICON = 12
+_ICON = 12  # pixels of a side
 
 SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}  # seconds from one end to the other
 
@@ -19,7 +19,7 @@ _RELATIVE_TOLERANCE = 1e-9
 
 
 class PlayButton(IconButton):
-    """Shows whether a slider runs; the right mouse button opens a menu."""
+    """Button that runs a slider or stops it; the right mouse button opens a menu."""
 
     switched = Signal(str, bool)  # the parameter, and whether its slider is to run
     menu_asked = Signal(str)  # the parameter whose menu is to be opened
@@ -44,7 +44,7 @@ class PlayButton(IconButton):
 class Player(QObject):
     """Runs one slider at a time, until anything else changes its value."""
 
-    film_asked = Signal(str)  # the parameter whose run is to be written as an animation
+    animation_asked = Signal(str)  # the parameter whose run is to be written as an animation
     run_changed = Signal(str)  # the parameter whose slider runs from now on; empty for none
 
     def __init__(
@@ -55,7 +55,7 @@ class Player(QObject):
     ) -> None:
         super().__init__(parent)
         self._rows, self._buttons = rows, buttons
-        self.playing = ""  # the parameter that runs; empty for none
+        self.parameter = ""  # the parameter that runs; empty for none
         self.speed, self.is_looping = "normal", True
         self._direction = 1.0
         self._fraction = 0.0
@@ -72,7 +72,7 @@ class Player(QObject):
         """Run a slider from its position, and stop any other."""
         self.stop()
         row = self._rows[name]
-        self.playing, self._fraction, self._direction = name, row.fraction, 1.0
+        self.parameter, self._fraction, self._direction = name, row.fraction, 1.0
         self._last_value = None
         row.begin_run()
         self._buttons[name].show_playing(True)
@@ -82,19 +82,19 @@ class Player(QObject):
 
     def stop(self) -> None:
         self._timer.stop()
-        if self.playing:
-            self._rows[self.playing].end_run()
-            self._buttons[self.playing].show_playing(False)
-            self.playing = ""
+        if self.parameter:
+            self._rows[self.parameter].end_run()
+            self._buttons[self.parameter].show_playing(False)
+            self.parameter = ""
             self.run_changed.emit("")
 
     def follow_scene(self, scene: Scene) -> None:
-        if not self.playing or self._last_value is None:
+        if not self.parameter or self._last_value is None:
             return
-        if not PARAMETERS[self.playing].is_of(scene.transmitter.light):
+        if not PARAMETERS[self.parameter].is_of(scene.transmitter.light):
             self.stop()
             return
-        value = float(scene.value(self.playing))
+        value = float(scene.value(self.parameter))
         if abs(value - self._last_value) > _RELATIVE_TOLERANCE * abs(self._last_value):
             self.stop()
 
@@ -104,7 +104,7 @@ class Player(QObject):
         if not 0.0 <= self._fraction <= 1.0:
             self._fraction = min(max(self._fraction, 0.0), 1.0)
             self._direction = -self._direction
-        row = self._rows[self.playing]
+        row = self._rows[self.parameter]
         self._last_value = row.value_at(self._fraction)  # before the scene changes
         row.run_to(self._fraction)
         if is_over:
@@ -136,8 +136,8 @@ class Player(QObject):
         loop.setCheckable(True)
         loop.setChecked(self.is_looping)
         loop.toggled.connect(self._set_loop)
-        film = menu.addAction("Save as &animation…")
-        film.triggered.connect(lambda: self.film_asked.emit(name))
+        animation = menu.addAction("Save as &animation…")
+        animation.triggered.connect(lambda: self.animation_asked.emit(name))
         menu.aboutToHide.connect(menu.deleteLater)
         return menu
 

@@ -1,4 +1,4 @@
-"""Refusal notice: the reason why a value was refused, below its field, which gets a frame."""
+"""Refusal notice: the reason why a value was refused, below the field, which gets a frame."""
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, Signal
 from PySide6.QtGui import (
@@ -97,7 +97,7 @@ class RefusalNotice(QLabel):
         super().paintEvent(event)
 
     def end(self) -> None:
-        """Remove the sentence, because the value was corrected or given up."""
+        """Remove the sentence, because the value was corrected or the input abandoned."""
         if self.text():
             self.clear()
             self._field.setAccessibleDescription("")
@@ -122,11 +122,11 @@ class RefusalNotice(QLabel):
 def _page_of(field: QWidget) -> QWidget:
     """Return the page with which a field scrolls, or else its pane or window."""
     page = field
-    while not page.isWindow() and (around := page.parentWidget()) is not None:
-        pane = around.parentWidget()
-        if isinstance(around, QDockWidget) or (
-            isinstance(pane, QAbstractScrollArea) and pane.viewport() is around
+    while not page.isWindow() and (parent := page.parentWidget()) is not None:
+        pane = parent.parentWidget()
+        if isinstance(parent, QDockWidget) or (
+            isinstance(pane, QAbstractScrollArea) and pane.viewport() is parent
         ):
-            return page if page is not field else around
-        page = around
+            return page if page is not field else parent
+        page = parent
     return page

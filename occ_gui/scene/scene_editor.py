@@ -11,7 +11,7 @@ _EXPOSURE, _ISO = "exposure_time", "iso"
 
 
 class BrightnessHold(QObject):
-    """While it is on, keeps the product S t of equation (1) when the exposure time t changes."""
+    """While on, keeps the product S t of equation (1) when the exposure time t changes."""
 
     switched = Signal(bool)
 
@@ -22,47 +22,47 @@ class BrightnessHold(QObject):
         self._store = store
         self.is_on = False
         self._product = 0.0
-        self._own_change: tuple[float, float] | None = None
-        self._limit = ""
-        self._note_product(store.scene)
-        store.changed.connect(self._note_product)
+        self._last_change: tuple[float, float] | None = None
+        self._limit_message = ""
+        self._record_product(store.scene)
+        store.changed.connect(self._record_product)
 
     def switch(self, on: bool) -> None:
-        self._own_change = None
-        self._note_product(self._store.scene)
+        self._last_change = None
+        self._record_product(self._store.scene)
         if on != self.is_on:
             self.is_on = on
             self.switched.emit(on)
 
-    def changes(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
+    def add_iso_change(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
         """Return the change of a parameter, and that of the ISO speed if the brightness is kept."""
-        self._limit = ""
+        self._limit_message = ""
         time = value if isinstance(value, float) else 0.0
         if not self.is_on or name != _EXPOSURE or time <= 0.0:
             return {name: value}
         iso = quantity(_ISO)
         low, high = iso.slider
-        wanted = self._product / time
-        speed = min(max(wanted, low), high)
-        self._own_change = (time, speed)
-        if speed != wanted:
-            self._limit = (
-                f"The brightness cannot be held: it takes ISO {iso.format(wanted)}; the "
+        exact_speed = self._product / time
+        speed = min(max(exact_speed, low), high)
+        self._last_change = (time, speed)
+        if speed != exact_speed:
+            self._limit_message = (
+                f"The brightness cannot be held: it would take ISO {iso.format(exact_speed)}; the "
                 f"slider goes from {iso.format(low)} to {iso.format(high)}."
             )
         return {_EXPOSURE: time, _ISO: speed}
 
     def report_limit(self) -> None:
         """Report, after the change, that the ISO speed has reached an end of its slider."""
-        if self._limit:
-            self.status_message.emit(self._limit)
+        if self._limit_message:
+            self.status_message.emit(self._limit_message)
 
-    def _note_product(self, scene: Scene) -> None:
-        # After a change made here, the ISO speed may be at an end of its slider, and the product
-        # is then not the one to keep.
+    def _record_product(self, scene: Scene) -> None:
+        # Not after a change made here: with the ISO speed at an end of its slider, the product
+        # is no longer the one to keep.
         camera = scene.camera
-        if (camera.exposure_time, camera.iso) != self._own_change:
-            self._own_change = None
+        if (camera.exposure_time, camera.iso) != self._last_change:
+            self._last_change = None
             self._product = camera.iso * camera.exposure_time
 
 
@@ -83,5 +83,5 @@ class SceneEditor(QObject):
         ``gesture``: changes of one gesture are undone as one step.
         """
         self.edit_started.emit()
-        self._store.change(gesture, **self.brightness.changes(name, value))
+        self._store.change(gesture, **self.brightness.add_iso_change(name, value))
         self.brightness.report_limit()

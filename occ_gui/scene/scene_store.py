@@ -58,7 +58,7 @@ class SettingsStore(QObject):
         self._store.put(replace(self._store.workspace, settings=settings))
 
 
-_MOST_OF_AN_EDIT = 2
+_MOST_PARAMETERS_OF_EDIT = 2
 """Most parameters that one edit changes: the exposure time and the ISO speed that follows it."""
 
 
@@ -89,11 +89,11 @@ class SceneStore(QObject):
         except OccError as error:
             sentence = refusal_of(error)
             self.refused.emit(sentence)
-            at_fault = [name for name in changes if name in error.parameters]
-            self.refused_for.emit(sentence, tuple(at_fault or changes))
+            refused_names = [name for name in changes if name in error.parameters]
+            self.refused_for.emit(sentence, tuple(refused_names or changes))
             return
         labels = " and ".join(PARAMETERS[name].in_sentence for name in changes)
-        self.store.put(self._with(scene), f"change of {labels}", gesture)
+        self.store.put(self._workspace_of(scene), f"change of {labels}", gesture)
 
     def force(self, effect: str, included: bool | None) -> None:
         """Switch an effect on or off, or leave it to the plan (None)."""
@@ -117,7 +117,7 @@ class SceneStore(QObject):
     def begin(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
         """Replace the scene in one step, and leave all effects to the plan."""
         settings, former = self._planned_settings(), self.settings.settings
-        self.store.put(replace(self._with(scene), settings=settings), title, gesture)
+        self.store.put(replace(self._workspace_of(scene), settings=settings), title, gesture)
         if settings != former:
             self.noted.emit("The plan decides on all effects again, within the usual tolerance.")
 
@@ -129,20 +129,20 @@ class SceneStore(QObject):
         force: Mapping[str, bool] | None = None,
         preset: str = "",
     ) -> None:
-        """Replace the whole scene in one step, and the effects forced by hand if given.
+        """Replace the whole scene in one step, and the effects switched by hand if given.
 
-        ``preset``: the preset that the scene is based on; by default, a scene in which little
-        changes keeps its preset.
+        ``preset``: the preset that the scene is based on; by default, a scene with few changes
+        keeps its preset.
         """
-        workspace = self._with(scene, preset)
+        workspace = self._workspace_of(scene, preset)
         if force is not None:
             workspace = workspace.with_force(force)
         self.store.put(workspace, title, gesture)
 
-    def _with(self, scene: Scene, preset: str = "") -> Workspace:
-        workspace, last = self.store.workspace, self.scene
-        changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
-        preset = preset or (workspace.preset if changed <= _MOST_OF_AN_EDIT else "")
+    def _workspace_of(self, scene: Scene, preset: str = "") -> Workspace:
+        workspace, last_scene = self.store.workspace, self.scene
+        changed_count = sum(scene.value(name) != last_scene.value(name) for name in PARAMETERS)
+        preset = preset or (workspace.preset if changed_count <= _MOST_PARAMETERS_OF_EDIT else "")
         return replace(workspace, scene=scene, preset=preset)
 
 
@@ -160,16 +160,16 @@ class Gestures:
 
     def __init__(self) -> None:
         self._number = NO_GESTURE
-        self._since_change = QElapsedTimer()
+        self._timer = QElapsedTimer()
 
     def end(self) -> None:
         """Begin a new gesture with the next change, however soon it follows."""
-        self._since_change.invalidate()
+        self._timer.invalidate()
 
-    def of_change(self, held: bool = False) -> int:
-        """Return the gesture of a change made now; while held, a pause does not end a gesture."""
-        since = self._since_change
-        if not since.isValid() or (since.hasExpired(PAUSE_MS) and not held):
+    def of_change(self, is_held: bool = False) -> int:
+        """Return the gesture of a change made now; while held, a pause does not end it."""
+        timer = self._timer
+        if not timer.isValid() or (timer.hasExpired(PAUSE_MS) and not is_held):
             self._number = new_gesture()
-        self._since_change.start()
+        self._timer.start()
         return self._number

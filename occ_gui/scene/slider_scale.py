@@ -1,4 +1,4 @@
-"""Scale under a slider: its end values, and marks where the picture changes in kind."""
+"""Scale under a slider: its end values, and marks where the picture changes qualitatively."""
 
 from collections.abc import Sequence
 from itertools import combinations, product
@@ -65,9 +65,9 @@ class SliderScale(QWidget):
         """Explain a mark when the mouse rests near it."""
         if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
             near = [
-                m
-                for m in self.marks
-                if abs(self.x_of(m.value) - event.pos().x()) <= _TOOLTIP_DISTANCE
+                mark
+                for mark in self.marks
+                if abs(self.x_of(mark.value) - event.pos().x()) <= _TOOLTIP_DISTANCE
             ]
             if near:
                 QToolTip.showText(event.globalPos(), self._meaning(near[0]), self)
@@ -97,40 +97,40 @@ class SliderScale(QWidget):
     def texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
         """Return the end values and the marks' names, each with its place.
 
-        An end value is left out where a mark's name needs its place, as only the name explains the
-        mark.
+        An end value is left out if a mark's name needs its place, because only the name explains
+        the mark.
         """
-        low, high = self._ends(metrics)
+        low, high = self._place_ends(metrics)
         choices: tuple[list[_Text], ...] = ([low, high], [low], [high], [])
-        named = [(ends, self._names(metrics, [box for _, box in ends])) for ends in choices]
-        return max(named, key=lambda texts: len(texts[1]))  # the first of equal ones
+        named = [(ends, self._place_names(metrics, [box for _, box in ends])) for ends in choices]
+        return max(named, key=lambda texts: len(texts[1]))  # of equal ones, the first
 
-    def _names(self, metrics: QFontMetricsF, occupied: Sequence[QRectF]) -> list[_Text]:
+    def _place_names(self, metrics: QFontMetricsF, occupied: Sequence[QRectF]) -> list[_Text]:
         """Return as many of the marks' names as there is space for, with their places.
 
         A name is centred below its mark, or moved to one side if that leaves more space.
         """
-        places: list[list[_Text | None]] = []
+        options: list[list[_Text | None]] = []
         for mark in self.marks:
             text, x = mark.label.replace("t_LED", "1 chip"), self.x_of(mark.value)
             width = metrics.horizontalAdvance(text)
-            most = max(self.width() - width, 0.0)
+            last_left = max(self.width() - width, 0.0)
             lefts = [x - width * fraction for fraction in (0.5, 0.75, 0.25)]
             lefts += [x - width + _NAME_OVERHANG, x - _NAME_OVERHANG]
             boxes = [
-                QRectF(min(max(left, 0.0), most), _TICK + 1.0, width, metrics.height())
+                QRectF(min(max(left, 0.0), last_left), _TICK + 1.0, width, metrics.height())
                 for left in lefts
             ]
-            places.append([*((text, box) for box in boxes if _is_free(box, occupied)), None])
+            options.append([*((text, box) for box in boxes if _is_free(box, occupied)), None])
         best: list[_Text] = []
-        for combination in product(*places):
+        for combination in product(*options):
             named = [name for name in combination if name is not None]
-            apart = all(_is_free(one[1], [other[1]]) for one, other in combinations(named, 2))
-            if apart and len(named) > len(best):
+            are_apart = all(_is_free(one[1], [other[1]]) for one, other in combinations(named, 2))
+            if are_apart and len(named) > len(best):
                 best = named
         return best
 
-    def _ends(self, metrics: QFontMetricsF) -> tuple[_Text, _Text]:
+    def _place_ends(self, metrics: QFontMetricsF) -> tuple[_Text, _Text]:
         low, high = (self._quantity.format(value, _DIGITS) for value in self._quantity.slider)
         height, width = metrics.height(), metrics.horizontalAdvance(high)
         return (
@@ -145,18 +145,18 @@ def _is_free(box: QRectF, occupied: Sequence[QRectF]) -> bool:
 
 def slider_travel(slider: QSlider) -> tuple[float, float]:
     """Return the x of the handle's centre at both ends, in the slider's own pixels."""
-    ends = (_handle(slider, place) for place in (slider.minimum(), slider.maximum()))
+    ends = (_handle_rect(slider, position) for position in (slider.minimum(), slider.maximum()))
     first, last = (end.center().x() for end in ends)
     return first, last
 
 
 def slider_handle(slider: QSlider) -> tuple[float, float]:
     """Return the x of the handle's left and right side, in the slider's own pixels."""
-    handle = _handle(slider, slider.sliderPosition())
+    handle = _handle_rect(slider, slider.sliderPosition())
     return handle.left(), handle.right()
 
 
-def _handle(slider: QSlider, position: int) -> QRectF:
+def _handle_rect(slider: QSlider, position: int) -> QRectF:
     option = QStyleOptionSlider()
     slider.initStyleOption(option)
     option.sliderPosition = position

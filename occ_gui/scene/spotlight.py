@@ -1,4 +1,4 @@
-"""Spotlight: marks one control and scrolls it into view, and dims and disables the others."""
+"""Spotlight: frames one control, scrolls it into view, and dims and disables the others."""
 
 from PySide6.QtCore import QMargins, QObject, Qt
 from PySide6.QtGui import QPalette
@@ -10,7 +10,7 @@ from occ_gui.widgets.building import bring_into_view
 from occ_gui.widgets.frame_over import FrameOver
 from occ_model.scene.parameters import PARAMETERS
 
-_DIMMING = 0.75
+_DIMMING = 0.75  # opacity of the other controls
 _MARGINS = QMargins(4, 4, 4, 4)
 
 
@@ -36,7 +36,7 @@ class Spotlight(QObject):
 
     def end(self) -> None:
         for widget in self._dimmed:
-            # PySide takes None here, which removes the effect, whatever its stubs say.
+            # None removes the effect; the stubs of PySide do not allow it.
             widget.setGraphicsEffect(None)  # type: ignore[arg-type]
         for widget in self._disabled:
             widget.setEnabled(True)
@@ -53,14 +53,14 @@ class Spotlight(QObject):
         row, label = panel.rows[name], panel.labels[name]
         bring_into_view(row, 4 * _MARGINS.top())
         children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
-        marked = (row, label, panel.play_buttons.get(name))
-        why = (
+        kept_widgets = (row, label, panel.play_buttons.get(name))
+        reason = (
             f"This step of the lesson is about “{PARAMETERS[name].label}”. The other "
             "controls of this page are disabled until you leave it."
         )
         for widget in children:
-            if widget not in marked:
-                self._dim(widget, why)
+            if widget not in kept_widgets:
+                self._dim(widget, reason)
         self._frame = FrameOver(
             panel, row, lambda: label.geometry().united(row.geometry()).marginsAdded(_MARGINS),
             lambda colours: colours.color(QPalette.ColorRole.Highlight), radius=4,
@@ -68,7 +68,7 @@ class Spotlight(QObject):
         self._frame.raise_()
         self._frame.show()
 
-    def _dim(self, widget: QWidget, why: str) -> None:
+    def _dim(self, widget: QWidget, reason: str) -> None:
         """Dim and disable a widget, with the reason as its tooltip."""
         effect = QGraphicsOpacityEffect(widget, opacity=_DIMMING)
         widget.setGraphicsEffect(effect)
@@ -79,4 +79,4 @@ class Spotlight(QObject):
         for part in (widget, *widget.findChildren(QWidget)):
             if part.toolTip():
                 self._tool_tips.append((part, part.toolTip()))
-                part.setToolTip(f"{why}\n\n{part.toolTip()}")
+                part.setToolTip(f"{reason}\n\n{part.toolTip()}")

@@ -138,7 +138,7 @@ def test_a_running_slider_stops_where_another_light_has_none(panel: ControlPanel
     panel.player.play("switching_frequency")
     panel.player._advance()
     panel.show_scene(Scene().replace(light="lamp"))
-    assert panel.player.playing == ""
+    assert panel.player.parameter == ""
 
 
 def test_edits_and_refusals_of_every_part_are_passed_on(
@@ -192,7 +192,9 @@ def test_presets_are_replaced_without_a_signal_and_listed_by_title_or_own_name(
     assert texts == ["mine", "small", "large"]
     assert panel.preset.currentIndex() == -1
     assert chosen == []
-    panel.list_presets([("phone-68us", "Phone, 68 µs"), ("mine", "Measured")], own=["mine"])
+    panel.list_presets(
+        [("phone-68us", "Phone, 68 µs"), ("mine", "Measured")], user_presets=["mine"]
+    )
     texts = [panel.preset.itemText(place) for place in range(2)]
     tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
     assert texts == ["Phone, 68 µs", "mine"]

@@ -35,7 +35,7 @@ def test_a_run_moves_the_scene_and_is_undone_at_once(
     press(bench)
     qtbot.waitUntil(lambda: len(values) >= 4)
     press(bench)
-    assert bench.controls.player.playing == ""
+    assert bench.controls.player.parameter == ""
     store.undo_stack.undo()
     assert store.scene == small_scene
 
@@ -49,7 +49,7 @@ def test_a_run_turns_back_at_the_end_and_without_loop_ends_at_the_start(
     values: list[float] = []
     bench.scenes.changed.connect(lambda s: values.append(s.transmitter.switching_frequency))
     player.play(NAME)
-    qtbot.waitUntil(lambda: player.playing == "")
+    qtbot.waitUntil(lambda: player.parameter == "")
     assert max(values) == 100e3
     assert values.index(max(values)) < len(values) - 1
     assert values[-1] == 500.0
@@ -62,20 +62,20 @@ def test_a_value_that_is_entered_ends_the_run_and_another_parameter_does_not(
     with qtbot.waitSignal(bench.scenes.changed):
         press(bench)
     bench.scenes.change(switching_frequency=5e3)
-    assert player.playing == ""
+    assert player.parameter == ""
     assert bench.scenes.scene.transmitter.switching_frequency == 5e3
     with qtbot.waitSignal(bench.scenes.changed):
         press(bench)
     bench.scenes.change(distance=1.5)
-    assert player.playing == NAME
+    assert player.parameter == NAME
     press(bench, "iso")
-    assert player.playing == "iso"
+    assert player.parameter == "iso"
     player.stop()
 
 
 def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(bench: ControlsBench) -> None:
     player, films = bench.controls.player, list[str]()
-    player.film_asked.connect(films.append)
+    player.animation_asked.connect(films.append)
     entries = {action.text(): action for action in player.menu_of(NAME).actions()}
     entries["&Fast"].trigger()
     entries["&Loop"].trigger()

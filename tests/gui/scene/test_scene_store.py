@@ -212,7 +212,7 @@ def test_a_pause_ends_a_gesture_unless_it_is_held(
     gestures = Gestures()
     first = gestures.of_change()
     qtbot.wait(10)
-    held = gestures.of_change(held=True)
+    held = gestures.of_change(is_held=True)
     qtbot.wait(10)
     last = gestures.of_change()
     assert held == first
@@ -223,7 +223,7 @@ def test_a_gesture_that_has_ended_takes_nothing_more() -> None:
     gestures = Gestures()
     first = gestures.of_change()
     gestures.end()
-    assert gestures.of_change(held=True) != first
+    assert gestures.of_change(is_held=True) != first
 
 
 class SettingsTrial:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
@@ -139,7 +139,7 @@ def without_halo(
     first, last = max(0, int(strips[0]) - _PADDING), int(strips[-1]) + 1 + _PADDING
     margin = _PADDING * _CELL
     left, right = max(0, int(spans[:, 2].min()) - margin), int(spans[:, 3].max()) + margin
-    part = means[first:last, left:right]
+    part = means[first:last, left:right].astype(np.float32)
     cells = -(-part.shape[1] // _CELL)
     filled = _filled(part, timing)
     levels = cv2.resize(filled, (cells, len(part)), interpolation=cv2.INTER_AREA)
@@ -166,14 +166,14 @@ def _area(spans: IndexArray) -> int:
     return int(((spans[:, 1] - spans[:, 0]) * (spans[:, 3] - spans[:, 2])).sum())
 
 
-def _filled(part: FloatArray, timing: LampTiming) -> FloatArray:
+def _filled(part: Pixels, timing: LampTiming) -> Pixels:
     """Fill the dark stripes of a lamp up to the level of the bright ones beside them."""
     place, rises = timing.edges.place, timing.edges.rises
     dark = np.diff(place)[~rises[:-1] & rises[1:]]
     width = int(dark.max(initial=timing.chip) + 2.0) | 1
     line = np.ones((1, width), dtype=np.uint8)
     return np.asarray(
-        cv2.morphologyEx(part, cv2.MORPH_CLOSE, line, borderType=cv2.BORDER_REPLICATE)
+        cv2.morphologyEx(part, cv2.MORPH_CLOSE, line, borderType=cv2.BORDER_REPLICATE), np.float32
     )
 
 

@@ -11,7 +11,7 @@ from occ_model.photo.lamps.shape import around
 from occ_model.photo.reading.load import Photo, column_means
 from occ_model.results.lamp import Lamp
 
-_MOST_STRIPS = 160
+_MOST_STRIPS = 480
 _LEAST_ROWS = 8
 
 _FINE_COLUMNS, _CELL_COLUMNS = 2000, 4

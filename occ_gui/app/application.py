@@ -51,7 +51,7 @@ class Application(Parts):
             signal.connect(self.messages.say)
         for signal in (
             self.presets.status_message, self.files.status_message, self.present.status_message,
-            self.editor.brightness.status_message, self.shell.said, self.lessons.noted,
+            self.editor.brightness.status_message, self.shell.status_message, self.lessons.noted,
             self.pins.status_message,
         ):  # fmt: skip
             signal.connect(self.messages.note)

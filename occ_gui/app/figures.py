@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from occ_gui.core.store import Store
-from occ_gui.shell.feature import Draw, Figure, NothingToDraw, later
+from occ_gui.shell.feature import Draw, Figure, NothingToDraw, defer
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import cause_in
@@ -34,7 +34,7 @@ def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figur
     def picture(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
         workspace, photo = store.workspace, _photo(pane)
         if pane is None or photo is None:
-            return later(
+            return defer(
                 "occ_model.figures.window_panes:picture_drawing",
                 snapshot.frame, snapshot.region, None, workspace.picture_kind, None, "",
             )  # fmt: skip
@@ -103,7 +103,7 @@ def profile_figure(
         workspace, photo = store.workspace, results_store.results.photo_profile
         comparison = None if photo is None else photo.comparison
         whole, enhanced = (0, len(snapshot.profile)), workspace.is_enhanced
-        return later(
+        return defer(
             "occ_model.figures.window_panes:profile_drawing",
             snapshot.frame,
             snapshot.band_levels(enhanced=enhanced),
@@ -130,7 +130,7 @@ def _draw_steps(decoder: str, _pane: object, snapshot: Snapshot) -> Draw:
     if result is None:
         raise NothingToDraw(f"The {decoder} decoder has not read the picture.")
     cause = cause_in(snapshot, result)
-    return later("occ_model.figures.decoding:decode_drawing", snapshot.frame.scene, result, cause)
+    return defer("occ_model.figures.decoding:decode_drawing", snapshot.frame.scene, result, cause)
 
 
 def accuracy_figure() -> Figure:
@@ -140,7 +140,7 @@ def accuracy_figure() -> Figure:
             raise NothingToDraw(
                 "The cost of accuracy is not measured yet: open its pane and wait a moment."
             )
-        return later("occ_model.figures.accuracy:accuracy_drawing", points)
+        return defer("occ_model.figures.accuracy:accuracy_drawing", points)
 
     return Figure(name="accuracy", title="Accuracy and time", draw=draw)
 
@@ -155,7 +155,7 @@ def map_figure(store: Store) -> Figure:
         from occ_gui.detection_map.map_schedule import make_table
 
         table = make_table(*complete, store.workspace.frame_rate)
-        return later("occ_model.figures.sweep:sweep_drawing", table, store.workspace.shown)
+        return defer("occ_model.figures.sweep:sweep_drawing", table, store.workspace.shown)
 
     return Figure(name="map", title="Detection map", draw=draw)
 
@@ -168,14 +168,14 @@ def bench_figure(store: Store) -> Figure:
                 "The bench is not complete: open its pane, measure and wait a moment."
             )
         rate = store.workspace.frame_rate
-        return later("occ_model.figures.bench:bench_drawing", *complete, rate)
+        return defer("occ_model.figures.bench:bench_drawing", *complete, rate)
 
     return Figure(name="bench", title="Bench", draw=draw)
 
 
 def bands_figures() -> tuple[Figure, ...]:
     def draw(name: str) -> Callable[[Any, Snapshot], Draw]:
-        return lambda _, snapshot: later(f"occ_model.figures.bands:{name}", snapshot.frame.scene)
+        return lambda _, snapshot: defer(f"occ_model.figures.bands:{name}", snapshot.frame.scene)
 
     return (
         Figure(name="bands", title="Bars", draw=draw("bands_drawing")),
@@ -192,7 +192,7 @@ def room_figure() -> Figure:
             raise NothingToDraw(
                 "The room's picture is not read yet: open its pane and wait a moment."
             )
-        return later(
+        return defer(
             "occ_model.figures.room:room_drawing",
             shown.room, shown.image, shown.reading, is_photo=shown.source.photo is not None,
         )  # fmt: skip

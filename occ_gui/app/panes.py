@@ -25,7 +25,7 @@ from occ_gui.photo.window_actions import WindowActions
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.feature import Feature, Pane, later
+from occ_gui.shell.feature import Feature, Pane, defer
 from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
@@ -51,7 +51,7 @@ def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
         name="picture",
         title="Picture",
         help="guide.md#look-at-the-picture",
-        make=later("occ_gui.picture.image_view:PicturesPane", store),
+        make=defer("occ_gui.picture.image_view:PicturesPane", store),
         part=part,
         updates_hidden=True,
         figures=picture_figures(store, about_photo),
@@ -65,7 +65,7 @@ def decoding(store: Store) -> Feature[Any]:
         is_about_codes=True,
         default_side="right",
         help="decoding.md",
-        make=later("occ_gui.decoding.pane:DecodePane", store),
+        make=defer("occ_gui.decoding.pane:DecodePane", store),
         part=lambda workspace, results: (results.reading, workspace.decoder),
         updates_hidden=True,
         figures=decoding_figures(),
@@ -113,7 +113,7 @@ def photo(
         default_side="right",
         help="photos.md",
         make=make,
-        part=later("occ_gui.photo.shown_photo:ShownPhoto.of"),
+        part=defer("occ_gui.photo.shown_photo:ShownPhoto.of"),
         updates_hidden=True,
         enabled=enabled,
         commands={
@@ -152,7 +152,7 @@ def profile(
         title="Column profile",
         places={"photo": PanePlace("bottom", height=210)},
         help="guide.md#compare-column-profiles",
-        make=later("occ_gui.profile.pane:ProfilePane", store),
+        make=defer("occ_gui.profile.pane:ProfilePane", store),
         part=part,
         updates_hidden=True,
         figures=(profile_figure(store, results_store, about_photo),),
@@ -166,7 +166,7 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
         title="Accuracy and time",
         places={"effects": PanePlace("right", is_main=True)},
         help="model.md#accuracy-against-time",
-        make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
+        make=defer("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
         part=lambda workspace, results: (
             workspace.settings,
             workspace.has_code,
@@ -185,7 +185,7 @@ def detection_map(scenes: SceneStore, background_rates: BackgroundRates) -> Feat
         is_about_codes=True,
         places={"limits": PanePlace("right", is_main=True)},
         help="limits.md#the-detection-map",
-        make=later("occ_gui.detection_map.pane:MapPane", scenes, background_rates),
+        make=defer("occ_gui.detection_map.pane:MapPane", scenes, background_rates),
         figures=(map_figure(scenes.store),),
     )
 
@@ -196,7 +196,7 @@ def bands(scenes: SceneStore) -> Feature[Any]:
         title="Bars",
         places={"limits": PanePlace("right")},
         help="limits.md#no-bars-no-flicker",
-        make=later("occ_gui.bands.pane:BandsPane", scenes),
+        make=defer("occ_gui.bands.pane:BandsPane", scenes),
         part=lambda workspace, _: workspace.scene,
         figures=bands_figures(),
     )
@@ -209,7 +209,7 @@ def equations(scenes: SceneStore, plot: "Callable[[], Plot]") -> Feature[Any]:
         title="Equations",
         default_side="right",
         help="model.md",
-        make=lambda: later("occ_gui.explanation.pane:ExplanationPane")(scenes, plot()),
+        make=lambda: defer("occ_gui.explanation.pane:ExplanationPane")(scenes, plot()),
         part=lambda _, results: results.snapshot,
     )
 
@@ -220,7 +220,7 @@ def spectrum() -> Feature[Any]:
         name="spectrum",
         title="Spectrum and levels",
         help="guide.md#measure",
-        make=lambda: later(pane)(later(view)()),
+        make=lambda: defer(pane)(defer(view)()),
         part=lambda _, results: results.snapshot,
     )
 
@@ -230,7 +230,7 @@ def compare(pins: PinController) -> Feature[Any]:
         name="compare",
         title="Compare",
         help="guide.md#compare-two-states",
-        make=later("occ_gui.pins.compare_view:ComparePane", pins),
+        make=defer("occ_gui.pins.compare_view:ComparePane", pins),
         actions={
             "pin_a": lambda: pins.pin("A"),
             "pin_b": lambda: pins.pin("B"),
@@ -253,7 +253,7 @@ def lessons(
         places={"lessons": PanePlace("right", is_main=True, width=340)},
         default_side="right",
         help="guide.md#follow-a-lesson",
-        make=later("occ_gui.lessons.pane:LessonPane", scenes, results_store, controls, preferences),
+        make=defer("occ_gui.lessons.pane:LessonPane", scenes, results_store, controls, preferences),
     )
 
 
@@ -264,7 +264,7 @@ def video(scenes: SceneStore, results_store: ResultsStore) -> Feature[Any]:
         places={"video": PanePlace("right", is_main=True)},
         default_side="right",
         help="films.md#watch-a-film",
-        make=later("occ_gui.video.wiring:VideoWiring", scenes, results_store),
+        make=defer("occ_gui.video.wiring:VideoWiring", scenes, results_store),
         enabled=lambda workspace, _: {"close_film": workspace.film.path is not None},
         part=lambda workspace, _: workspace.film,
     )
@@ -276,7 +276,7 @@ def room(store: Store) -> Feature[Any]:
         title="Room",
         places={"room": PanePlace("right", is_main=True)},
         help="rooms.md",
-        make=later("occ_gui.room.pane:RoomPane", store),
+        make=defer("occ_gui.room.pane:RoomPane", store),
         part=lambda workspace, _: workspace.room,
         updates_hidden=True,  # its figure can be exported, and its steps undone, while it is hidden
         figures=(room_figure(),),
@@ -290,7 +290,7 @@ def bench(scenes: SceneStore, background_rates: BackgroundRates) -> Feature[Any]
         is_about_codes=True,
         places={"limits": PanePlace("right")},
         help="limits.md#the-bench",
-        make=lambda: later("occ_gui.bench.pane:BenchPane")(
+        make=lambda: defer("occ_gui.bench.pane:BenchPane")(
             scenes, background_rates.channel("bench")
         ),
         figures=(bench_figure(scenes.store),),
@@ -307,7 +307,7 @@ def export(
 ) -> Feature[Any]:
     return Feature(
         name="export",
-        make=later(
+        make=defer(
             "occ_gui.export.export_controller:ExportController",
             window, shell, present, preferences, current_pane, store,
         ),
@@ -322,14 +322,14 @@ def animation(
     window: QWidget, scenes: SceneStore, preferences: Preferences, bar: WorkBar
 ) -> Feature[Any]:
     export = "occ_gui.export.animation:AnimationExport"
-    return Feature(name="animation", make=later(export, window, scenes, preferences, bar))
+    return Feature(name="animation", make=defer(export, window, scenes, preferences, bar))
 
 
 def transmitter(window: QWidget, scenes: SceneStore, preferences: Preferences) -> Feature[Any]:
     sender = "occ_gui.transmitter.transmitter_controller:TransmitterController"
     return Feature(
         name="transmitter",
-        make=later(sender, window, scenes, preferences),
+        make=defer(sender, window, scenes, preferences),
         commands={"transmitter": lambda sender: sender.show()},
     )
 
@@ -337,7 +337,7 @@ def transmitter(window: QWidget, scenes: SceneStore, preferences: Preferences) -
 def manual(window: QMainWindow, shell: Shell, current_pane: Callable[[], str]) -> Feature[Any]:
     return Feature(
         name="help",
-        make=lambda: later("occ_gui.help.help_window:Manual")(
+        make=lambda: defer("occ_gui.help.help_window:Manual")(
             window, current_pane, {"controls": "guide.md#set-up-a-scene", **shell.help_pages}
         ),
         commands={
@@ -352,6 +352,6 @@ def welcome(
 ) -> Feature[Any]:
     return Feature(
         name="welcome",
-        make=later("occ_gui.welcome.welcome:Welcome", window, shell, preferences, files),
+        make=defer("occ_gui.welcome.welcome:Welcome", window, shell, preferences, files),
         commands={"welcome": lambda page: page.show(), "my_lamp": lambda page: page.enter("bars")},
     )

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Draw: TypeAlias = "Callable[[], Drawing]"  # makes a drawing on a background thread, without widgets
 
 
-def later(name: str, *arguments: Any, **named: Any) -> Callable[..., Any]:
+def defer(name: str, *arguments: Any, **named: Any) -> Callable[..., Any]:
     """Return a function that imports and calls ``module:name`` with these arguments."""
 
     def call(*more: Any) -> Any:
@@ -41,8 +41,8 @@ class Figure:
     name: str
     title: str
     draw: Callable[[Any, Snapshot], Draw]
-    """Takes the pane, None if it was never shown, and the results that are shown; returns a
-    function that draws the figure. Raises NothingToDraw."""
+    """Takes the pane, None if it was never shown, and the shown results; returns a function that
+    draws the figure. Raises NothingToDraw."""
     differs_from_others: Callable[[Any], bool] = lambda _pane: True
     """Takes the pane; returns whether the figure now differs from all others."""
 
@@ -55,7 +55,7 @@ class CodeVerdictView(Protocol):
 
     def show_outdated(self, outdated: bool) -> None: ...
 
-    def show_run(self, value: str, pictured: str) -> None: ...
+    def show_run(self, value: str, picture_value: str) -> None: ...
 
 
 class BackgroundWork(Protocol):
@@ -116,14 +116,14 @@ class Pane(Service, Generic[Part]):
 class PiecesPane(Pane[tuple[Any, ...]]):
     """A pane that redraws only the pieces of its part that have changed."""
 
-    def __init__(self, widget: QWidget, *shows: Callable[[Any], object]) -> None:
+    def __init__(self, widget: QWidget, *show_functions: Callable[[Any], object]) -> None:
         super().__init__(widget)
-        self._shows = shows
-        self._shown: tuple[Any, ...] = (None,) * len(shows)
+        self._show_functions = show_functions
+        self._last_part: tuple[Any, ...] = (None,) * len(show_functions)
 
     def show_part(self, part: tuple[Any, ...]) -> None:
-        shown, self._shown = self._shown, part
-        for show, piece, last in zip(self._shows, part, shown, strict=True):
+        last_part, self._last_part = self._last_part, part
+        for show, piece, last in zip(self._show_functions, part, last_part, strict=True):
             if piece is not last:
                 show(piece)
 
@@ -137,15 +137,15 @@ class Feature(Generic[Part]):
     """
 
     name: str
-    title: str = ""  # the title of the pane; empty where there is none
+    title: str = ""  # the title of the pane; empty for a service
     places: Places = field(default_factory=dict)
     """Where each mode shows the pane at first."""
     default_side: Side = "bottom"  # its side in modes that do not show it at first
     help: str = ""  # page and heading of the manual that explains the pane
-    make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
+    make: Callable[[], Any] = Service  # makes a Pane if there is a title, otherwise a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
-    """Selects what the pane shows; None if there is nothing that it could show."""
-    is_about_codes: bool = False  # whether it is away while the light is another one
+    """Selects what the pane shows; None if there is nothing to show."""
+    is_about_codes: bool = False  # whether the pane is empty while no code is sent
     updates_hidden: bool = False
     """Whether the pane is kept up to date while it is hidden, because other panes use it."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Outdated marks: a result of an earlier scene is marked in its pane."""
+"""Outdated marks, shown on the results of an earlier scene."""
 
 from typing import Any
 
@@ -24,13 +24,13 @@ _NOT_REFUSED = object()
 class OutdatedMarks(QObject):
     """Compares the scenes of all results with the present scene whenever either changes.
 
-    A pane is marked when its result has been outdated for a moment. A verdict usually follows the
+    A pane is marked once its result has been outdated for a moment. A verdict usually follows the
     scene within a few milliseconds. One that takes longer than ``VERDICT_DELAY`` is marked until
     there is a verdict on the present scene and the scene no longer changes, so that the mark does
     not flicker.
 
-    The picture always lags behind a slider that runs by itself. Picture and readings are not marked
-    then; the verdicts say which value of the slider they belong to.
+    The picture always lags behind a slider that runs by itself, so that picture and readings are
+    not marked then; the verdicts say to which value of the slider they belong.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class OutdatedMarks(QObject):
         self._verdicts: list[CodeVerdictView] = []
         self._marks: list[tuple[OutdatedMark, MadeOf]] = []
         self._picture_when_refused: object = _NOT_REFUSED
-        """The picture that stays in place of that of a refused scene; it may be None."""
+        """The picture that stays while the present scene is refused; it may be None."""
         self._is_verdict_marked = False
         self._running_parameter = ""
         self._timer = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
@@ -55,8 +55,8 @@ class OutdatedMarks(QObject):
     def is_idle(self) -> bool:
         return not self._timer.isActive()
 
-    def marks(self, *made_of: MadeOf) -> list[OutdatedMark]:
-        return [mark for mark, of in self._marks if of in made_of or not made_of]
+    def find_marks(self, *made_of: MadeOf) -> list[OutdatedMark]:
+        return [mark for mark, function in self._marks if function in made_of or not made_of]
 
     def mark(self, widget: QWidget, made_of: MadeOf) -> None:
         self._marks.append((OutdatedMark(widget), made_of))
@@ -82,18 +82,20 @@ class OutdatedMarks(QObject):
         results = self._results_store.results
         is_refused = self._picture_when_refused is results.picture
         text = "of an earlier scene: this one has no picture" if is_refused else "computing…"
-        runs = bool(self._running_parameter) and not is_refused
+        is_running = bool(self._running_parameter) and not is_refused
         for mark, made_of in self._marks:
             age = self._ages.age(made_of(results))
-            mark.show_age(self._age_in_run(mark, made_of, age) if runs else age, text)
-        read = of_reading(results)
-        if read is not None:
-            values = self._run_values(read, of_picture(results)) if runs else ("", "")
+            mark.show_age(self._age_in_run(mark, made_of, age) if is_running else age, text)
+        reading_request = of_reading(results)
+        if reading_request is not None:
+            values = ("", "")
+            if is_running:
+                values = self._run_values(reading_request, of_picture(results))
             for verdict in self._verdicts:
                 verdict.show_run(*values)
-            if runs:
+            if is_running:
                 self._is_verdict_marked = False
-            self._mark_verdicts(0.0 if runs else self._ages.age(read))
+            self._mark_verdicts(0.0 if is_running else self._ages.age(reading_request))
 
     def _age_in_run(self, mark: OutdatedMark, made_of: MadeOf, age: float) -> float:
         """Return the age that decides about a mark while a slider runs.
@@ -106,14 +108,14 @@ class OutdatedMarks(QObject):
         return age if mark.isHidden() else max(age, DELAY)
 
     def _run_values(
-        self, read: SimulationRequest, pictured: SimulationRequest | None
+        self, reading_request: SimulationRequest, picture_request: SimulationRequest | None
     ) -> tuple[str, str]:
         declared = quantity(self._running_parameter)
         texts = [
             ""
             if request is None
             else declared.format(float(request.scene.value(self._running_parameter)), _DIGITS)
-            for request in (read, pictured)
+            for request in (reading_request, picture_request)
         ]
         return f"{declared.label} {texts[0]}", texts[1] if texts[1] != texts[0] else ""
 

@@ -1,4 +1,4 @@
-"""Results: all that is computed for the workspace, how they follow it, and the status sentence."""
+"""Results computed for the workspace, their updates, and the sentence of the status line."""
 
 from collections import deque
 from collections.abc import Callable
@@ -43,7 +43,9 @@ class Results:
     picture: Picture | None = None
     """The first picture: a draft, or the exact one before it is decoded."""
 
-    reading: Reading | None = None  # what is read, from the picture or before there is one
+    reading: Reading | None = None
+    """The reading of the picture, or of the profile before there is a picture."""
+
     before: Snapshot | None = None  # the exact picture before the latest step
     switched: tuple[Decision, ...] = ()  # the effects that the plan has just switched in or out
     document: "PhotoDocument | None" = None
@@ -67,8 +69,8 @@ class Results:
     @property
     def code_chips(self) -> "ChipReading | None":
         """The chips that were read from the photo, unless its match is of a lamp, without any."""
-        found = None if self.document is None else self.document.outcome
-        match = None if found is None else found.match
+        outcome = None if self.document is None else self.document.outcome
+        match = None if outcome is None else outcome.match
         return self.chips if match is None or match.lamp is None else None
 
 
@@ -137,7 +139,7 @@ def next_sentence(_workspace: Workspace, _results: Results) -> object:
 
 
 def entries_of(workspace: Workspace) -> tuple[object, ...]:
-    """Return what the user enters: the scene, the settings, and fields of panes of their own."""
+    """Return what the user enters: the scene, the settings, and values entered in single panes."""
     film = workspace.film
     fields = (workspace.room, film.recording, film.frames, workspace.frame_rate)
     return (workspace.scene, workspace.settings, *fields)
@@ -167,11 +169,11 @@ def make_remark(
 
 
 def status_message(workspace: Workspace, results: Results) -> str:
-    """Return the sentence of the status line; empty where none holds any more."""
-    last = results.remark
-    if last is None or last.select_state(workspace, results) != last.state:
+    """Return the sentence of the status line; empty if the last one no longer holds."""
+    remark = results.remark
+    if remark is None or remark.select_state(workspace, results) != remark.state:
         return ""
-    return last.sentence
+    return remark.sentence
 
 
 class ResultUpdater(QObject, Generic[Request, Result]):
@@ -179,13 +181,13 @@ class ResultUpdater(QObject, Generic[Request, Result]):
 
     ``of`` returns the request for the task, or None if there is nothing to compute. ``put`` stores
     or removes the result. ``stays``: whether the last result stays until the next one is ready.
-    ``keep``: number of earlier results that are kept for requests that are made again.
+    ``keep``: number of earlier results that are cached for requests made again.
     """
 
     begun = Signal()
 
-    ended = Signal()  # the request was met, has failed, or is no longer needed
-    found = Signal(object)  # a result of the task, after it was stored
+    ended = Signal()  # the request was fulfilled, has failed, or is no longer needed
+    result_stored = Signal(object)  # a result of the task, after it was stored
     failed = Signal(str)  # a sentence that says why there is no result
 
     def __init__(
@@ -203,7 +205,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
         self._store, self._results_store, self.task = store, results_store, task
         self._of, self._put, self._stays = of, put, stays
         self._request: Request | None = None
-        self._kept: deque[tuple[Request, Result]] = deque(maxlen=keep)
+        self._cache: deque[tuple[Request, Result]] = deque(maxlen=keep)
         task.finished.connect(self._take)
         task.failed.connect(self._fail)
         store.select(lambda workspace: workspace).changed.connect(self.update)
@@ -218,24 +220,24 @@ class ResultUpdater(QObject, Generic[Request, Result]):
         if not self.task.is_idle:
             self.task.cancel()
             self.ended.emit()
-        kept = next((result for asked, result in self._kept if asked == request), None)
-        if request is not None and kept is None:
+        cached = next((result for earlier, result in self._cache if earlier == request), None)
+        if request is not None and cached is None:
             self.task.ask(request)
             self.begun.emit()
-        if not self._stays or request is None or kept is not None:
-            self._results_store.put(self._put(self._results_store.results, kept))
+        if not self._stays or request is None or cached is not None:
+            self._results_store.put(self._put(self._results_store.results, cached))
 
     def keep(self, result: Result) -> None:
         """Keep a result of the present request in place of the previous one."""
         if self._request is not None:
-            others = [(asked, other) for asked, other in self._kept if asked != self._request]
-            self._kept = deque([*others, (self._request, result)], self._kept.maxlen)
+            others = [item for item in self._cache if item[0] != self._request]
+            self._cache = deque([*others, (self._request, result)], self._cache.maxlen)
 
     def _take(self, result: Result) -> None:
         self.keep(result)
         self.ended.emit()
         self._results_store.put(self._put(self._results_store.results, result))
-        self.found.emit(result)
+        self.result_stored.emit(result)
 
     def _fail(self, sentence: str) -> None:
         self.ended.emit()

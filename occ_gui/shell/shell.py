@@ -33,14 +33,14 @@ class Shell(QObject):
     """The declared features, each made when first needed, with their panes in docks."""
 
     made = Signal(str, object)  # a pane has been made: its name, and the Pane
-    said = Signal(str)  # a sentence of one of the features for the status line
+    status_message = Signal(str)  # a sentence of one of the features for the status line
     accepted = Signal()  # an allowed value was entered in one of the panes
 
     def __init__(self, store: Store, results_store: ResultsStore) -> None:
         super().__init__()
         self._store, self._results_store = store, results_store
-        self._places: dict[str, _PaneHolder] = {}
-        self._unseen: dict[str, Feature[Any]] = {}
+        self._holders: dict[str, _PaneHolder] = {}
+        self._service_features: dict[str, Feature[Any]] = {}
         self._services: dict[str, Service] = {}
         self._workspaces = store.select(lambda workspace: workspace)
         self._entries: list[tuple[Feature[Any], Mapping[str, QAction]]] = []
@@ -49,16 +49,17 @@ class Shell(QObject):
 
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
         if feature.title:
-            place = self._place(feature)
+            holder = self._add_holder(feature)
             dock = window.add_pane(
-                feature.name, feature.title, place, feature.places, feature.default_side
+                feature.name, feature.title, holder, feature.places, feature.default_side
             )
-            dock.visibilityChanged.connect(place.set_visible)
+            dock.visibilityChanged.connect(holder.set_visible)
         else:
-            self._unseen[feature.name] = feature
+            self._service_features[feature.name] = feature
         self._entries.append((feature, window.actions_by_name))
-        for name, do in feature.actions.items():
-            window.actions_by_name[name].triggered.connect(lambda _=False, do=do: do())
+        for name, handler in feature.actions.items():
+            action = window.actions_by_name[name]
+            action.triggered.connect(lambda _=False, handler=handler: handler())
         for name, command in feature.commands.items():
             window.actions_by_name[name].triggered.connect(
                 lambda _=False, command=command: command(self.pane(feature.name))
@@ -76,40 +77,40 @@ class Shell(QObject):
 
     def embed(self, feature: Feature[Any]) -> QWidget:
         """Return a widget for a feature that is part of another pane, which shows and hides it."""
-        place = self._place(feature)
-        place.shown.connect(place.set_visible)
-        return place
+        holder = self._add_holder(feature)
+        holder.shown.connect(holder.set_visible)
+        return holder
 
-    def _place(self, feature: Feature[Any]) -> "_PaneHolder":
-        place = self._places[feature.name] = _PaneHolder(feature, self)
-        self._workspaces.changed.connect(place.show_change)
-        self._results_store.changed.connect(place.show_change)
-        return place
+    def _add_holder(self, feature: Feature[Any]) -> "_PaneHolder":
+        holder = self._holders[feature.name] = _PaneHolder(feature, self)
+        self._workspaces.changed.connect(holder.show_change)
+        self._results_store.changed.connect(holder.show_change)
+        return holder
 
     def pane(self, name: str) -> Any:
         """Return a pane or a service, which is made if needed."""
-        if name in self._places:
-            return self._places[name].make_pane()
+        if name in self._holders:
+            return self._holders[name].make_pane()
         if name not in self._services:
-            self._services[name] = self._unseen[name].make()
-            self._services[name].status_message.connect(self.said)
+            self._services[name] = self._service_features[name].make()
+            self._services[name].status_message.connect(self.status_message)
         return self._services[name]
 
     def find_pane(self, name: str) -> Any:
         """Return a pane or a service; None if it has not been made yet."""
-        place = self._places.get(name)
-        return place.pane if place else self._services.get(name)
+        holder = self._holders.get(name)
+        return holder.pane if holder else self._services.get(name)
 
     @property
     def help_pages(self) -> dict[str, str]:
-        features = (place.feature for place in self._places.values())
+        features = (holder.feature for holder in self._holders.values())
         return {feature.name: feature.help for feature in features if feature.help}
 
     @property
     def _figures(self) -> "dict[str, tuple[Figure, _PaneHolder]]":
-        places = self._places.values()
+        holders = self._holders.values()
         return {
-            figure.name: (figure, place) for place in places for figure in place.feature.figures
+            figure.name: (figure, holder) for holder in holders for figure in holder.feature.figures
         }
 
     @property
@@ -120,32 +121,32 @@ class Shell(QObject):
     def different_figures(self) -> list[Figure]:
         return [
             figure
-            for figure, place in self._figures.values()
-            if not place.is_away and figure.differs_from_others(place.pane)
+            for figure, holder in self._figures.values()
+            if not holder.is_unavailable and figure.differs_from_others(holder.pane)
         ]
 
-    def draw(self, name: str, shown: Snapshot) -> Draw:
+    def draw(self, name: str, snapshot: Snapshot) -> Draw:
         """Return a function that draws a figure of these results; raises NothingToDraw."""
-        figure, place = self._figures[name]
-        if place.is_away:
-            raise NothingToDraw(place.reason)
-        return figure.draw(place.pane, shown)
+        figure, holder = self._figures[name]
+        if holder.is_unavailable:
+            raise NothingToDraw(holder.reason)
+        return figure.draw(holder.pane, snapshot)
 
     @property
-    def _made(self) -> list[Service]:
-        panes = (place.pane for place in self._places.values())
+    def _services_and_panes(self) -> list[Service]:
+        panes = (holder.pane for holder in self._holders.values())
         return [*(pane for pane in panes if pane is not None), *self._services.values()]
 
     @property
     def is_idle(self) -> bool:
-        return all(work.is_idle for work in self._made)
+        return all(work.is_idle for work in self._services_and_panes)
 
     @property
     def is_measured(self) -> bool:
-        return all(work.is_measured for work in self._made)
+        return all(work.is_measured for work in self._services_and_panes)
 
     def stop(self) -> None:
-        for work in self._made:
+        for work in self._services_and_panes:
             work.stop()
 
 
@@ -156,7 +157,7 @@ class _PaneHolder(QWidget):
         super().__init__()
         self.feature, self._shell = feature, shell
         self._is_visible = False
-        self._shown: Any = None
+        self._last_part: Any = None
         self.pane: Pane[Any] | None = None
         self._note = paragraph(name=feature.title)
         self._note.setMargin(_MARGIN)
@@ -165,7 +166,7 @@ class _PaneHolder(QWidget):
         self._content = fill(QVBoxLayout(self), (self._note, 1), margins=0)
 
     @property
-    def is_away(self) -> bool:
+    def is_unavailable(self) -> bool:
         return self.feature.is_about_codes and not self._shell._store.workspace.has_code
 
     @property
@@ -181,8 +182,8 @@ class _PaneHolder(QWidget):
             pane: Pane[Any] = self.feature.make()
             self.pane = pane
             self._content.addWidget(pane.widget)
-            pane.widget.setHidden(self.is_away)
-            pane.status_message.connect(self._shell.said)
+            pane.widget.setHidden(self.is_unavailable)
+            pane.status_message.connect(self._shell.status_message)
             pane.accepted.connect(self._shell.accepted)
             leave_drops_to_window(self)
             self._shell.made.emit(self.feature.name, pane)
@@ -191,11 +192,11 @@ class _PaneHolder(QWidget):
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible
-        if visible and not self.is_away:
+        if visible and not self.is_unavailable:
             self.make_pane()
         self.show_change()
         if self.pane is not None:
-            self.pane.set_visible(visible and not self.is_away)
+            self.pane.set_visible(visible and not self.is_unavailable)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -206,19 +207,20 @@ class _PaneHolder(QWidget):
         self.shown.emit(False)
 
     def show_change(self) -> None:
-        """Show the part of the pane, if it is visible and has changed; or why it is away."""
-        is_away, was_away = self.is_away, not self._note.isHidden()
-        if is_away:
+        """Show the part of the pane if it is visible and has changed, or why there is none."""
+        is_unavailable, was_unavailable = self.is_unavailable, not self._note.isHidden()
+        if is_unavailable:
             self._note.setText(self.reason)
-        if is_away != was_away:
-            self._note.setVisible(is_away)
+        if is_unavailable != was_unavailable:
+            self._note.setVisible(is_unavailable)
             if self.pane is not None:
-                self.pane.widget.setHidden(is_away)
+                self.pane.widget.setHidden(is_unavailable)
             if self._is_visible:
                 self.set_visible(True)
-        if is_away or self.pane is None or not (self._is_visible or self.feature.updates_hidden):
+        is_updated = self._is_visible or self.feature.updates_hidden
+        if is_unavailable or self.pane is None or not is_updated:
             return
         part = self.feature.part(self._shell._store.workspace, self._shell._results_store.results)
-        if part is not None and part != self._shown:
-            self._shown = part
+        if part is not None and part != self._last_part:
+            self._last_part = part
             self.pane.show_part(part)

@@ -26,7 +26,7 @@ RIGHT = "✓ Code 718 read, all bits right"
 
 
 def marks(application: Application) -> list[QWidget]:
-    return [*application.outdated.marks()]
+    return [*application.outdated.find_marks()]
 
 
 def tabs(application: Application) -> list[str]:
@@ -73,7 +73,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     assert all(mark.isHidden() for mark in marks(application))
     application.store.change(iso=60.0, jpeg_quality=jpeg)
     outdated = application.outdated
-    late = outdated.marks(of_picture, of_snapshot, *((of_reading,) if jpeg else ()))
+    late = outdated.find_marks(of_picture, of_snapshot, *((of_reading,) if jpeg else ()))
     # On a busy machine the reading may be late, too, and is marked until then.
     qtbot.waitUntil(lambda: all(mark.isHidden() != (mark in late) for mark in marks(application)))
     assert {mark.accessibleName() for mark in late} == {"computing…"}
@@ -183,7 +183,7 @@ class Drag:
                 at_work = None
             if at_work is None and waiting is not None:
                 at_work, waiting = (waiting, tick + takes), None
-            marked.append(not (of or self.outdated.marks(of_snapshot)[0]).isHidden())
+            marked.append(not (of or self.outdated.find_marks(of_snapshot)[0]).isHidden())
         return marked
 
 
@@ -215,7 +215,7 @@ def test_a_slow_verdict_is_outdated_without_flicker_until_after_the_drag(
 
 
 def test_a_run_with_slow_pictures_marks_no_picture_and_states_its_value(drag: Drag) -> None:
-    (picture,) = drag.outdated.marks(of_picture)
+    (picture,) = drag.outdated.find_marks(of_picture)
     drag.outdated.follow_run("iso")
     marked = drag.move(takes=round(3e3 * DELAY), of=picture)
     assert not any(marked)

@@ -112,7 +112,7 @@ def test_the_last_result_stays_until_the_next_one_if_so_declared(qtbot: QtBot, s
 
 def test_the_last_results_come_back_at_once(qtbot: QtBot) -> None:
     bench = UpdaterBench(qtbot, keep=2)
-    results = collect(bench.work.found)
+    results = collect(bench.work.result_stored)
     for name in ("threshold", "b", "c"):
         bench.choose(name)
         bench.wait()

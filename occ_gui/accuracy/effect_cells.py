@@ -46,7 +46,11 @@ class PictureCell(_EffectCell):
             return
         images = self._images.get(index.row())
         if images is None or images[0] is not row.icon:
-            images = (row.icon, make_image(row.icon.with_effect), make_image(row.icon.without))
+            images = (
+                row.icon,
+                make_image(row.icon.with_effect),
+                make_image(row.icon.without_effect),
+            )
             self._images[index.row()] = images
         area = option.rect.adjusted(_GAP // 2, 1, -_GAP // 2, -1)
         for place, image in enumerate(images[1:]):

@@ -31,7 +31,8 @@ class CropPictures(QWidget):
         if crop is not None:
             self._are_pixels = not crop.is_averaged
             self._images = tuple(
-                make_image(pixels) for pixels in (crop.with_effect, crop.without, crop.difference)
+                make_image(pixels)
+                for pixels in (crop.with_effect, crop.without_effect, crop.difference)
             )
             difference = f"difference × {crop.amplification}"  # noqa: RUF001
             self._captions = ("with it", "without it", difference)

@@ -58,7 +58,7 @@ def make_rows(
         error = _state_error(decision, costs.differences.get(decision.effect), frame.plan.unit)
         is_new = decision.effect in new
         rows.append(_make_row(decision, costs, error, is_new, pending))
-    rest = costs.picture.everything_else
+    rest = costs.picture.other_seconds
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
     reason = f"Time that belongs to no effect, in ms:\n{stages}"
     last = EffectRow(

@@ -21,7 +21,7 @@ from occ_gui.bands.lamp_question import LampBars
 from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import embolden, fill, make_read_only
 from occ_gui.widgets.outdated_mark import OutdatedMark
-from occ_model.results.bands import SpeedDepth, percent
+from occ_model.results.bands import SpeedDepth, format_depth
 from occ_model.scene.units import SECOND
 
 _DIGITS = 4
@@ -93,7 +93,7 @@ class BandsView(QWidget):
         self.table.setRowCount(len(self._speeds))
         for row, speed in enumerate(self._speeds):
             cells = (
-                speed.name, percent(speed.at_nominal), percent(speed.at_real),
+                speed.name, format_depth(speed.at_nominal), format_depth(speed.at_real),
                 *_verdict(speed),
             )  # fmt: skip
             *texts, meaning = cells
@@ -122,17 +122,17 @@ class BandsView(QWidget):
         depth = bars.depth.peak_to_peak
         exposure = SECOND.format(bars.scene.camera.exposure_time, _DIGITS)
         if depth < bars.advice.limit:
-            return f"No bars at {exposure}: {percent(depth)}"
-        headline = f"Bars of {percent(depth)} of the mean light at {exposure}"
+            return f"No bars at {exposure}: {format_depth(depth)}"
+        headline = f"Bars of {format_depth(depth)} of the mean light at {exposure}"
         hidden = bars.depth.hidden
         return f"{headline}, not visible: {hidden}" if hidden else headline
 
     def _sentences(self, bars: SceneBars) -> list[str]:
         depth, advice = bars.depth, bars.advice
         lines = [
-            f"RMS {percent(depth.rms)}; in the picture's columns "
-            f"{percent(depth.columns.peak_to_peak)}, in pixel values "
-            f"{percent(depth.pixel.peak_to_peak)} peak to peak. {depth.sentence}",
+            f"RMS {format_depth(depth.rms)}; in the picture's columns "
+            f"{format_depth(depth.columns.peak_to_peak)}, in pixel values "
+            f"{format_depth(depth.pixel.peak_to_peak)} peak to peak. {depth.sentence}",
             advice.sentence,
         ]
         if advice.all_exposures:

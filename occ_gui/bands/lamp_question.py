@@ -11,7 +11,7 @@ from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import KeyedComboBox, check_box, fill, name_widget, push_button
-from occ_model.results.bars_answer import ROWS, BarsAnswer, shutter_words
+from occ_model.results.bars_answer import ROWS, BarsAnswer, format_shutter_time
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import SECOND
@@ -36,7 +36,7 @@ class ShutterEdit(QuantityEdit):
 
     def _show(self) -> None:
         super()._show()
-        self.lineEdit().setText(shutter_words(self.value()))
+        self.lineEdit().setText(format_shutter_time(self.value()))
 
 
 class LampForm(QWidget):

@@ -73,7 +73,7 @@ class LessonAnswers(QObject):
     def list_steps(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
         steps = []
         for place, step in enumerate(lesson.steps):
-            none = None, step.asked, MatchedPhoto()
+            none = None, step.question_scene, MatchedPhoto()
             answer, scene, photo = self._records.get((lesson.name, place), none)
             steps.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
         return tuple(steps)

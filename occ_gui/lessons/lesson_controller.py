@@ -294,7 +294,7 @@ def describe_changes(step: LessonStep, scene: Scene) -> str:
     Empty where the scene is that of the step or of its check, and where the step is about a photo:
     to apply its match changes the scene.
     """
-    if step.own_photo or step.photo or scene in {step.scene, step.asked}:
+    if step.own_photo or step.photo or scene in {step.scene, step.question_scene}:
         return ""
     changes = []
     for name in (name for names in GROUPS.values() for name in names):

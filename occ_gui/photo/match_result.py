@@ -152,12 +152,13 @@ class MatchResult(QWidget):
 
     def _show_cure(self, cure: Cure, match: Match) -> None:
         text = (
-            f"This lamp repeats at {HERTZ.format(cure.repeats, 4)} and is lit for "
+            f"This lamp repeats at {HERTZ.format(cure.repetition_rate, 4)} and is lit for "
             f"{PERCENT.format(cure.duty, 2)} of the time: {self._describe_depth(cure, match)}"
-            f"no bars at whole multiples of {SECOND.format(1.0 / cure.repeats, 4)}."
+            f"no bars at whole multiples of {SECOND.format(1.0 / cure.repetition_rate, 4)}."
         )
         marked, real = (
-            " or ".join(speed.name for speed in speeds) for speeds in (cure.speeds, cure.kept)
+            " or ".join(speed.name for speed in speeds)
+            for speeds in (cure.speeds, cure.safe_speeds)
         )
         if marked == real != "":
             text += f" Set {marked}."

@@ -17,7 +17,7 @@ from occ_gui.simulation.verdict import cause_in, is_right, reason_in
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
-from occ_model.results.bands import percent
+from occ_model.results.bands import format_depth
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.scene.light_words import has_chips
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, format_distinctly
@@ -308,7 +308,13 @@ def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
             f"Exposure time divided by {name[:1].lower()}{name[1:]}.",
         ),
         *(
-            [("Bars", f"{percent(snapshot.bars.peak_to_peak)} deep", "Swing of the light's bars.")]
+            [
+                (
+                    "Bars",
+                    f"{format_depth(snapshot.bars.peak_to_peak)} deep",
+                    "Swing of the light's bars.",
+                )
+            ]
             if snapshot.bars is not None
             else []
         ),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
-from occ_model.results.bands import ROUNDING_DEPTH, percent
+from occ_model.results.bands import ROUNDING_DEPTH, format_depth
 from occ_model.results.decoding import Cause, DecodeResult, symptom
 from occ_model.scene.light_words import describe_light
 
@@ -105,7 +105,7 @@ def describe_bars(reading: ColumnView) -> tuple[str, str]:
         return title, ""
     if bars.peak_to_peak <= ROUNDING_DEPTH:
         return f"{title}: no bars", "Every column gathers the same light."
-    depth = f"{percent(bars.peak_to_peak)} deep"
+    depth = f"{format_depth(bars.peak_to_peak)} deep"
     if math.isinf(bars.period):
         return f"{title}: bars {depth}, not in these columns", bars.sentence
     return f"{title}: {bars.period:.4g} columns from bar to bar, {depth}", bars.sentence

@@ -6,7 +6,7 @@ import re
 
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import ParameterError, shown
-from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, percent
+from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, format_depth
 from occ_model.results.bars_answer import ROWS
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
@@ -90,11 +90,12 @@ def _depth_lines(scene: Scene, depth: BandDepth) -> list[str]:
     if scene.camera.columns < depth.period < math.inf:
         columns = f"more than the picture's {scene.camera.columns} columns"
     return [
-        f"Bars at {exposure}: {percent(depth.peak_to_peak)} of the mean light peak to peak, "
-        f"{percent(depth.rms)} RMS;",
-        f"  in the picture's columns {percent(depth.columns.peak_to_peak)} and "
-        f"{percent(depth.columns.rms)}, in pixel values {percent(depth.pixel.peak_to_peak)} and "
-        f"{percent(depth.pixel.rms)}; from bar to bar: {columns}.",
+        f"Bars at {exposure}: {format_depth(depth.peak_to_peak)} of the mean light peak to peak, "
+        f"{format_depth(depth.rms)} RMS;",
+        f"  in the picture's columns {format_depth(depth.columns.peak_to_peak)} and "
+        f"{format_depth(depth.columns.rms)}, in pixel values "
+        f"{format_depth(depth.pixel.peak_to_peak)} and "
+        f"{format_depth(depth.pixel.rms)}; from bar to bar: {columns}.",
         f"  {depth.sentence}",
     ]
 
@@ -128,7 +129,8 @@ def _advice_lines(scene: Scene, advice: BandAdvice) -> list[str]:
                 if each.at_nominal == least
                 else ("no bars if the camera keeps the latter")
             )
-        row = f"{each.name:13}  {percent(each.at_nominal):8}  {percent(each.at_real):8}  {verdict}"
+        depths = f"{format_depth(each.at_nominal):8}  {format_depth(each.at_real):8}"
+        row = f"{each.name:13}  {depths}  {verdict}"
         lines.append(row.rstrip())
     return lines
 

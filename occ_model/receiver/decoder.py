@@ -1,4 +1,4 @@
-"""The interface of decoders, and their common parts: the last step, and sentences on failures."""
+"""The interface of decoders, and what they share: reading the payload and explaining failures."""
 
 import math
 from collections.abc import Callable
@@ -25,11 +25,11 @@ class Decoder:
         Function that reads a signal, the mean grey level of each column, shape (columns,), with the
         parameters of a scene that a receiver knows. The caller adds the region to the result.
     is_quick
-        Whether it takes only a few milliseconds and no slow imports, so that every picture of a
-        live view can be read with it.
+        Whether it takes a few milliseconds and imports nothing slow, so that a live view can read
+        every picture.
     searched_chips
-        The longest exposure in chips up to which its limits are searched, because it takes too long
-        beyond.
+        The longest exposure, in chips, for which its limits are searched; longer ones take too
+        long.
     """
 
     name: str
@@ -90,20 +90,20 @@ def count_whole_chips(chips: float) -> int:
 
 
 def describe_short_view(
-    columns: int, needed: int, scene: Scene, longest_exposure: float = math.inf
+    columns: int, needed_chips: int, scene: Scene, longest_exposure: float = math.inf
 ) -> str:
-    """State how many of the needed chips are in view, and how to get more of them.
+    """State how many of the needed chips are visible, and how to see more.
 
     ``longest_exposure``: the longest exposure in chips that the decoder reads.
     """
-    shown = count_whole_chips(columns / columns_of_chip(scene))
-    ways = ["come closer"] if columns < scene.camera.columns else []
-    # Exposure in chips at the frequency at which the chips fit.
-    exposure = scene.camera.exposure_time / scene.camera.readout_time * needed / columns
-    if columns >= needed and exposure < longest_exposure:
-        ways.append("raise the frequency")
-    advice = f"; {' or '.join(ways)}" if ways else ""
-    return f"{shown} of {needed} chips fit the panel's image{advice}."
+    visible_chips = count_whole_chips(columns / columns_of_chip(scene))
+    remedies = ["come closer"] if columns < scene.camera.columns else []
+    # The exposure, in chips, at the frequency at which all needed chips fit.
+    exposure = scene.camera.exposure_time / scene.camera.readout_time * needed_chips / columns
+    if columns >= needed_chips and exposure < longest_exposure:
+        remedies.append("raise the frequency")
+    advice = f"; {' or '.join(remedies)}" if remedies else ""
+    return f"{visible_chips} of {needed_chips} chips fit the panel's image{advice}."
 
 
 def _describe_short_chips(scene: Scene) -> str:

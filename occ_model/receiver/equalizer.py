@@ -1,8 +1,8 @@
 """The equalizer: undo the exposure, then read by the paper's threshold, run lengths and headers.
 
 Beyond the paper, it knows the exposure time, the readout time and roughly the length of a chip. It
-needs no list of codes and accepts any data. If nothing else checks the packet that was read, its
-exposure is simulated and compared with the light of its columns.
+needs no list of codes and accepts any data. If the framing does not check the packet, its exposure
+is simulated and compared with the light of its columns.
 
 The exposure, a moving average of t / t_r columns, is a filter with the response sinc(F t), which
 has nulls at which only noise is left. The Wiener filter H* / (|H|^2 + N / S) divides by the
@@ -30,15 +30,15 @@ from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.scheme import scheme_of
 
-_CURVE_UNKNOWN = (
+_UNKNOWN_CURVE = (
     "The picture is enhanced by {enhancement}, which hides how bright each column was: the light "
     "could only be estimated."
 )
 
-_MAX_VOTES = 15  # maximum of packets to compare; more take time without any change
+_MAX_VOTES = 15  # packets to compare; more take longer and change nothing
 _MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that can be undone
 
-_UNCHECKED = "this scheme does not detect all wrong chips; the framing raw checks the payload."
+_WEAK_CHECK = "this scheme does not detect all wrong chips; the framing raw checks the payload."
 
 _SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # of a packet's start, up to a chip
 
@@ -58,91 +58,93 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
         )
     light = convert_to_light(signal, scene)
     chip = scene.transmitter.switching_period / camera.readout_time
-    undone = undo_exposure(light.values, exposure, chip, scene.receiver.equalizer)
-    equalized = undone * WHITE
-    read = read_by_threshold(equalized, scene)
-    read = _take_majority(read, scene)
-    failure = read.failure or _explain_mismatch(read, light.values, exposure, scene)
-    read = read if failure is None else replace(read, code=None)
+    equalized = undo_exposure(light.values, exposure, chip, scene.receiver.equalizer) * WHITE
+    result = _take_majority(read_by_threshold(equalized, scene), scene)
+    failure = result.failure or _explain_mismatch(result, light.values, exposure, scene)
+    result = result if failure is None else replace(result, code=None)
     if failure is not None and light.is_estimated:
-        failure += " " + _CURVE_UNKNOWN.format(enhancement=scene.model.enhancement)
-    return replace(read, decoder=DECODER.name, signal=signal, equalized=equalized, failure=failure)
+        failure += " " + _UNKNOWN_CURVE.format(enhancement=scene.model.enhancement)
+    return replace(
+        result, decoder=DECODER.name, signal=signal, equalized=equalized, failure=failure
+    )
 
 
-def _take_majority(read: DecodeResult, scene: Scene) -> DecodeResult:
-    """Read every packet in the picture, and take the payload of the majority.
+def _take_majority(result: DecodeResult, scene: Scene) -> DecodeResult:
+    """Read every packet in the picture, and take the payload that most of them contain.
 
-    The paper reads only the first one, but errors of deconvolved light differ between packets.
+    The paper reads only the first packet, but the errors of deconvolved light differ between them.
     """
     if scene.transmitter.pattern:
-        return read
+        return result
     scheme = scheme_of(scene.transmitter)
     length = scheme.length + len(HEADER)  # the paper's packet ends at the next header
-    starts = read.headers[:_MAX_VOTES]
-    frames = [scheme.decode(read.chips[start : start + length]) for start in starts]
+    starts = result.headers[:_MAX_VOTES]
+    frames = [scheme.decode(result.chips[start : start + length]) for start in starts]
     votes = Counter(
         tuple(frame.bits.tolist())
         for frame in frames
         if frame.failure is None and len(frame.bits) == scheme.bits
     ).most_common(2)
     if not votes:
-        return read
-    (bits, most), *others = votes
-    if others and others[0][1] == most:
+        return result
+    (bits, vote_count), *others = votes
+    if others and others[0][1] == vote_count:
         return replace(
-            read,
+            result,
             code=None,
             payload="",
-            failure="The packets in the picture do not agree: two different payloads were each "
-            f"read from {most} of them.",
+            failure="The packets in the picture contradict each other: each of two payloads was "
+            f"read from {vote_count} of them.",
         )
-    agreed = Framed(read.headers, np.array(bits, dtype=np.uint8))
-    return add_bits(read, agreed, scene)
+    majority = Framed(result.headers, np.array(bits, dtype=np.uint8))
+    return add_bits(result, majority, scene)
 
 
 def _explain_mismatch(
-    read: DecodeResult, light: FloatArray, exposure: float, scene: Scene
+    result: DecodeResult, light: FloatArray, exposure: float, scene: Scene
 ) -> str | None:
-    """Return why the light is not that of the packet; None if it is, or if a rule checks it."""
+    """Return why the light does not fit the packet; None if it does or a checksum has passed."""
     scheme = scheme_of(scene.transmitter)
-    length = read.chip_length
-    if scheme.is_papers or scheme.framing.checks or length is None or read.chip_starts is None:
+    length = result.chip_length
+    if scheme.is_papers or scheme.framing.checks or length is None or result.chip_starts is None:
         return None
-    chips = scheme.encode(read.bits)
-    starts = [start for start in read.headers if _is_packet(read.chips[start:], chips)]
+    chips = scheme.encode(result.bits)
+    starts = [start for start in result.headers if _is_packet(result.chips[start:], chips)]
     if not starts and scheme.takes_any_chips:
-        return f"No header is followed by all chips of the payload that was read, and {_UNCHECKED}"
+        return f"No header is followed by all chips of the payload that was read, and {_WEAK_CHECK}"
     if not starts:  # the picture shows the end of a packet before its beginning
         return None
-    first = float(read.chip_starts[starts[0]])
+    first = float(result.chip_starts[starts[0]])
     columns = np.arange(max(0.0, first), min(len(light), first + len(chips) * length))
     columns = columns.astype(np.int64)
     # Deconvolved light refers to the middle of each exposure.
     elapsed = (columns - 0.5 * exposure - first) / length  # chips since the packet's start
-    place = np.floor(PER_CHIP * elapsed).astype(np.int64)
-    model = light_of_chips(chips, exposure / length)
-    unexplained = _least_unexplained(light[columns], model[(place + _SHIFTS[:, None]) % len(model)])
+    phase = np.floor(PER_CHIP * elapsed).astype(np.int64)
+    packet_light = light_of_chips(chips, exposure / length)
+    unexplained = _least_unexplained(
+        light[columns], packet_light[(phase + _SHIFTS[:, None]) % len(packet_light)]
+    )
     if unexplained <= MAX_UNEXPLAINED:
         return None
     return (
-        "The packet that was read does not explain its columns: "
+        "The packet does not explain the columns it was read from: "
         f"{PERCENT.format(unexplained, 2)} of the variance of their light is due neither to its "
-        f"chips nor to noise, and {_UNCHECKED}"
+        f"chips nor to noise, and {_WEAK_CHECK}"
     )
 
 
-def _is_packet(read: ByteArray, chips: ByteArray) -> bool:
-    return len(read) >= len(chips) and bool(np.array_equal(read[: len(chips)], chips))
+def _is_packet(received: ByteArray, chips: ByteArray) -> bool:
+    return len(received) >= len(chips) and bool(np.array_equal(received[: len(chips)], chips))
 
 
 def _least_unexplained(light: FloatArray, models: FloatArray) -> float:
     """Return the fraction of the variance that the best model leaves unexplained."""
     centred = light - light.mean()
     models = models - models.mean(axis=1, keepdims=True)
-    swings = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
+    energies = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
     fits = models @ centred
-    best = int(np.argmax(np.maximum(fits, 0.0) ** 2 / swings))
-    residual = centred - max(float(fits[best]), 0.0) / swings[best] * models[best]
+    best = int(np.argmax(np.maximum(fits, 0.0) ** 2 / energies))
+    residual = centred - max(float(fits[best]), 0.0) / energies[best] * models[best]
     return unexplained_fraction(light, residual)
 
 
@@ -157,7 +159,7 @@ DECODER = Decoder(
 MMSE, ZERO_FORCING = "mmse", "zero-forcing"  # methods to undo an exposure
 
 _ZERO_FORCING_NOISE = 1e-6  # noise-to-light ratio that avoids a division by zero at a null
-_NULL_FRACTION = 0.25  # of the spectrum: the frequencies nearest the nulls, where noise prevails
+_NULL_FRACTION = 0.25  # fraction of the frequencies, nearest the nulls, where noise prevails
 _MIN_CHIP_SPECTRUM = 1e-3  # minimum of a chip's spectrum, relative to its maximum
 _TAPER_EXPOSURES = 4.0  # exposures over which each end fades out, since a spectrum is periodic
 
@@ -187,37 +189,39 @@ def undo_exposure(
     mean = float(light.mean())
     margin = math.ceil(_TAPER_EXPOSURES * exposure)
     # A Fourier transform takes many times as long if its length has large prime factors.
-    faded = _fade_out(light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True))
-    passed = response(exposure, len(faded))
-    frequency = np.arange(len(passed)) / len(faded)
+    padded_light = _fade_out(
+        light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True)
+    )
+    transfer = response(exposure, len(padded_light))
+    frequency = np.arange(len(transfer)) / len(padded_light)
     if method == ZERO_FORCING:
-        noise, spectrum = _ZERO_FORCING_NOISE, np.ones_like(passed)
+        noise, spectrum = _ZERO_FORCING_NOISE, np.ones_like(transfer)
     else:
         spectrum = np.sinc(frequency * chip) ** 2 + _MIN_CHIP_SPECTRUM
-        noise = _noise_to_light_ratio(faded, light, passed, spectrum)
-    wiener_filter = passed / (passed**2 + noise / spectrum)
-    undone = uft.uirfftn(wiener_filter * uft.urfftn(faded), shape=faded.shape)
-    return np.asarray(undone[margin : margin + len(light)] + mean, dtype=np.float64)
+        noise = _noise_to_light_ratio(padded_light, light, transfer, spectrum)
+    wiener_filter = transfer / (transfer**2 + noise / spectrum)
+    restoration = uft.uirfftn(wiener_filter * uft.urfftn(padded_light), shape=padded_light.shape)
+    return np.asarray(restoration[margin : margin + len(light)] + mean, dtype=np.float64)
 
 
 def _fade_out(signal: FloatArray, margin: int, length: int) -> FloatArray:
-    """Extend a signal beyond both ends and fade it out there, because a spectrum is periodic."""
+    """Extend a signal beyond both ends and fade it to zero, because a spectrum is periodic."""
     fade = 0.5 - 0.5 * np.cos(np.pi * (np.arange(margin) + 0.5) / margin)
-    rest = np.zeros(length - len(signal) - 2 * margin)
-    return np.concatenate([signal[0] * fade, signal, signal[-1] * fade[::-1], rest])
+    padding = np.zeros(length - len(signal) - 2 * margin)
+    return np.concatenate([signal[0] * fade, signal, signal[-1] * fade[::-1], padding])
 
 
 def _noise_to_light_ratio(
-    faded: FloatArray, light: FloatArray, passed: FloatArray, spectrum: FloatArray
+    padded_light: FloatArray, light: FloatArray, transfer: FloatArray, spectrum: FloatArray
 ) -> float:
     """Measure the noise power near the nulls, relative to the light's power at low frequencies.
 
-    There the signal cannot be light of chips: it is noise, rounding, an error of the tone curve, or
-    an effect of the picture's ends.
+    Near the nulls the signal contains no light of chips, only noise, rounding, errors of the tone
+    curve, and effects of the picture's ends.
     """
-    power = np.abs(np.fft.rfft(faded)) ** 2 / len(faded)
+    power = np.abs(np.fft.rfft(padded_light)) ** 2 / len(padded_light)
     count = max(1, int(_NULL_FRACTION * len(power)))
-    near_nulls = np.argpartition(np.abs(passed), count - 1)[:count]
-    noise = float(power[near_nulls].mean())
+    null_bins = np.argpartition(np.abs(transfer), count - 1)[:count]
+    noise = float(power[null_bins].mean())
     variance = max(float(light.var()) - noise, noise * _MIN_CHIP_SPECTRUM)
-    return noise / (variance / float(np.mean(spectrum * passed**2)))
+    return noise / (variance / float(np.mean(spectrum * transfer**2)))

@@ -12,40 +12,40 @@ from occ_model.results.decoding import Location, Region
 _BINS = 256
 
 MAX_UNEXPLAINED = 0.05
-"""Maximum fraction of a signal's variance that is neither that of its model nor noise.
+"""Maximum fraction of a signal's variance that neither its model nor noise explains.
 
-Packets that the equalizer read correctly had up to 3 %, wrong ones usually more than 7 %.
+It was up to 3 % for packets that the equalizer read correctly, and mostly above 7 % for wrong ones.
 """
 
-_MIN_VARIANCE = 1e-8  # of light in fractions of full light, since no model is more exact
+_MIN_VARIANCE = 1e-8  # of light, in squared fractions of full light: no model is more exact
 
-_WHOLE_ROWS = 2**23  # most rows whose sum of bytes fits a 32-bit integer
+_MAX_SUM_ROWS = 2**23  # most rows whose sum of bytes fits a 32-bit integer
 
 
 def column_means(image: ByteArray, region: Region) -> FloatArray:
     """Return the mean grey level of each column of a region."""
     part = region.crop(image)
     sums = np.zeros(region.columns)
-    for first in range(0, region.rows, _WHOLE_ROWS):
-        rows = part[first : first + _WHOLE_ROWS]
+    for first in range(0, region.rows, _MAX_SUM_ROWS):
+        rows = part[first : first + _MAX_SUM_ROWS]
         sums += cv2.reduce(rows, 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)[0]
     return sums / region.rows
 
 
-_WHITE_PIXELS = 0.9  # of a white column, because a region can include some rows beside the panel
+_WHITE_PIXELS = 0.9  # fraction of a white column, as a region can include rows beside the panel
 
 
 def white_fraction(image: ByteArray, region: Region, *, is_enhanced: bool) -> float | None:
-    """Return the fraction of a region's columns that are white, except for a few of their pixels.
+    """Return the fraction of a region's columns whose pixels are nearly all white.
 
-    Returns None if an enhancement may be the cause, which makes the brightest columns of a picture
-    without noise white.
+    Returns None if the enhancement may be the cause: without noise, it makes the brightest columns
+    of a picture white.
     """
     part = region.crop(image)
-    whites = np.mean(part == np.iinfo(image.dtype).max, axis=0) >= _WHITE_PIXELS
-    if is_enhanced and not np.any(np.ptp(part[:, ~whites], axis=0)):
+    is_white = np.mean(part == np.iinfo(image.dtype).max, axis=0) >= _WHITE_PIXELS
+    if is_enhanced and not np.any(np.ptp(part[:, ~is_white], axis=0)):
         return None
-    return float(whites.mean())
+    return float(is_white.mean())
 
 
 def explain_flat(signal: FloatArray) -> str | None:
@@ -66,14 +66,14 @@ def otsu_split(counts: IndexArray) -> int | None:
     if filled.size < 2:
         return None
     first = filled[0]
-    # Summed from both ends about the middle, so that a small class keeps its digits beside a large
+    # Sums from both ends about the middle, so that a small class keeps its digits beside a large
     # one, and a mirrored histogram gives the same numbers.
     counts = counts[first : filled[-1] + 1].astype(np.float64)
     moments = counts * (np.arange(len(counts)) - 0.5 * (len(counts) - 1))
     below, above = np.cumsum(counts)[:-1], np.cumsum(counts[::-1])[-2::-1]
     means = np.cumsum(moments)[:-1] / below, np.cumsum(moments[::-1])[-2::-1] / above
-    between = below * above * (means[1] - means[0]) ** 2
-    best = np.flatnonzero(between >= between.max() * (1.0 - 1e-12))
+    class_variance = below * above * (means[1] - means[0]) ** 2
+    best = np.flatnonzero(class_variance >= class_variance.max() * (1.0 - 1e-12))
     return int(first + best[len(best) // 2])
 
 
@@ -87,12 +87,14 @@ def otsu_threshold(signal: FloatArray) -> float:
 
 
 def unexplained_fraction(signal: FloatArray, residual: FloatArray) -> float:
-    """Return the fraction of a signal's variance that its model leaves, except for noise.
+    """Return the fraction of a signal's variance that neither its model nor noise explains.
 
-    Noise is independent from value to value; what neighbours have in common is not noise.
+    Noise is independent from value to value; a correlation of neighbours is not noise.
     """
-    left, seen = residual - residual.mean(), signal - signal.mean()
-    return float(left[1:] @ left[:-1]) / max(float(seen @ seen), _MIN_VARIANCE * len(signal))
+    centred_residual, centred_signal = residual - residual.mean(), signal - signal.mean()
+    return float(centred_residual[1:] @ centred_residual[:-1]) / max(
+        float(centred_signal @ centred_signal), _MIN_VARIANCE * len(signal)
+    )
 
 
 _MAX_GRID_CELLS = 512  # maximum number of cells on a side of the grid on which contours grow
@@ -104,10 +106,10 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     """Find the panel's rectangle by the paper's method; None in an image of one level.
 
     The brightest pixels that cover ``bright_fraction`` of the area are selected, their contours are
-    grown until only one is left, and its bounding rectangle is the region. Two details are not
-    given in the paper. Here a pixel below the image's Otsu threshold never counts as bright,
-    because a distant panel has fewer bright pixels. And the rectangle is that of the bright pixels
-    within the grown contour, so that growth does not extend it into the surroundings.
+    grown until they merge into one, and its bounding rectangle is the region. Two details are not
+    given in the paper. A pixel below the image's Otsu threshold never counts as bright, because a
+    distant panel has fewer bright pixels. The rectangle bounds the bright pixels within the grown
+    contour, so that growth does not extend it into the surroundings.
     """
     level = bright_level(_histogram(image), bright_fraction)
     if level is None:
@@ -125,15 +127,18 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
         return Location(_bounds(bright, Region(0, rows, 0, columns)), level, 1, 0)
     x, y, width, height = cv2.boundingRect(cells)
     scale_y, scale_x = rows / grid_size[1], columns / grid_size[0]
-    around = Region(
+    search_area = Region(
         max(0, int((y - 1) * scale_y)),
         min(rows, int((y + height + 1) * scale_y)),
         max(0, int((x - 1) * scale_x)),
         min(columns, int((x + width + 1) * scale_x)),
     )
-    reach = _growth_to_one(cells)
+    growth = _find_merging_growth(cells)
     return Location(
-        _bounds(bright, around), level, _count_contours(cells), reach * _cell_size(rows, columns)
+        _bounds(bright, search_area),
+        level,
+        _count_contours(cells),
+        growth * _cell_size(rows, columns),
     )
 
 
@@ -149,7 +154,7 @@ def grid_size_of(rows: int, columns: int) -> tuple[int, int]:
 
 
 def least_bright_fraction() -> float:
-    """Return the fraction of bright pixels above which a cell belongs to a contour, as a byte."""
+    """Return the fraction of bright pixels above which a cell, as a byte, belongs to a contour."""
     return (math.floor(255 * _MIN_BRIGHT_FRACTION) + 0.5) / 255.0
 
 
@@ -168,9 +173,9 @@ def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
     split = otsu_split(counts)
     if split is None:
         return None
-    at_least = np.cumsum(counts[::-1])[::-1]
-    wanted = bright_fraction * counts.sum()
-    return max(int(np.flatnonzero(at_least >= wanted)[-1]), split + 1)
+    pixels_from_level = np.cumsum(counts[::-1])[::-1]
+    bright_pixels = bright_fraction * counts.sum()
+    return max(int(np.flatnonzero(pixels_from_level >= bright_pixels)[-1]), split + 1)
 
 
 def _select_above(image: ByteArray, level: float) -> ByteArray:
@@ -181,28 +186,28 @@ def _count_contours(cells: ByteArray) -> int:
     return int(cv2.connectedComponents(cells)[0]) - 1  # without the background
 
 
-def _growth_to_one(cells: ByteArray) -> int:
+def _find_merging_growth(cells: ByteArray) -> int:
     """Find the smallest growth in cells that merges the contours into one."""
 
-    def is_one(reach: int) -> bool:
-        kernel = np.ones((2 * reach + 1, 2 * reach + 1), dtype=np.uint8)
+    def merges(growth: int) -> bool:
+        kernel = np.ones((2 * growth + 1, 2 * growth + 1), dtype=np.uint8)
         return _count_contours(np.asarray(cv2.dilate(cells, kernel), dtype=np.uint8)) == 1
 
-    if is_one(0):
+    if merges(0):
         return 0
     high = 1
-    while not is_one(high):
+    while not merges(high):
         high *= 2
     low = high // 2
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if is_one(middle) else (middle, high)
+        low, high = (low, middle) if merges(middle) else (middle, high)
     return high
 
 
-def _bounds(bright: ByteArray, within: Region) -> Region:
+def _bounds(bright: ByteArray, area: Region) -> Region:
     """Return the bounding rectangle of the bright pixels in a part of the image."""
-    part = within.crop(bright)
+    part = area.crop(bright)
     x, y, width, height = cv2.boundingRect(part)
-    top, left = within.first_row + y, within.first_column + x
+    top, left = area.first_row + y, area.first_column + x
     return Region(top, top + height, left, left + width)

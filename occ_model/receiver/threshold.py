@@ -24,21 +24,21 @@ _MIN_RUNS = 3  # minimum number of whole runs to estimate a chip's length
 _LONGEST_EXPOSURE = 2.0
 """Exposure in chips above which a single chip changes a column by less than half of the swing.
 
-A threshold in the middle then misses it, with the same errors in all repetitions of a packet.
+A threshold in the middle then misses the chip, in the same way in all repetitions of a packet.
 """
 
-_LONGEST_UNCHECKED = 1.0  # exposure in chips up to which single chips reach the level of runs
+_LONGEST_UNCHECKED_EXPOSURE = 1.0  # in chips, up to which single chips reach the level of runs
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the payload from a signal like :func:`read_stripes`, but reject uncertain ones.
+    """Read the payload from a signal like :func:`read_stripes`, but reject uncertain payloads.
 
-    If the known exposure is so long that chips can be misread in the same way in every packet, and
-    the framing does not check the payload, the bits are returned with a failure.
+    If the exposure is so long that chips can be misread in the same way in every packet, and the
+    framing does not check the payload, the bits are returned with a failure.
     """
     result = read_stripes(signal, scene)
-    unsure = None if result.failure is not None else _explain_uncertainty(scene)
-    return result if unsure is None else replace(result, code=None, failure=unsure)
+    uncertainty = None if result.failure is not None else _explain_uncertainty(scene)
+    return result if uncertainty is None else replace(result, code=None, failure=uncertainty)
 
 
 def _explain_uncertainty(scene: Scene) -> str | None:
@@ -47,7 +47,7 @@ def _explain_uncertainty(scene: Scene) -> str | None:
     if scheme.is_papers or scheme.framing.checks:
         return None
     chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
-    if chips <= (_LONGEST_UNCHECKED if scheme.takes_any_chips else _LONGEST_EXPOSURE):
+    if chips <= (_LONGEST_UNCHECKED_EXPOSURE if scheme.takes_any_chips else _LONGEST_EXPOSURE):
         return None
     return (
         f"The exposure lasts {chips:.2f} chips, so a threshold can miss single chips, and this "
@@ -58,8 +58,8 @@ def _explain_uncertainty(scene: Scene) -> str | None:
 def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the payload from a signal with the scene's scheme and number of bits.
 
-    The length of a chip is known as well for a raw pattern, whose runs have no scale, and for other
-    schemes than the paper's. The result contains all completed steps, without the region.
+    For a raw pattern, whose runs have no scale, and for schemes other than the paper's, the length
+    of a chip is known. The result contains all completed steps, without the region.
     """
     result = _read_steps(signal, scene)
     failure = result.failure
@@ -69,9 +69,11 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
         failure = blame_short_chips(failure, scene)
     if not scene.transmitter.pattern:
         scheme = scheme_of(scene.transmitter)
-        needed = (2 if scheme.ends_by_header else 1) * scheme.length
-        if len(signal) < needed * columns_of_chip(scene):
-            failure += " " + describe_short_view(len(signal), needed, scene, _LONGEST_EXPOSURE)
+        needed_chips = (2 if scheme.ends_by_header else 1) * scheme.length
+        if len(signal) < needed_chips * columns_of_chip(scene):
+            failure += " " + describe_short_view(
+                len(signal), needed_chips, scene, _LONGEST_EXPOSURE
+            )
     return replace(result, failure=failure)
 
 
@@ -87,11 +89,11 @@ def _read_steps(signal: FloatArray, scene: Scene) -> DecodeResult:
     threshold = otsu_threshold(signal)
     runs = split_into_runs((signal > threshold).astype(np.uint8))
     result = replace(result, threshold=threshold, runs=runs)
-    whole = Runs(runs.values[1:-1], runs.lengths[1:-1])
-    if len(whole.lengths) < _MIN_RUNS:
+    whole_runs = Runs(runs.values[1:-1], runs.lengths[1:-1])
+    if len(whole_runs.lengths) < _MIN_RUNS:
         return replace(
             result,
-            failure=f"Too few stripes: {len(whole.lengths)} whole ones were found.",
+            failure=f"Too few stripes: only {len(whole_runs.lengths)} are completely visible.",
         )
     if _is_length_known(scene) and has_short_chips(scene):
         return replace(
@@ -100,33 +102,32 @@ def _read_steps(signal: FloatArray, scene: Scene) -> DecodeResult:
             "show how many chips they contain.",
         )
     if scene.transmitter.pattern:
-        return _read_pattern(result, runs, whole, scene)
-    read = _read_chips(result, runs, whole, scene)
-    return read_payload(read, scene)
+        return _read_pattern(result, runs, whole_runs, scene)
+    return read_payload(_read_chips(result, runs, whole_runs, scene), scene)
 
 
-def _read_pattern(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
+def _read_pattern(result: DecodeResult, runs: Runs, whole_runs: Runs, scene: Scene) -> DecodeResult:
     """Read the chips of a raw pattern, which contains no code."""
-    read = _read_chips(result, runs, whole, scene)
+    result = _read_chips(result, runs, whole_runs, scene)
     return replace(
-        read,
-        failure=f"A raw chip pattern is sent, which contains no packets; {len(read.chips)} chips "
+        result,
+        failure=f"A raw chip pattern is sent, which contains no packets; {len(result.chips)} chips "
         "were read.",
     )
 
 
-def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
+def _read_chips(result: DecodeResult, runs: Runs, whole_runs: Runs, scene: Scene) -> DecodeResult:
     """Convert runs to chips; only the visible parts of the first and the last run count."""
-    histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
+    histograms = (run_histogram(whole_runs, 0), run_histogram(whole_runs, 1))
     if _is_length_known(scene):
-        fit = fit_pattern(whole, columns_of_chip(scene))
+        fit = fit_pattern(whole_runs, columns_of_chip(scene))
     else:
-        fit = fit_chips(whole, histograms)
+        fit = fit_chips(whole_runs, histograms)
     counts = fit.count_chips(runs)
     ends = np.cumsum(runs.lengths).astype(np.float64)
     starts = ends - runs.lengths
-    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    chip_starts = np.repeat(starts, counts) + within * np.repeat(runs.lengths / counts, counts)
+    chip_in_run = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    chip_starts = np.repeat(starts, counts) + chip_in_run * np.repeat(runs.lengths / counts, counts)
     return replace(
         result,
         histograms=histograms,
@@ -139,13 +140,13 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> 
 DECODER = Decoder(PAPER_DECODER, "The paper's: threshold and run lengths", read_signal)
 
 
-_MAX_RUN_CHIPS = np.array([2, 4])  # of a run of zeros, and of ones: a header after a one
-_HEADER_RUNS = (3, 4)  # chips of the run of ones that contains a header: its three, or one more
+_MAX_RUN_CHIPS = np.array([2, 4])  # in a run of zeros and of ones: a header after a one has 4
+_HEADER_RUNS = (3, 4)  # chips of the run of ones that contains a header: three, or one more
 _NO_HEADER_PENALTY = 0.1  # in chips, for a fit without a header, since the picture may show none
 _WIDENING_PENALTY = 0.05  # in chips, for each chip of widening in the fit of a pattern
 _WIDENINGS = 19  # number of widenings tried for a raw pattern, which has no framing
 
-_IMPROVEMENTS = 3  # maximum rounds of least squares, unless the numbers of chips settle earlier
+_MAX_ROUNDS = 3  # rounds of least squares, unless the numbers of chips converge earlier
 
 
 def split_into_runs(binary: ByteArray) -> Runs:
@@ -172,7 +173,7 @@ def mean_short_run(histogram: RunHistogram) -> float:
 class ChipFit:
     """The relation of run lengths to chips.
 
-    A run of n ones is ``n * chip_length + widening`` columns long, and one of n zeros ``n *
+    A run of n ones is ``n * chip_length + widening`` columns long, and a run of n zeros ``n *
     chip_length - widening``, since a threshold off the middle moves all edges equally.
     """
 
@@ -194,16 +195,20 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     split. Therefore several interpretations are tried: the short runs of ones as one or two chips,
     the longest run of ones, which contains the header, as three or four chips, and the short runs
     of zeros as one or two chips (an odd number of bits that are all 1 has no single zero). Each
-    trial is refined by least squares. The best trial is the one whose runs are closest to whole
-    chips, not longer than the framing allows, and include a header. A widening may exceed a chip,
-    because a packet without single chips can still be read.
+    trial is refined by least squares. In the best trial the runs are closest to whole chips, not
+    longer than the framing allows, and include a header. A widening may exceed a chip, because a
+    packet without single chips can still be read.
     """
     short_zero, short_one = (mean_short_run(histogram) for histogram in histograms)
     longest_one = float(len(histograms[1].counts) - 1)
     trials = [(short_one, chips) for chips in (1, 2)]
     trials += [(longest_one, chips) for chips in _HEADER_RUNS]
     one_length, one_chips, zero_chips = np.array(
-        [(length, chips, zeros_in) for zeros_in in (1, 2) for length, chips in trials]
+        [
+            (length, chips, short_zero_chips)
+            for short_zero_chips in (1, 2)
+            for length, chips in trials
+        ]
     ).T
     # A threshold off the middle shortens runs of ones as much as it lengthens those of zeros.
     chip_length = (one_length + short_zero) / (one_chips + zero_chips)
@@ -231,31 +236,31 @@ def _find_best_fit(
     penalty: FloatArray | float = 0.0,
     nominal: float | None = None,
 ) -> ChipFit:
-    """Improve first guesses by least squares over the runs' whole chips, and return the best.
+    """Improve initial guesses by least squares over the runs' whole chips, and return the best.
 
     All guesses are improved together, and equal runs are weighted by their number. With a
-    ``nominal`` length, the deviation from it counts instead of the framing.
+    ``nominal`` length, the deviation from it counts instead of the rules of the framing.
     """
-    kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
-    values, lengths = kinds % 2, (kinds // 2).astype(np.float64)
+    run_kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
+    values, lengths = run_kinds % 2, (run_kinds // 2).astype(np.float64)
     sign = np.where(values == 1, 1.0, -1.0)
 
-    def chips() -> FloatArray:
+    def round_to_chips() -> FloatArray:
         counts = np.rint((lengths - sign * widening[:, None]) / chip_length[:, None])
         return np.asarray(np.maximum(counts, 1.0))
 
-    n = chips()
-    for _ in range(_IMPROVEMENTS):
+    n = round_to_chips()
+    for _ in range(_MAX_ROUNDS):
         # Normal equations of lengths = chip_length * n + widening * sign.
         nn, ns, ss = (n * n) @ repeats, n @ (repeats * sign), float(repeats.sum())
         nl, sl = n @ (repeats * lengths), float((sign * lengths) @ repeats)
         determinant = nn * ss - ns**2  # never 0, because ones and zeros differ in sign
-        better = (ss * nl - ns * sl) / determinant
-        usable = better > 0.0
-        widening = np.where(usable, (nn * sl - ns * nl) / determinant, widening)
-        chip_length = np.where(usable, better, chip_length)
-        before, n = n, chips()
-        if np.array_equal(before, n):
+        improved_length = (ss * nl - ns * sl) / determinant
+        is_valid = improved_length > 0.0
+        widening = np.where(is_valid, (nn * sl - ns * nl) / determinant, widening)
+        chip_length = np.where(is_valid, improved_length, chip_length)
+        previous, n = n, round_to_chips()
+        if np.array_equal(previous, n):
             break
 
     residual = (lengths - sign * widening[:, None]) / chip_length[:, None] - n

@@ -1,4 +1,4 @@
-"""Time and error of each way to simulate, and of each effect that is included or omitted."""
+"""Computing time and error of each simulation method, and of each effect."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,14 +17,11 @@ ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name
     "noise": "noise drawn, noise used again",
 }
 
-CHAINED_PARTS = (
-    "integration",
-    "effects",
-)  # points form curves, except the present one
+CHAINED_PARTS = ("integration", "effects")  # whose points form curves, except the present one
 CLOSED_FORM = "closed form"  # name of the point whose exposure is integrated exactly
 
 LEAST_ERROR = 1e-3
-"""Smallest error in a plot, in levels of the stretched profile; smaller ones are drawn at it."""
+"""Smallest error in a plot, in levels of the stretched profile; smaller errors are drawn here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,13 +39,13 @@ class AccuracyPoint:
 class TimeFractions:
     """Computing time of one picture, divided among effects and other stages."""
 
-    effects: Mapping[str, float]  # Seconds of each effect that is computed by itself
+    effects: Mapping[str, float]  # Seconds of each effect that is computed in a step of its own
     stages: Mapping[str, float]  # Seconds of each other stage of the simulation
-    # The effect whose time includes that of another, computed in the same step
-    together: Mapping[str, str]
-    # Whether rows differ; with column effects only they do not
+    # By effect without a time of its own: the effect whose time includes it
+    shared_steps: Mapping[str, str]
+    # Whether rows differ; with column effects only, they do not
     rows_differ: bool
-    # Seconds by which the median run of each effect was slower than its fastest
+    # Seconds by which the median run of each effect was slower than its fastest run
     scatter: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
@@ -56,11 +53,11 @@ class TimeFractions:
         """Return the times that were measured during a picture's simulation."""
         included = frame.plan.included
         noises = [d.effect for d in frame.plan.decisions if d.included and d.kind == "noise"]
-        timed = {name: frame.timings[name] for name in included if name in frame.timings}
+        effect_times = {name: frame.timings[name] for name in included if name in frame.timings}
         return cls(
-            effects=timed,
-            stages={name: s for name, s in frame.timings.items() if name not in timed},
-            together={name: noises[-1] for name in noises if name not in timed},
+            effects=effect_times,
+            stages={name: s for name, s in frame.timings.items() if name not in effect_times},
+            shared_steps={name: noises[-1] for name in noises if name not in effect_times},
             rows_differ=not frame.plan.kinds <= {"column"},
         )
 
@@ -72,7 +69,7 @@ class TimeFractions:
         return cls(
             effects={name: times[0] for name, times in effects.items()},
             stages={name: min(run.stages[name] for run in runs) for name in first.stages},
-            together=first.together,
+            shared_steps=first.shared_steps,
             rows_differ=first.rows_differ,
             # By the median, a single slow run has no influence.
             scatter={name: times[len(times) // 2] - times[0] for name, times in effects.items()},
@@ -80,10 +77,10 @@ class TimeFractions:
 
     @property
     def included(self) -> frozenset[str]:
-        return frozenset((*self.effects, *self.together))
+        return frozenset((*self.effects, *self.shared_steps))
 
     @property
-    def everything_else(self) -> float:
+    def other_seconds(self) -> float:
         return fsum(self.stages.values())
 
     @property
@@ -93,11 +90,11 @@ class TimeFractions:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectCrop:
-    """The part of the panel that shows an effect best, by the paper's model with and without it."""
+    """The part of the panel that shows an effect best, simulated with and without the effect."""
 
     # Shape (rows, columns): the camera's pixels, with the same contrast stretch in both
     with_effect: ByteArray
-    without: ByteArray
+    without_effect: ByteArray
     # Shape (rows, columns): the difference in grey levels times ``amplification``, plus 128
     difference: ByteArray
     amplification: int
@@ -112,7 +109,7 @@ class EffectDifference:
     effect: str
     # Root mean square change of the observable, in levels of the stretched profile
     error: float
-    # Shape (samples,): the change at some places, which are the same for all effects of a scene
+    # Shape (samples,): the change at sample points, which are the same for all effects of a scene
     change: FloatArray
     # The effect alone, for display and at the size of a line of text
     crop: EffectCrop
@@ -122,8 +119,8 @@ class EffectDifference:
 @dataclass(frozen=True, slots=True)
 class MeasuredCosts:
     picture: TimeFractions
-    # Of pictures simulated in turn. One has all effects, which gives times for the omitted ones;
-    # one has none, which gives the time of everything else if all rows are equal
+    # Of pictures simulated in alternation: one with all effects, which times the omitted ones, and
+    # one without effects, which times the other stages if all rows are equal
     others: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     # Measured total error, by set of included effects
@@ -131,14 +128,14 @@ class MeasuredCosts:
 
     @property
     def is_comparable(self) -> bool:
-        """Whether the picture was timed in turn with the others; a first picture takes longer."""
+        """Whether the picture was timed in alternation with the others: a first one is slower."""
         return any(fractions is self.picture for fractions in self.others)
 
     def seconds_of(self, effect: str) -> float | None:
         """Return an effect's time in the last picture, or else in another one."""
         for fractions in (self.picture, *self.others):
-            if effect in fractions.effects or effect in fractions.together:
-                return fractions.effects[fractions.together.get(effect, effect)]
+            if effect in fractions.effects or effect in fractions.shared_steps:
+                return fractions.effects[fractions.shared_steps.get(effect, effect)]
         return None
 
     def scatter_of(self, effect: str) -> float:
@@ -149,9 +146,9 @@ class MeasuredCosts:
         return 0.0
 
     def shares_step_with(self, effect: str) -> str | None:
-        """Return the effect of the last picture whose step includes, or would include, this one."""
+        """Return the effect of the last picture whose step computes, or would compute, this one."""
         for fractions in (self.picture, *self.others):
-            other = fractions.together.get(effect)
+            other = fractions.shared_steps.get(effect)
             if other in self.picture.effects:
                 return other
         return None
@@ -163,10 +160,10 @@ class Forecast:
 
     plan: Plan
     seconds: float | None  # None if a time is not yet known
-    # RMS in levels of the stretched profile of all omitted changes, as if these were independent;
+    # RMS of all omitted changes together, taken as independent, in levels of the stretched profile;
     # None if one is not yet known
     error: float | None
     is_measured: bool
     effect_sets: tuple[EffectSet, ...] = ()  # Alternatives of the plan, fastest first
-    # Expected time of each, None if not yet known
+    # Expected seconds of each, None if not yet known
     effect_set_seconds: tuple[float | None, ...] = ()

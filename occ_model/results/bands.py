@@ -1,4 +1,4 @@
-"""Results on the depth of a picture's bars, and on settings without bars."""
+"""Results on the depth of a picture's bars, and on settings that avoid bars."""
 
 from dataclasses import dataclass
 
@@ -11,8 +11,8 @@ NO_BARS_DEPTH = 0.01  # peak-to-peak depth relative to the mean below which ther
 ROUNDING_DEPTH = 1e-9  # depth up to which bars are rounding errors
 
 
-def percent(fraction: float) -> str:
-    """Write a depth in percent, rounding errors as 0."""
+def format_depth(fraction: float) -> str:
+    """Format a depth in percent; rounding errors become 0."""
     return PERCENT.format(fraction, 3) if fraction > ROUNDING_DEPTH else "0 %"
 
 
@@ -26,7 +26,7 @@ class Depth:
 
 @dataclass(frozen=True, slots=True)
 class BandDepth:
-    """Depth of the bars of a scene's light, and in its picture.
+    """Depth of the bars in a scene's light and in its picture.
 
     Parameters
     ----------
@@ -35,18 +35,18 @@ class BandDepth:
     columns
         Depth of the light of the picture's columns, before the tone curve.
     pixel
-        Depth of their pixel values, after the tone curve, saturation and the full well.
+        Depth of the columns' pixel values, after the tone curve, saturation and the full well.
     frequency
-        Of the strongest part of the light that the columns show, in Hz; 0 for none.
+        Frequency in Hz of the strongest component of the light that the columns show; 0 for none.
     period
-        Columns from one bar of that part to the next, as the columns sample it; infinite where
-        there are no bars or all columns see the same.
+        Columns from one bar of that component to the next, as the columns sample it; infinite if
+        there are no bars or all columns receive the same light.
     contrast
-        Depth, peak to peak, of the picture on a display of exponent 2.2.
+        Peak-to-peak depth of the picture on a display of exponent 2.2.
     threshold
         Contrast from which bars of this period are visible.
     hidden
-        What keeps the picture from showing the light's bars, as a clause; empty where nothing does.
+        What hides the light's bars in the picture, as a clause; empty if nothing does.
     """
 
     light: Depth
@@ -79,9 +79,9 @@ class BandDepth:
         if self.hidden:
             return f"Not visible, since {self.hidden}."
         return (
-            f"{'Visible' if self.is_visible else 'Not visible'} on a display: there "
-            f"{percent(self.contrast)} of the mean light peak to peak, visible from "
-            f"{percent(self.threshold)}."
+            f"{'Visible' if self.is_visible else 'Not visible'} on a display: "
+            f"{format_depth(self.contrast)} of the mean light there, peak to peak, and visible "
+            f"from {format_depth(self.threshold)}."
         )
 
 
@@ -93,7 +93,7 @@ class SpeedDepth:
     # The marked time and that of a camera whose speeds are powers of two, in seconds
     nominal: float
     real: float
-    # Peak to peak depth of the light at each
+    # Peak-to-peak depth of the light at each
     at_nominal: float
     at_real: float
 
@@ -109,21 +109,21 @@ class SpeedDepth:
 
     @property
     def doubt(self) -> str:
-        """A sentence where a camera that keeps the other time shows bars all the same."""
+        """A sentence if only a camera that uses the marked time shows no bars; else empty."""
         if not self.is_doubtful or self.at_nominal > self.at_real:
             return ""
         return (
             f"Many cameras keep {SECOND.format(self.real, 4)} for {self.name}, which shows bars of "
-            f"{percent(self.at_real)}."
+            f"{format_depth(self.at_real)}."
         )
 
 
 @dataclass(frozen=True, slots=True)
 class FrequencyAxis:
-    """The frequency of a light that its owner can vary."""
+    """The frequency of a light that the user can vary."""
 
-    parameter: str  # Whose range it has
-    frequency: float  # The scene's, in Hz
+    parameter: str  # The parameter that sets it
+    frequency: float  # Its value in the scene, in Hz
     label: str
 
 
@@ -136,15 +136,15 @@ class BandAdvice:
     axis
         The frequency to which ``frequencies`` belong.
     limit
-        Depth, peak to peak, below which there are no bars.
+        Peak-to-peak depth below which there are no bars.
     valley, flicker_valley
-        Exposures in seconds whose integer multiples show no bars of the lamp, and none of the
-        surroundings' flicker; 0 where it makes none at any exposure.
+        Exposures in seconds whose integer multiples show no bars of the lamp and of the
+        surroundings' flicker; 0 if there are none at any exposure.
     exposures, frequencies
-        Ranges in s and Hz with a depth below the limit, rising: those below ``all_exposures`` and
-        ``all_frequencies``.
+        Ranges in s and Hz with a depth below the limit, in increasing order, up to
+        ``all_exposures`` and ``all_frequencies``.
     all_exposures, all_frequencies
-        Values from which on every depth is below the limit; None for none.
+        Values above which every depth is below the limit; None if there are none.
     speeds
         Usual shutter speeds, longest first.
     """
@@ -161,8 +161,8 @@ class BandAdvice:
 
     @property
     def sentence(self) -> str:
-        """At which exposures the lamp and the surroundings leave no bars."""
-        places = [
+        """The exposures at which the bars of the lamp and of the surroundings vanish."""
+        vanishing_bars = [
             f"{bars} vanish at whole multiples of {SECOND.format(valley, 4)}"
             for bars, valley in (
                 ("the lamp's bars", self.valley),
@@ -170,7 +170,7 @@ class BandAdvice:
             )
             if valley
         ]
-        text = "; ".join(places) or "nothing blinks: no exposure shows bars"
+        text = "; ".join(vanishing_bars) or "nothing blinks: no exposure shows bars"
         return f"{text[:1].upper()}{text[1:]}."
 
 
@@ -178,7 +178,7 @@ class BandAdvice:
 class DepthMap:
     """Least depth of the bars over frequency and exposure, both in even steps of logarithms.
 
-    Where the light has levels between dark and lit, or many pieces, it is an upper bound.
+    If the light has levels between dark and lit, or many pieces, the depth is an upper bound.
     """
 
     axis: FrequencyAxis
@@ -187,8 +187,8 @@ class DepthMap:
     exposures: FloatArray
     # Shape (n, m): least depth within the exposures of each cell, at its middle frequency
     least: FloatArray
-    # Cycles of the frequency after which the lamp's light repeats: bars vanish at its integer
-    # multiples; 0 for a steady one
+    # Cycles of the frequency after which the lamp's light repeats: bars vanish at integer multiples
+    # of this time; 0 for steady light
     period: float
 
 
@@ -217,8 +217,8 @@ class EyeFlicker:
     frequency
         Repetition frequency of the light, in Hz.
     frequencies, modulations : ndarray of float64, shape (n,)
-        Its Fourier components as far as IEEE 1789-2015 has limits, of very many the strongest: Hz,
-        and amplitude over mean in percent.
+        The light's Fourier components up to the last limit of IEEE 1789-2015, only the strongest if
+        there are very many: frequency in Hz, and amplitude over mean in percent.
     risk, parts_risk
         "no effect", "low risk" or "above low risk" by IEEE 1789-2015: of the percent flicker at the
         repetition frequency, and of the Fourier components.
@@ -236,7 +236,7 @@ class EyeFlicker:
 
     @property
     def _visibilities(self) -> str:
-        """SVM by the one threshold, and by the other where only one of them exceeds 1."""
+        """SVM by Perz (2018), and also by CIE TN 006 if only one of them exceeds 1."""
         text = f"{self.visibility:.3g} by Perz (2018)"
         if (self.visibility > 1.0) != (self.visibility_2016 > 1.0):
             text += f" and {self.visibility_2016:.3g} by CIE TN 006:2016"
@@ -259,7 +259,7 @@ class EyeFlicker:
 @dataclass(frozen=True, slots=True)
 class ShutterSpeed:
     name: str  # As marked on the camera
-    # The marked time and the one kept where speeds are powers of two, in seconds
+    # The marked time and that of a camera whose speeds are powers of two, in seconds
     nominal: float
     real: float
 
@@ -270,13 +270,13 @@ class Cure:
 
     # Repetition frequency of the lamp's light in Hz, 0 if it is steady: bars vanish at integer
     # multiples of its inverse
-    repeats: float
+    repetition_rate: float
     duty: float  # Fraction of the time in which the lamp is lit
-    # Smallest and largest present depth of the bars of the lamp's own light, within two standard
+    # Smallest and largest depth of the bars of the lamp's own light at present, within two standard
     # deviations of the exposure
     depth: tuple[float, float]
-    # The shortest usual shutter speeds without bars, at most two: as marked, and also at the power
-    # of two that many cameras keep. Computed for sharp edges, the worst case.
+    # The shortest usual shutter speeds without bars, at most two: at the marked time, and also at
+    # the power of two that many cameras use. Computed for sharp edges, the worst case.
     speeds: tuple[ShutterSpeed, ...]
-    kept: tuple[ShutterSpeed, ...]
+    safe_speeds: tuple[ShutterSpeed, ...]
     scene: Scene  # With the shortest of them, or the lamp's shortest exposure without bars

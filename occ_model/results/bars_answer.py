@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, SpeedDepth, percent
+from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, SpeedDepth, format_depth
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.units import SECOND
 
@@ -17,8 +17,8 @@ _DIGITS = 4
 _FRACTIONS = (1 / 20_000, 0.3)  # seconds between which shutter times are written as 1/n s
 
 
-def shutter_words(seconds: float) -> str:
-    """Write a shutter time as on a camera where it is one over a whole number: 1/100 s."""
+def format_shutter_time(seconds: float) -> str:
+    """Format a shutter time, as on a camera if it is one over a whole number: 1/100 s."""
     inverse = round(1.0 / seconds)
     if _FRACTIONS[0] <= seconds < _FRACTIONS[1] and abs(inverse * seconds - 1.0) < 1e-9:
         return f"1/{inverse} s"
@@ -35,13 +35,13 @@ class Beat:
     """How the bars of one sine of a light move in a film."""
 
     depth: float  # Peak to peak, over the mean
-    # How often in a second the bars come back to their place; 0: they stand still
+    # How many times a second the bars return to their place; 0 if they stand still
     frequency: float
 
 
 @dataclass(frozen=True, slots=True)
 class FrameRateBeats:
-    """What becomes of a lamp's bars in a film of a usual frame rate."""
+    """The motion of a lamp's bars in a film of a usual frame rate."""
 
     name: str  # As written on cameras: 29.97
     rate: float  # Frames a second
@@ -49,7 +49,7 @@ class FrameRateBeats:
 
     @property
     def frequency(self) -> float:
-        """How often in a second the deepest of the moving bars come back; 0 for none."""
+        """How many times a second the deepest moving bars return to their place; 0 for none."""
         return next((beat.frequency for beat in self.beats if beat.frequency), 0.0)
 
     @property
@@ -60,15 +60,15 @@ class FrameRateBeats:
 
 @dataclass(frozen=True, slots=True)
 class UnlitRows:
-    """Rows of a panel lit row by row, in one exposure, on average over its starts."""
+    """Rows of a panel lit row by row in one exposure, averaged over its starts."""
 
-    dark: float  # Fraction of the rows of which no light falls into the exposure
-    cut: float  # Fraction that the exposure's start or end cuts short
+    dark: float  # Fraction of the rows that are not lit during the exposure
+    cut: float  # Fraction of the rows that are lit when the exposure starts or ends
 
 
 @dataclass(frozen=True, slots=True)
 class BarsAnswer:
-    """Shutter speeds without bars, and the depth at the one asked about.
+    """Shutter speeds without bars, and the depth of the bars at a given shutter time.
 
     Parameters
     ----------
@@ -77,19 +77,19 @@ class BarsAnswer:
     exposure, depth
         The shutter time in s, and the depth of the bars, peak to peak over the mean.
     speeds
-        Usual shutter speeds near it without bars, longest first; those that hold on every camera,
-        if there are any.
+        Usual shutter speeds near it without bars, longest first; only those without bars on every
+        camera, if there are any.
     best
         The usual shutter speed near it with the weakest bars; None if none is near.
     valley
-        Exposure in seconds whose whole multiples show no bars; 0 for steady light.
+        Exposure in seconds whose integer multiples show no bars; 0 for steady light.
     columns
-        Lines of the picture from bar to bar; infinite where there are no bars, None if the readout
-        time is not known.
+        Lines of the picture from bar to bar; infinite if there are no bars, None if the readout
+        time is unknown.
     rates
         Usual frame rates at which the shutter time is possible.
     rows
-        Of a panel lit row by row.
+        Those of a panel lit row by row; None for another lamp.
     """
 
     lamp: str
@@ -104,34 +104,36 @@ class BarsAnswer:
 
     @property
     def shows_bars(self) -> bool:
-        """Whether bars are left at the shutter time asked about."""
+        """Whether there are bars at the given shutter time."""
         return self.depth >= NO_BARS_DEPTH
 
     @property
     def sentence(self) -> str:
         """The answer in one line."""
-        time = shutter_words(self.exposure)
+        time = format_shutter_time(self.exposure)
         if not self.valley:
             return "This light is steady: no shutter time shows bars."
         if not self.shows_bars:
-            left = f": {percent(self.depth)} of the light" if self.depth > ROUNDING_DEPTH else ""
-            return f"No bars at {time}{left}."
-        apart = ""
+            remainder = (
+                f": {format_depth(self.depth)} of the light" if self.depth > ROUNDING_DEPTH else ""
+            )
+            return f"No bars at {time}{remainder}."
+        distance = ""
         if self.columns is not None and self.columns < math.inf:
-            apart = f", {self.columns:.3g} lines from bar to bar"
-        return f"{self._advice} At {time} they are {percent(self.depth)} deep{apart}."
+            distance = f", {self.columns:.3g} lines from bar to bar"
+        return f"{self._advice} At {time} they are {format_depth(self.depth)} deep{distance}."
 
     @property
     def _advice(self) -> str:
         if self.speeds:
-            speeds = _join((each.name.removesuffix(" s") for each in self.speeds), "or")
-            exactly = "" if any(each.is_free for each in self.speeds) else ", if kept exactly"
-            return f"Use {speeds} s{exactly}: no bars."
-        return f"Use {shutter_words(self.valley)}, or a whole multiple of it: no bars."
+            speeds = _join((speed.name.removesuffix(" s") for speed in self.speeds), "or")
+            condition = "" if any(speed.is_free for speed in self.speeds) else ", if kept exactly"
+            return f"Use {speeds} s{condition}: no bars."
+        return f"Use {format_shutter_time(self.valley)}, or a whole multiple of it: no bars."
 
     @property
     def details(self) -> tuple[str, ...]:
-        """Why, what films show, and which rows of a panel are dark: a sentence each."""
+        """Sentences on the reason, on bars in films, and on the dark rows of a panel."""
         if not self.valley:
             return ()
         lines = [
@@ -141,30 +143,30 @@ class BarsAnswer:
         if not self.speeds and self.best and self.shows_bars:
             lines.append(
                 f"Of the usual shutter speeds near it, {self.best.name} leaves the weakest bars: "
-                f"{percent(self.best.at_nominal)}."
+                f"{format_depth(self.best.at_nominal)}."
             )
-        lines += [each.doubt for each in self.speeds if each.doubt][:1]
+        lines += [speed.doubt for speed in self.speeds if speed.doubt][:1]
         if self.rates and self.shows_bars:
             lines += list(self._film_lines())
         if self.rows is not None:
             lines.append(
-                f"The rows of this panel are lit in turn: at {shutter_words(self.exposure)}, "
-                f"{percent(self.rows.dark)} of them are dark in one picture, and "
-                f"{percent(self.rows.cut)} are cut short."
+                f"The rows of this panel are lit in turn: at {format_shutter_time(self.exposure)}, "
+                f"{format_depth(self.rows.dark)} of them are dark in one picture, and "
+                f"{format_depth(self.rows.cut)} are cut short."
             )
         return tuple(lines)
 
     def _film_lines(self) -> Iterable[str]:
-        still = [each for each in self.rates if each.stands_still]
+        still = [rate for rate in self.rates if rate.stands_still]
         if still:
-            names = _join((each.name for each in still), "and")
+            names = _join((rate.name for rate in still), "and")
             yield f"In films of {names} frames a second the bars stand still."
         moving = sorted(
-            (each for each in self.rates if not each.stands_still), key=lambda each: each.frequency
+            (rate for rate in self.rates if not rate.stands_still), key=lambda rate: rate.frequency
         )
         times: dict[str, list[str]] = {}
-        for each in moving:
-            times.setdefault(SECOND.format(1.0 / each.frequency, 3), []).append(each.name)
+        for rate in moving:
+            times.setdefault(SECOND.format(1.0 / rate.frequency, 3), []).append(rate.name)
         if times:
             moves = "; ".join(f"{time} at {_join(names, 'and')}" for time, names in times.items())
-            yield f"At other rates they move, and are back after {moves}."
+            yield f"At other rates they move, and return after {moves}."

@@ -1,4 +1,4 @@
-"""Bit errors of a decoder and the net bits a second; the request and results of the bench."""
+"""Bit errors and net bits a second of a decoder; the request and the results of the bench."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,12 +10,12 @@ from occ_model.scene.scene import Scene
 FRAMES_A_SECOND = FRAME_RATE.default  # default frame rate of a camera, in frames a second
 
 
-_WHY_ABOVE_HALF = "Above 0.5: a payload that is not read counts with all its bits wrong."
+_WHY_ABOVE_HALF = "Above 0.5, because all bits of an unread payload count as wrong."
 
 
 @dataclass(frozen=True, slots=True)
 class BitErrors:
-    """Bit errors of a decoder over pictures with a random payload each.
+    """Bit errors of a decoder over pictures, each with a random payload.
 
     Parameters
     ----------
@@ -29,11 +29,11 @@ class BitErrors:
     pictures
         Number of pictures, with one payload each.
     pictures_right
-        Number of pictures whose bits were all right, and accepted by the decoder.
+        Number of pictures whose bits were all right and accepted by the decoder.
     right_low, right_high
         The 95 % interval of the fraction of such pictures.
     picture_time, readout_time
-        Seconds in which the panel's columns, and all columns, are read out.
+        Seconds to read out the panel's columns, and all columns.
     faults
         A sentence on how often a plug-in has failed, whose bits count as wrong; empty if none has.
     """
@@ -82,8 +82,8 @@ class BitErrors:
         self, frames_a_second: float = FRAMES_A_SECOND
     ) -> tuple[float, float]:
         """Return the 95 % interval of :meth:`bits_a_second`."""
-        most = self.bits / self.pictures * frames_a_second
-        return most * self.right_low, most * self.right_high
+        sent_bits = self.bits / self.pictures * frames_a_second
+        return sent_bits * self.right_low, sent_bits * self.right_high
 
     def gap(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the seconds between the last column of a picture and the first of the next.
@@ -112,16 +112,16 @@ class MostBits:
     scene
         The best scene, None if every trial failed.
     pictures
-        Number of pictures tried, each with its own payload and start; all bits were right.
+        Number of pictures tried, each with its own payload and start; all their bits were right.
     bits_a_second
         Net bits a second of a video with one payload a picture.
     tried
-        Number of faster combinations that were tried but not read.
+        Number of faster combinations that were tried but could not be read.
     failure
         None, or a sentence on why there is no scene.
     faults
-        A sentence on how often a plug-in has failed, whose pictures count as not read; empty if
-        none has.
+        A sentence on how often a plug-in has failed, whose pictures count as unread; empty if none
+        has.
     """
 
     decoder: str
@@ -138,13 +138,8 @@ _CAMERA = Scene().camera
 
 EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)  # default exposures, in symbols
 
-DECIBELS = (
-    10.0,
-    15.0,
-    20.0,
-    25.0,
-    30.0,
-)  # default ratios of the chips' variance to the noise's
+DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)  # default ratios of the chips' variance to the noise's
+
 BenchPlace: TypeAlias = tuple[str, str, float, float]  # scheme, varied axis, exposure, ratio in dB
 
 

@@ -1,4 +1,4 @@
-"""Results of decoding, step by step, and why a picture is not read, in words."""
+"""Results of decoding, step by step, and reasons why a picture is not read."""
 
 import re
 from collections.abc import Mapping
@@ -21,7 +21,7 @@ def _no_bits() -> ByteArray:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A rectangle of an image, from the first rows and columns to before the last."""
+    """A rectangle of an image; ``last_row`` and ``last_column`` are the first beyond it."""
 
     first_row: int
     last_row: int
@@ -54,7 +54,7 @@ class Location:
     region: Region
     bright_level: int  # Lowest grey level of a pixel that counts as bright
     contours: int
-    growth: int  # Pixels by which the contours were grown until only one was left
+    growth: int  # Pixels by which the contours were grown until they merged into one
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -85,8 +85,7 @@ class DecodeResult:
     code
         The code, None if there is a failure.
     bits : ndarray of uint8
-        The bits read, in the order sent; with a failure there are bits if the chips violate the
-        line code.
+        The bits read, in the order sent; after a failure only if the chips violate the line code.
     payload
         The bits in the notation of the scene's payload: text, hex digits or bits; empty for a code.
     region
@@ -112,8 +111,8 @@ class DecodeResult:
     correlation
         Correlation of the best code's forward model with the signal.
     confidence
-        From 0 to 1: the lead of the best code over the second best, or the probability that all
-        bits are right.
+        From 0 to 1: how much better the best code fits than the second best, or the probability
+        that all bits are right.
     folded : ndarray of float64, shape (bins,)
         The signal folded over one packet.
     model : ndarray of float64, shape (bins,)
@@ -182,9 +181,9 @@ _SYMPTOM_END = re.compile(r"[:;.](?= |$)")
 
 
 def symptom(failure: str) -> str:
-    """Return the start of a failure, without what it might come from and what might help."""
-    first = _SYMPTOM_END.split(failure, maxsplit=1)[0]
-    return f"{first}." if first else ""
+    """Return the start of a failure, without its possible cause and remedy."""
+    start = _SYMPTOM_END.split(failure, maxsplit=1)[0]
+    return f"{start}." if start else ""
 
 
 def overexposed_text(fraction: float) -> str:

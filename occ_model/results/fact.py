@@ -1,4 +1,4 @@
-"""Facts: results as rows with the same words in the window, on the command line and in files."""
+"""Facts: rows of results with the same words in the window, on the command line and in files."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 class Fact:
     """One row of a result."""
 
-    key: str  # Identifier, for a parameter of a scene its name
+    key: str  # Identifier; the name of a scene's parameter
     label: str  # Its name in words
-    text: str  # Value with unit and error, preceded by its condition
+    text: str  # Value with unit and error, after its condition
     note: str = ""  # Qualification such as "assumed" or "doubtful"
     meaning: str = ""  # An explanation, if the label is not enough
 

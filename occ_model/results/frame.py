@@ -23,17 +23,17 @@ class Decision:
     label
         The effect's usual name in the field.
     kind
-        ``"column"``: all rows of the panel stay alike; ``"noise"``: alike except for independent
-        noise; ``"image"``: they differ.
+        ``"column"``: all rows of the panel stay equal; ``"noise"``: equal except for independent
+        noise; ``"image"``: rows differ.
     estimate
         Estimated change of the observable without the effect, RMS in levels of the stretched
-        profile, with an allowance; 0 if the scene does not have it. For the observable
+        profile, with a safety margin; 0 if the scene does not have the effect. For the observable
         ``"decision"`` it is in decision margins: at 1 a chip could be misread.
     limit
-        Upper bound of the change, as far as a sample shows it, which is compared with the
-        tolerance. Infinite if no bound is known.
+        Upper bound of the change, estimated from a sample, which is compared with the tolerance;
+        infinite if no bound is known.
     forced
-        Whether the user has decided.
+        Whether the user has decided on the effect.
     why
         The reason in a few words.
     reason
@@ -57,8 +57,8 @@ class EffectSet:
     """A set of simulated effects, with its time and error."""
 
     effects: frozenset[str]  # The simulated ones among the scene's effects
-    seconds: float  # Of a picture, as measured on one computer
-    error: float  # Combined change by the others, as in Plan
+    seconds: float  # Time of a picture, as measured on one computer
+    error: float  # Combined change by the omitted effects, as in Plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +74,8 @@ class Plan:
     left_out
         Combined change of the effects that the plan (not the user) omits, at most the tolerance.
     error
-        Combined change of all omitted effects, by the plan or by the user; infinite where it is not
-        known, NaN of a plan without estimates.
+        Combined change of all effects omitted by the plan or the user; infinite if unknown, NaN for
+        a plan without estimates.
     stretch
         Levels of the stretched profile per grey level.
     saved
@@ -115,10 +115,10 @@ class Plan:
         return "\n".join(f"{d.label}: {d.reason}" for d in self.decisions)
 
 
-PICTURES = ("camera", "receiver")  # as taken by the camera, and as enhanced by the receiver
+PICTURES = ("camera", "receiver")  # as the camera takes it, and as the receiver enhances it
 
 ENHANCED = "Receiver's picture, enhanced by "
-"""The title of an enhanced picture, which is also in its file, before the enhancement's name."""
+"""Start of an enhanced picture's title, also in its file; the enhancement's name follows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,12 +135,12 @@ class Frame:
     image : ndarray of uint8, shape (number of ``rows``, columns)
         The receiver's picture with the scene's enhancement, which is decoded.
     rows
-        The rows of the picture that are in ``image``: all, or in a draft every k-th. A view draws
-        each row of a draft k rows high.
+        The rows of the picture that are in ``image``: all, or every k-th in a draft, which a view
+        draws k rows high.
     profile : ndarray of float64, shape (columns,)
         Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding,
-        but after the file if one is simulated. With column effects only, it is the column's value
-        PV_sim, also outside the panel.
+        but after compression if a file is simulated. With column effects only, it is the column's
+        value PV_sim, also outside the panel.
     signal : ndarray of float64, shape (columns,)
         Mean of the panel's pixels in each column of the receiver's picture, in grey levels; this is
         the decoder's input. With column effects only, it is the enhanced value, also outside the
@@ -181,7 +181,7 @@ class Frame:
         """Error of a draft's ``profile`` and ``signal`` against the whole picture's, by name.
 
         RMS over the columns of the panel's bounding rectangle, in grey levels, from the sampling
-        errors of both pictures. 0 if the picture is not a draft, or all its rows are alike.
+        errors of both pictures. 0 if the picture is not a draft or all its rows are equal.
         """
         return self.estimate_errors() if self.estimate_errors else {"profile": 0.0, "signal": 0.0}
 

@@ -8,8 +8,8 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.decoding import Region
 from occ_model.scene.units import PERCENT
 
-_LEAST_PERIODS = 2.5  # fewest periods in view; two bright objects can look like fewer
-_MOST_UNSURE = 0.01 / 3.0  # relative standard deviation of a frequency; three are a percent
+_MIN_PERIODS = 2.5  # periods in view; two bright objects can look like two periods
+_MAX_RELATIVE_ERROR = 0.01 / 3.0  # of a frequency: three standard deviations are 1 %
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -21,8 +21,7 @@ class Lamp:
     region
         The smallest rectangle around it.
     spans : ndarray of int64, shape (strips, 4)
-        Its shape as rectangles one below the other: first row, end row, first column and end column
-        of each.
+        Its shape as a stack of rectangles: first row, end row, first column and end column of each.
     level
         Its grey level when lit.
     modulated
@@ -39,11 +38,11 @@ class Lamp:
     periods
         Number of periods in view; None without a period.
     is_faint
-        Whether it may be a reflection, as it is faint compared with the brightest lamp with
+        Whether it may be a reflection, as it is faint compared with the brightest lamp that has
         stripes.
     is_blurred
-        Whether its stripes have little contrast, as with an exposure longer than a chip; edges may
-        be missing and the frequency wrong.
+        Whether its stripes have little contrast, for example because the exposure is longer than a
+        chip; edges may be missing and the frequency wrong.
     reflections
         Fainter regions that blink in phase with the lamp.
     """
@@ -64,17 +63,19 @@ class Lamp:
     @property
     def doubts(self) -> tuple[str, ...]:
         """Reasons why it may not be a lamp, or may blink differently, each without a full stop."""
-        found = []
-        if self.modulated and self.periods is not None and self.periods < _LEAST_PERIODS:
-            found.append(f"only {self.periods:.1f} periods are in view, which can be a coincidence")
+        doubts = []
+        if self.modulated and self.periods is not None and self.periods < _MIN_PERIODS:
+            doubts.append(
+                f"only {self.periods:.1f} periods are visible, which may be a coincidence"
+            )
         if self.is_faint:
-            found.append("it is so faint beside the brightest lamp that it may be a reflection")
+            doubts.append("it is much fainter than the brightest lamp and may be a reflection")
         if self.is_blurred:
-            found.append("its stripes are so faint in its light that some may be missing")
+            doubts.append("its stripes have so little contrast that some may be missing")
         product, error = self.switching_frequency_times_readout, self.product_uncertainty
-        if product is not None and error is not None and error > _MOST_UNSURE * product:
-            found.append(f"its frequency is known only to {PERCENT.format(error / product, 2)}")
-        return tuple(found)
+        if product is not None and error is not None and error > _MAX_RELATIVE_ERROR * product:
+            doubts.append(f"its frequency is known only to {PERCENT.format(error / product, 2)}")
+        return tuple(doubts)
 
     @property
     def is_doubtful(self) -> bool:

@@ -1,4 +1,4 @@
-"""The working range of a decoder, the limits by theory, and both in sentences."""
+"""The working range of a decoder and the theoretical limits, as values and in sentences."""
 
 import math
 from dataclasses import dataclass
@@ -38,17 +38,17 @@ class RangeEnd:
     works: Trial
     # A value beyond, whose 95 % interval is below the required rate; None at the end of the search
     fails: Trial | None
-    # A value inside without a wrong bit, whose 95 % interval is above the required rate; at the end
-    # of the search it is ``works``, if no bit was wrong. None if not found, or not searched for
+    # A value inside without a wrong bit, whose 95 % interval is above the required rate. At the end
+    # of the search it is ``works`` if no bit was wrong there; None if not found or not searched
     inside: Trial | None = None
-    # Whether the end was bisected; otherwise it is known only to a step of the search
+    # Whether the end was found by bisection; otherwise it is known only to a step of the search
     is_bisected: bool = False
     # The 95 % interval of the true end; None if unknown
     interval: tuple[float, float] | None = None
 
     @property
     def value(self) -> float:
-        """The last value at which the decoder reads, confirmed and within the interval."""
+        """The confirmed last value at which the decoder reads, limited to the interval."""
         low, high = self.interval or (self.works.value, self.works.value)
         return min(max(self.works.value, low), high)
 
@@ -63,19 +63,19 @@ class ReadInterval:
 
 @dataclass(frozen=True, slots=True)
 class WorkingRange:
-    """Values of a parameter at which a decoder reads a scene, the others unchanged."""
+    """Values of a parameter at which a decoder reads a scene, with the others unchanged."""
 
     parameter: str
-    searched: tuple[float, float]
+    searched: tuple[float, float]  # Lowest and highest value of the search
     # Ratio of neighbouring values of the search: narrower gaps and intervals can be missed
     step: float
-    own: Trial
+    own: Trial  # At the scene's own value
     # The intervals in which the decoder reads, in increasing order, with gaps between them
     intervals: tuple[ReadInterval, ...]
     failure: str | None = None  # A sentence if it reads nowhere
     # The value with the most bits read, if it reads nowhere; otherwise None
     best: Trial | None = None
-    # Chips an exposure at which the search ended because the decoder would take too long
+    # Chips per exposure at which the search ended because the decoder would take too long
     most_chips: float | None = None
     # How often a plug-in has failed in the search, whose bits count as wrong; empty if none has
     faults: str = ""
@@ -93,7 +93,9 @@ class WorkingRange:
     @property
     def gaps(self) -> tuple[tuple[RangeEnd, RangeEnd], ...]:
         """For each gap, the end before it and the end after it."""
-        return tuple((one.highest, other.lowest) for one, other in pairwise(self.intervals))
+        return tuple(
+            (interval.highest, following.lowest) for interval, following in pairwise(self.intervals)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,12 +123,12 @@ class Limits:
     def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the net bits a second at the scene's own frequency and exposure.
 
-        It counts as if each picture had a new payload that is read as often as the scene's own; a
-        payload counts once, and only without a wrong bit.
+        It assumes that each picture has a new payload, which is read as often as the scene's own. A
+        payload counts only without a wrong bit.
         """
-        own, camera = self.frequency.own, self.scene.camera
-        bits, readout_time = own.sent // own.images, camera.columns * camera.readout_time
-        return bits_a_second(own.whole / own.images, bits, frames_a_second, readout_time)
+        trial, camera = self.frequency.own, self.scene.camera
+        bits, readout_time = trial.sent // trial.images, camera.columns * camera.readout_time
+        return bits_a_second(trial.whole / trial.images, bits, frames_a_second, readout_time)
 
     @property
     def highest_frequency(self) -> float | None:
@@ -162,10 +164,10 @@ class Advice:
     """How fast a scene can send to one decoder, and how long it can be exposed."""
 
     limits: Limits
-    # Theoretical limits of each
+    # Theoretical limits of the frequency and of the exposure time
     frequency: TheoryLimits
     exposure: TheoryLimits
-    cause: str = ""  # Why the scene itself is not read, in sentences; empty where it is, or unknown
+    cause: str = ""  # Sentences on why the scene itself is not read; empty if it is, or if unknown
 
 
 _DIGITS = 4  # significant digits, as the ends of a range are found to a few thousandths
@@ -175,20 +177,20 @@ _LONGEST_PAYLOAD = 24  # characters of a payload in a sentence
 
 
 def sent_text(scene: Scene) -> str:
-    """Describe what the pictures of a study show, the scene's own code or payload."""
-    sent = scene.transmitter
-    if sent.payload:
-        return f"“{one_line(typed_form(sent.payload), _LONGEST_PAYLOAD)}”"
-    return f"code {sent.code}"
+    """Describe what is sent in the pictures of a study: the scene's own code or payload."""
+    transmitter = scene.transmitter
+    if transmitter.payload:
+        return f"“{one_line(typed_form(transmitter.payload), _LONGEST_PAYLOAD)}”"
+    return f"code {transmitter.code}"
 
 
-def present_rate_text(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
+def present_rate_text(limits: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
     """State what was read at the scene's own values, and the bits a second."""
-    own, bits = found.frequency.own, found.bits_a_second(frames_a_second)
+    trial, bits = limits.frequency.own, limits.bits_a_second(frames_a_second)
     return (
-        f"At {format_value(found.frequency.parameter, own.value)} it read {own.whole} of "
-        f"{own.images} pictures of {sent_text(found.scene)}, {own.rate:.3g} % of the bits "
-        f"({own.low:.1f} to {own.high:.1f} %): {bits:.4g} bits a second, if others are read "
+        f"At {format_value(limits.frequency.parameter, trial.value)} it read {trial.whole} of "
+        f"{trial.images} pictures of {sent_text(limits.scene)}, {trial.rate:.3g} % of the bits "
+        f"({trial.low:.1f} to {trial.high:.1f} %): {bits:.4g} bits a second, if others are read "
         "as well."
     )
 
@@ -216,44 +218,46 @@ def end_text(parameter: str, end: RangeEnd) -> str:
     return text
 
 
-def format_gaps(found: WorkingRange) -> list[str]:
+def format_gaps(working_range: WorkingRange) -> list[str]:
     """Format the gaps in a range, in which a decoder does not read."""
-    name = found.parameter
+    name = working_range.parameter
     return [
-        f"{format_value(name, end.value)} to {format_value(name, after.value)}"
-        for end, after in found.gaps
+        f"{format_value(name, end.value)} to {format_value(name, following.value)}"
+        for end, following in working_range.gaps
     ]
 
 
-def gaps_text(found: WorkingRange) -> str:
+def gaps_text(working_range: WorkingRange) -> str:
     """State the gaps; empty without any."""
-    if not found.gaps:
+    if not working_range.gaps:
         return ""
     return (
-        f"It does not read everywhere between: there are gaps from {'; '.join(format_gaps(found))}."
+        "It does not read everywhere between them: there are gaps from "
+        f"{'; '.join(format_gaps(working_range))}."
     )
 
 
-def search_end_text(found: WorkingRange) -> str:
+def search_end_text(working_range: WorkingRange) -> str:
     """State where the search ended because the decoder would take too long."""
+    highest = format_value(working_range.parameter, working_range.searched[1])
     return (
-        f"Searched only up to {format_value(found.parameter, found.searched[1])}, where an "
-        f"exposure covers {found.most_chips:.3g} chips; beyond it this decoder takes much longer."
+        f"Searched only up to {highest}, where an exposure covers {working_range.most_chips:.3g} "
+        "chips; beyond it this decoder takes much longer."
     )
 
 
-def search_sentences(found: Limits) -> list[str]:
+def search_sentences(limits: Limits) -> list[str]:
     """State the confidence of the ends, and what the search can miss."""
-    step = 100.0 * (found.frequency.step - 1.0)
-    missed = (
+    step = 100.0 * (limits.frequency.step - 1.0)
+    step_sentence = (
         f"Values were tried in steps of {step:.0f} %: a narrower gap or interval can be missed."
     )
-    if not found.frequency.intervals and not found.exposure.intervals:
-        return [missed]
+    if not limits.frequency.intervals and not limits.exposure.intervals:
+        return [step_sentence]
     return [
-        "Each end was confirmed with images that were not used to find it, with at least "
-        f"{found.images}; the 95 % intervals count images.",
-        missed,
+        f"Each end was confirmed with at least {limits.images} images that were not used to find "
+        "it; the 95 % intervals are based on the number of images.",
+        step_sentence,
     ]
 
 
@@ -267,16 +271,16 @@ def theory_text(parameter: str, theory: TheoryLimits) -> str:
         return f"{text}."
     if math.isinf(theory.saturation):
         return f"{text}; without light nothing saturates."
-    white = SECOND.format(theory.saturation, _DIGITS)
-    return f"{text}; above {white}, columns that are lit throughout are white."
+    white_exposure = SECOND.format(theory.saturation, _DIGITS)
+    return f"{text}; above {white_exposure}, completely lit columns are white."
 
 
 def two_packets_text(frequency: float) -> str:
-    """State the frequency below which some pictures do not have the two headers of a decoder."""
+    """State the frequency below which some pictures lack the two headers that a decoder needs."""
     limit = HERTZ.format(frequency, _DIGITS)
     return (
-        f"Below {limit} a picture does not contain two packets, nor always the two headers that "
-        "this decoder needs."
+        f"Below {limit} a picture does not contain two packets, and not always the two headers "
+        "that this decoder needs."
     )
 
 

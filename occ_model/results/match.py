@@ -19,24 +19,24 @@ from occ_model.scene.scene import Scene, Transmitter
 ESTIMATES = ("readout_time", "switching_frequency")
 """Two parameters, one of which is estimated from the other, as stripes show only their product.
 
-The latter stands for the frequency of what is sent: of a lamp it is ``lamp_frequency``.
+The frequency of a lamp is ``lamp_frequency`` in place of ``switching_frequency``.
 """
 
 
 def known_parameter(estimate: str, transmitter: Transmitter) -> str:
-    """Return the parameter of a scene that has to be known to estimate one of the two."""
+    """Return the parameter of a scene that must be known to estimate one of :data:`ESTIMATES`."""
     return frequency_parameter(transmitter) if estimate == ESTIMATES[0] else ESTIMATES[0]
 
 
 def known_value(estimate: str, scene: Scene) -> tuple[str, float]:
-    """Return the name and value of what a scene states there, of what blinks as a lamp's."""
+    """Return the name and the scene's value of the known parameter; of a lamp, its frequency."""
     name, lamp = known_parameter(estimate, scene.transmitter), blinking_lamp(scene.transmitter)
     if lamp is not None and name != ESTIMATES[0]:
         return "lamp_frequency", lamp.frequency
     return name, float(scene.value(name))
 
 
-PLAIN_STRIPES = (  # advice for a repeating pulse that is refused
+PLAIN_STRIPES = (  # advice if a repeating pulse is refused as a code
     "These look like the plain stripes of a lamp; if so, state that a lamp is sent."
 )
 
@@ -48,7 +48,7 @@ class Stripes:
     Parameters
     ----------
     region
-        The rectangle of the photo that has them.
+        The rectangle of the photo that contains them.
     profile : ndarray of float64, shape (columns of the region,)
         Mean of each column of the region, in grey levels.
     low, high : ndarray of float64, shape as ``profile``
@@ -104,7 +104,7 @@ class Alternative:
 
     @property
     def lamp(self) -> BlinkingLamp | None:
-        """The lamp that its chips are; None if they are a code's."""
+        """The lamp that its chips describe; None if they are a code's."""
         frequency = self.switching_frequency
         return None if frequency is None else lamp_of_chips(self.pattern, frequency)
 
@@ -127,7 +127,7 @@ class ChipReading:
     confidence
         Probability, from 0 to 1, that all chips are right, calibrated on simulated messages.
     start
-        Column of the photo at which the first of them starts.
+        Column of the photo at which the first chip starts.
     region
         The rectangle of the photo that was read.
     """
@@ -145,7 +145,7 @@ class ChipReading:
 
 
 _EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")
-"""Estimates that depend on the exposure, as a column starts half an exposure before its middle."""
+"""Estimates that depend on the exposure, which starts half its length before its middle."""
 
 _DISPLAY_TOLERANCE = 5e-7  # relative difference of values that agree in the six displayed digits
 _ERROR_TOLERANCE = 1e-3  # difference of equal values, as a fraction of the standard deviation
@@ -160,9 +160,9 @@ class Match:
     Parameters
     ----------
     scene
-        The given scene with the parameters estimated from the photo. What blinks once in a period
-        is a lamp, whose depth is that of all its light: a photo does not tell the rest from other
-        steady light.
+        The given scene with the parameters estimated from the photo. Light with one pulse per
+        period is a lamp of full depth, because a photo does not distinguish the lamp's steady light
+        from that of others.
     stripes
         The matched stripes, with the fitted levels.
     readout_time, exposure_time, start_time, gamma
@@ -170,15 +170,15 @@ class Match:
     switching_frequency
         Chips of ``pattern`` a second; the scene's, if it sends a code.
     uncertainties
-        Standard deviations of the estimated ones, in SI units, by name; of a lamp
-        ``lamp_frequency`` and ``duty`` in place of ``switching_frequency``.
+        Standard deviations of the estimates, in SI units, by name; for a lamp ``lamp_frequency``
+        and ``duty`` in place of ``switching_frequency``.
     pattern
-        The chips sent, from the start of a period; of a lamp, those that stand for its light in the
-        fit.
+        The chips sent, from the start of a period; for a lamp, the chips that represent its light
+        in the fit.
     pattern_was_read
         Whether it was read from the photo.
     profile : ndarray of float64, shape (columns of the region,)
-        Profile of the fitted scene, aligned and under the photo's light, in grey levels.
+        Profile of the fitted scene, aligned with the photo and at its brightness, in grey levels.
     correlation
         Correlation of that profile with the photo's, both corrected for uneven light.
     other_exposures
@@ -211,9 +211,9 @@ class Match:
 
     @property
     def lamp(self) -> BlinkingLamp | None:
-        """The lamp that is sent; None if that is a code."""
-        sent = self.scene.transmitter
-        return blinking_lamp(sent) if sent.light == "lamp" else None
+        """The lamp in the photo; None if a code is sent."""
+        transmitter = self.scene.transmitter
+        return blinking_lamp(transmitter) if transmitter.light == "lamp" else None
 
     @property
     def lamp_frequency(self) -> float | None:
@@ -231,12 +231,12 @@ class Match:
 
     @property
     def known(self) -> str:
-        """The one of readout time and frequency that was given."""
+        """The parameter that was given: the readout time or the frequency."""
         return ESTIMATES[0] if self._frequency in self.uncertainties else self._frequency
 
     @property
     def estimate(self) -> str:
-        """The other one, which was estimated."""
+        """The parameter that was estimated: the other one of the two."""
         return self._frequency if self.known == ESTIMATES[0] else ESTIMATES[0]
 
     @property
@@ -264,13 +264,13 @@ class Match:
         """The reasons to doubt the match and its exposure time."""
         if not self.only_exposure_is_doubtful:
             return (*self.reasons, *self.exposure_reasons)
-        first, *more = self.exposure_reasons
-        return (f"{_ONLY_EXPOSURE} {first}", *more)
+        first, *others = self.exposure_reasons
+        return (f"{_ONLY_EXPOSURE} {first}", *others)
 
     def is_applied_to(self, scene: Scene) -> bool:
         """Return whether a scene has the estimates of the match.
 
-        Repeating a match from its own scene gives that scene again, up to rounding.
+        A match that starts from its own scene gives that scene again, up to rounding.
         """
         if scene == self.scene:
             return True
@@ -280,11 +280,11 @@ class Match:
             for name, value in table.items()
         )
 
-    def _is_same(self, name: str, there: object, here: object) -> bool:
-        if not isinstance(there, float) or not isinstance(here, float):
-            return there == here
-        step = _ERROR_TOLERANCE * self.uncertainties.get(name, 0.0)
-        return math.isclose(there, here, rel_tol=_DISPLAY_TOLERANCE, abs_tol=step)
+    def _is_same(self, name: str, scene_value: object, match_value: object) -> bool:
+        if not isinstance(scene_value, float) or not isinstance(match_value, float):
+            return scene_value == match_value
+        tolerance = _ERROR_TOLERANCE * self.uncertainties.get(name, 0.0)
+        return math.isclose(scene_value, match_value, rel_tol=_DISPLAY_TOLERANCE, abs_tol=tolerance)
 
     @property
     def columns_per_chip(self) -> float:

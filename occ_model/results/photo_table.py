@@ -25,7 +25,7 @@ class PhotoRow:
     # Sentences on why the match, or only its exposure time, is not sure
     note: str = ""
     match: Match | None = field(default=None, compare=False, repr=False)  # None without a match
-    # Exposure time in seconds in the file's metadata
+    # Exposure time in seconds, from the file's metadata
     noted_exposure: float | None = None
     # Lines read out for a picture, the photo's columns; 0 for an unreadable file
     lines: int = 0
@@ -43,7 +43,7 @@ class PhotoRow:
 
     @property
     def switching_frequency(self) -> float | None:
-        """That of a code; None of a lamp."""
+        """The frequency of a code; None for a lamp."""
         return None if self.match is None or self.match.lamp else self.match.switching_frequency
 
     @property
@@ -64,7 +64,7 @@ class PhotoRow:
 
     @property
     def pattern(self) -> str:
-        """The chips of a code; empty of a lamp."""
+        """The chips of a code; empty for a lamp."""
         return "" if self.match is None or self.match.lamp else self.match.pattern
 
     def uncertainty(self, name: str) -> float | None:
@@ -120,8 +120,8 @@ class PhotoTable:
     rows
         One for each photo, in the given order.
     estimated, exposure_time
-        Means over the sure photos, and over those with a sure exposure time; None without any, or
-        if the photos differ in exposure time. ``outliers`` are indices of ``rows``.
+        Means over the sure photos, and over those with a sure exposure time; None if there are
+        none, or if the photos differ in exposure time. ``outliers`` are indices of ``rows``.
     notes
         Sentences about all photos together.
     """
@@ -142,19 +142,19 @@ class PhotoTable:
         """Count the photos with a verdict."""
         return sum(row.verdict == verdict for row in self.rows)
 
-    def is_outlier(self, place: int) -> bool:
+    def is_outlier(self, index: int) -> bool:
         """Return whether a photo was excluded from the mean as too far from the others."""
-        return self.estimated is not None and place in self.estimated.outliers
+        return self.estimated is not None and index in self.estimated.outliers
 
     @property
     def rests_on_the_scene(self) -> bool:
         """Whether the scene's known value was used for any photo."""
         return any(row.given is None for row in self.rows)
 
-    def is_counted(self, place: int) -> bool:
+    def is_counted(self, index: int) -> bool:
         """Return whether a photo contributes to the mean."""
-        sure = self.rows[place].verdict == SURE
-        return self.estimated is not None and sure and not self.is_outlier(place)
+        is_sure = self.rows[index].verdict == SURE
+        return self.estimated is not None and is_sure and not self.is_outlier(index)
 
 
 _MAX_TEXT_LENGTH = 10_000  # most characters of a text; a path has fewer
@@ -167,7 +167,7 @@ _COLUMNS = (
 )  # fmt: skip
 
 
-def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -> str:
+def csv_text(table: PhotoTable, extra_notes: Sequence[str] = (), condition: str = "") -> str:
     """Write a table; ``condition`` is empty, or that of estimates, as ``"if f = 10 kHz: "``."""
     counts = ", ".join(
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
@@ -178,7 +178,7 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
         f"# measured: {table.estimate}",
         *_mean_lines(table.estimate, table.estimated, condition),
         *_mean_lines("exposure_time", table.exposure_time, condition),
-        *(f"# {printable(note)}" for note in (*table.notes, *more)),
+        *(f"# {printable(note)}" for note in (*table.notes, *extra_notes)),
         "#",
         "# scene at hand:",
         *(f"# {line}".rstrip() for line in table.scene.to_toml().splitlines()),
@@ -189,18 +189,20 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
 def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
     texts = []
     known = quantity(table.known)
-    of_scene = _given_text(known, float(table.scene.value(table.known)))
-    rests_on = condition.removesuffix(": ") or of_scene
-    for place, row in enumerate(table.rows):
-        kept = "outlier" if table.is_outlier(place) else "yes" if table.is_counted(place) else "no"
+    scene_basis = _given_text(known, float(table.scene.value(table.known)))
+    rests_on = condition.removesuffix(": ") or scene_basis
+    for index, row in enumerate(table.rows):
+        in_mean = (
+            "outlier" if table.is_outlier(index) else "yes" if table.is_counted(index) else "no"
+        )
         estimates: list[object] = []
         for name in ("readout_time", "switching_frequency", "exposure_time"):
             estimates += [getattr(row, name), _format_error(row.uncertainty(name))]
-        own = rests_on if row.given is None else _given_text(known, row.given)
-        estimates += [row.exposure_verdict, None if row.match is None else own]
+        basis = rests_on if row.given is None else _given_text(known, row.given)
+        estimates += [row.exposure_verdict, None if row.match is None else basis]
         texts.append(
             csv_row(
-                [_quote_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
+                [_quote_text(str(row.path)), row.verdict, in_mean, *estimates, row.noted_exposure,
                  row.correlation, row.pattern, row.lines or None, _quote_text(row.camera or ""),
                  _quote_text(row.note), row.lamp_frequency,
                  _format_error(row.uncertainty("lamp_frequency")), row.duty,
@@ -214,20 +216,20 @@ def _given_text(known: Quantity, value: float) -> str:
     return f"{known.symbol} = {known.format(value)}, given"
 
 
-def _mean_lines(name: str, found: CombinedEstimate | None, condition: str) -> list[str]:
-    if found is None:
+def _mean_lines(name: str, estimate: CombinedEstimate | None, condition: str) -> list[str]:
+    if estimate is None:
         return [f"# no mean of {name}"]
-    value = quantity(name).unit.round_estimate(found.value, found.uncertainty)
-    photos, left_out = counted(found.count, f"{SURE} photo"), len(found.outliers)
+    value = quantity(name).unit.round_estimate(estimate.value, estimate.uncertainty)
+    photos, outliers = counted(estimate.count, f"{SURE} photo"), len(estimate.outliers)
     lines = [
-        f"# mean of {name}: {condition}{value!r} +- {_format_error(found.uncertainty)}, from "
-        f"{photos}, {counted(left_out, 'outlier')}"
+        f"# mean of {name}: {condition}{value!r} +- {_format_error(estimate.uncertainty)}, from "
+        f"{photos}, {counted(outliers, 'outlier')}"
     ]
-    if found.count > 1:
+    if estimate.count > 1:
         lines.append(
-            f"# chi-square of {name}: {found.chi_square:.4g} of "
-            f"{counted(found.degrees_of_freedom, 'degree')} of freedom, probability "
-            f"{found.probability:.3g}, error widened {found.scale:.3g} times"
+            f"# chi-square of {name}: {estimate.chi_square:.4g} of "
+            f"{counted(estimate.degrees_of_freedom, 'degree')} of freedom, probability "
+            f"{estimate.probability:.3g}, error widened {estimate.scale:.3g} times"
         )
     return lines
 

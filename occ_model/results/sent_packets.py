@@ -28,7 +28,7 @@ class PacketReading:
     frame
         The frame that shows all of it; None if none does.
     seen
-        Fraction of its chips, from 0 to 1, that are completely in any frame.
+        Fraction of its chips, from 0 to 1, that are completely visible in at least one frame.
     bits : ndarray of uint8 or None
         The bits read from this packet alone; None if it was not read.
     wrong_bits
@@ -56,13 +56,13 @@ class PacketReading:
 
     @property
     def is_right(self) -> bool:
-        """Whether it was read, and is right as far as that is known."""
+        """Whether it was read and is not known to be wrong."""
         return self.is_read and self.correct is not False
 
 
 @dataclass(frozen=True, slots=True)
 class FilmPart:
-    """A part of a film without gaps in time, and the packets that were sent meanwhile."""
+    """A part of a film without gaps in time, and the packets that were sent during it."""
 
     # Its start by the film's clock, and its length, in seconds
     start: float
@@ -78,7 +78,7 @@ class FilmPart:
 class SentPackets(Sequence[PacketReading]):
     """The packets that were sent during a film, in the order of their numbers.
 
-    Those that no frame shows are made on demand, since a film of hours has millions.
+    Packets that no frame shows are made on demand, since a film of hours has millions.
     """
 
     parts: tuple[FilmPart, ...] = ()
@@ -110,17 +110,17 @@ class SentPackets(Sequence[PacketReading]):
 
     def __getitem__(self, number: int | slice) -> PacketReading | tuple[PacketReading, ...]:
         if isinstance(number, slice):
-            return tuple(self[one] for one in range(len(self))[number])
+            return tuple(self[index] for index in range(len(self))[number])
         number = range(len(self))[number]
-        place = bisect_left(self._numbers, number)
-        if place < len(self.in_view) and self._numbers[place] == number:
-            return self.in_view[place]
-        index = bisect_right(self._firsts[1:], number)
-        part, later = self.parts[index], number - self._firsts[index]
+        position = bisect_left(self._numbers, number)
+        if position < len(self.in_view) and self._numbers[position] == number:
+            return self.in_view[position]
+        part_index = bisect_right(self._firsts[1:], number)
+        part, packets_before = self.parts[part_index], number - self._firsts[part_index]
         return PacketReading(
             number=number,
-            part=(part.first_part + later) % self.sub_packets,
-            time=part.start + part.begin + later * part.step,
+            part=(part.first_part + packets_before) % self.sub_packets,
+            time=part.start + part.begin + packets_before * part.step,
             frame=None,
             seen=0.0,
             bits=None,
@@ -134,38 +134,38 @@ class SentPackets(Sequence[PacketReading]):
         enclose all packets. Return the number sent, and the packets in view, for each window.
         """
         bounds = [0, *(self._count_before(edge) for edge in edges[1:-1].tolist()), len(self)]
-        found = []
+        windows = []
         for first, end in pairwise(bounds):
-            here = slice(bisect_left(self._numbers, first), bisect_left(self._numbers, end))
-            found.append((max(end - first, 0), self.in_view[here]))
-        return tuple(found)
+            visible = slice(bisect_left(self._numbers, first), bisect_left(self._numbers, end))
+            windows.append((max(end - first, 0), self.in_view[visible]))
+        return tuple(windows)
 
     def time_at(self, elapsed: float, is_end: bool = False) -> float:
-        """Return the film's time after a running time in seconds, which leaves out gaps.
+        """Return the film's time after a running time in seconds, which excludes gaps.
 
-        At a cut it is the start of the next part, or with ``is_end`` the end of the part before.
+        Between two parts it is the start of the later one, or with ``is_end`` the end of the other.
         """
         search = bisect_left if is_end else bisect_right
-        place = min(max(search(self._elapsed, elapsed) - 1, 0), len(self.parts) - 1)
-        return self.parts[place].start + elapsed - self._elapsed[place]
+        part_index = min(max(search(self._elapsed, elapsed) - 1, 0), len(self.parts) - 1)
+        return self.parts[part_index].start + elapsed - self._elapsed[part_index]
 
     def _count_before(self, elapsed: float) -> int:
         """Count the packets that began before a running time of the film."""
-        before = 0
-        for part, at in zip(self.parts, self._elapsed, strict=False):
+        count = 0
+        for part, elapsed_before in zip(self.parts, self._elapsed, strict=False):
             if part.step > 0.0:
-                later = math.ceil((elapsed - at - part.begin) / part.step)
-                before += min(max(later, 0), part.count)
-            elif elapsed > at:
-                before += part.count
-        return before
+                packets_before = math.ceil((elapsed - elapsed_before - part.begin) / part.step)
+                count += min(max(packets_before, 0), part.count)
+            elif elapsed > elapsed_before:
+                count += part.count
+        return count
 
     def starts(self, numbers: IndexArray) -> FloatArray:
         """Return the start times of packets in seconds, by the film's clock."""
         index = self._part_of(numbers)
-        begins = np.array([part.start + part.begin for part in self.parts])
-        later = numbers - np.array(self._firsts, dtype=np.int64)[index]
-        return np.asarray(begins[index] + later * self.steps(numbers))
+        first_starts = np.array([part.start + part.begin for part in self.parts])
+        packets_before = numbers - np.array(self._firsts, dtype=np.int64)[index]
+        return np.asarray(first_starts[index] + packets_before * self.steps(numbers))
 
     def steps(self, numbers: IndexArray) -> FloatArray:
         """Return the lengths of packets in seconds."""

@@ -1,4 +1,4 @@
-"""Measurements on a picture: the spectrum of its profile, the histogram of its levels."""
+"""Measurements on a picture: the spectrum of its profile and the histogram of its levels."""
 
 from dataclasses import dataclass
 
@@ -18,9 +18,9 @@ class Spectrum:
     # Shape (n,): the fraction of a sine's amplitude after the exposure, |sinc(F t)| for light of
     # the frequency F. Its first zero, F = 1 / t, is the null of an alternating pattern, f = 2 / t.
     response: FloatArray
-    # Frequencies in Hz at which the response is 0, k / t, up to the last one
+    # Frequencies k / t in Hz at which the response is 0, up to the last frequency
     zeros: tuple[float, ...]
-    # Multiples in Hz of the rate at which the light repeats, up to the last one; none of packets
+    # Multiples in Hz of the light's repetition rate, up to the last frequency; empty for packets
     harmonics: tuple[float, ...] = ()
 
 

@@ -1,7 +1,7 @@
 """The table of a sweep, with a success rate for each point and decoder, and its CSV.
 
-The CSV has comment lines with everything that determines the numbers, and then a row for each point
-and decoder.
+The CSV starts with comment lines that state everything that determines the numbers. A row for each
+point and decoder follows.
 """
 
 import csv
@@ -42,7 +42,7 @@ class SweepRow:
 class SweepTable:
     """Success rates over all combinations of some parameters' values.
 
-    Two tables are equal if their requests, numbers and notes are.
+    Two tables are equal if their requests, counts and notes are equal.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class SweepTable:
     right : ndarray of int64, shape (..., decoders)
         Number of these bits that were read correctly.
     low, high : ndarray of float64, shape (..., decoders)
-        The 95 % interval in percent, by the number of images, as the bits of an image fail
+        The 95 % interval in percent, based on the number of images, as the bits of an image fail
         together; NaN if the model refuses the scene.
     notes
         Why the model refuses a scene, or how often a plug-in has failed, by the point's index (the
@@ -89,15 +89,15 @@ class SweepTable:
         """Yield the rows one by one, as those of a large table may not fit into memory."""
         for point in self.each_point():
             values = self.request.values(point.index)
-            place = np.unravel_index(point.index, self.request.shape)
-            for number, decoder in enumerate(self.decoders):
+            indices = np.unravel_index(point.index, self.request.shape)
+            for column, decoder in enumerate(self.decoders):
                 rate = low = high = None
                 if point.sent:
-                    rate = 100.0 * point.right[number] / point.sent
-                    low, high = float(self.low[place][number]), float(self.high[place][number])
+                    rate = 100.0 * point.right[column] / point.sent
+                    low, high = float(self.low[indices][column]), float(self.high[indices][column])
                 yield SweepRow(
-                    values, decoder, point.right[number], point.sent, rate, low, high, point.note,
-                    self.request.bits_a_second(point, number),
+                    values, decoder, point.right[column], point.sent, rate, low, high, point.note,
+                    self.request.bits_a_second(point, column),
                 )  # fmt: skip
 
     def each_point(self) -> Iterator[SweepPoint]:
@@ -115,7 +115,7 @@ class SweepTable:
         Parameters
         ----------
         decoder
-            The decoder's name, by default the first one's.
+            The decoder's name; by default that of the first decoder.
 
         Returns
         -------
@@ -128,7 +128,7 @@ class SweepTable:
             The sweep did not use that decoder.
         """
         rates = np.full(self.sent.shape, np.nan)
-        right = 100.0 * self.right[..., self._place(decoder)]
+        right = 100.0 * self.right[..., self._decoder_index(decoder)]
         np.divide(right, self.sent, out=rates, where=self.sent > 0)
         return rates
 
@@ -137,24 +137,24 @@ class SweepTable:
 
         Not a number where the model refuses the scene.
         """
-        place = self._place(decoder)
-        found = [self.request.bits_a_second(point, place) for point in self.each_point()]
-        numbers = [math.nan if one is None else one for one in found]
+        column = self._decoder_index(decoder)
+        rates = [self.request.bits_a_second(point, column) for point in self.each_point()]
+        numbers = [math.nan if rate is None else rate for rate in rates]
         return np.array(numbers).reshape(self.sent.shape)
 
     def intervals(self, decoder: str | None = None) -> tuple[FloatArray, FloatArray]:
-        """Return the ends of the 95 % intervals of :meth:`rates`, in percent, shape alike."""
-        place = self._place(decoder)
-        return self.low[..., place], self.high[..., place]
+        """Return the ends of the 95 % intervals of :meth:`rates`, in percent, in the same shape."""
+        column = self._decoder_index(decoder)
+        return self.low[..., column], self.high[..., column]
 
     @property
     def faults(self) -> str:
         """A sentence on the points at which a plug-in has failed; empty if none has."""
         sent = self.sent.ravel()
-        found = [note for index, note in self.notes.items() if sent[index]]
-        return f"At {counted(len(found), 'point')}: {found[0]}" if found else ""
+        fault_notes = [note for index, note in self.notes.items() if sent[index]]
+        return f"At {counted(len(fault_notes), 'point')}: {fault_notes[0]}" if fault_notes else ""
 
-    def _place(self, decoder: str | None) -> int:
+    def _decoder_index(self, decoder: str | None) -> int:
         if decoder is None:
             return 0
         if decoder not in self.decoders:
@@ -164,7 +164,7 @@ class SweepTable:
         return self.decoders.index(decoder)
 
     def csv(self) -> Iterator[str]:
-        """Yield the table as CSV in parts: comment lines of its provenance, then rows of rates."""
+        """Yield the CSV in parts: comment lines on the table's origin, then rows of rates."""
         yield header_text(self.request)
         low = self.low.reshape(-1, len(self.decoders)).tolist()
         high = self.high.reshape(-1, len(self.decoders)).tolist()
@@ -173,12 +173,12 @@ class SweepTable:
             yield point_text(self.request, point, ends)
 
     def to_csv(self, path: str | Path) -> None:
-        """Write the table as :meth:`csv` gives it.
+        """Write the table as CSV (see :meth:`csv`).
 
         Raises
         ------
         OutputError
-            The file cannot be written; a file that was there before is unchanged.
+            The file cannot be written; an existing file is unchanged.
         """
         write_whole(Path(path), "".join(self.csv()).encode("utf-8"))
 
@@ -244,12 +244,19 @@ def point_text(
     settings = request.settings
     values = [format_value(value) for value in request.values(point.index).values()]
     text = ""
-    for place, (decoder, ends) in enumerate(zip(settings.decoders, intervals, strict=True)):
-        found: list[object] = [None] * 7
+    for column, (decoder, ends) in enumerate(zip(settings.decoders, intervals, strict=True)):
+        results: list[object] = [None] * 7
         if point.sent:
-            right, bits = point.right[place], request.bits_a_second(point, place)
-            found = [right, point.sent, 100.0 * right / point.sent, *ends, point.whole[place], bits]
-        text += csv_row([*values, decoder, settings.images, settings.seed, *found, point.note])
+            right, bits = point.right[column], request.bits_a_second(point, column)
+            results = [
+                right,
+                point.sent,
+                100.0 * right / point.sent,
+                *ends,
+                point.whole[column],
+                bits,
+            ]
+        text += csv_row([*values, decoder, settings.images, settings.seed, *results, point.note])
     return text
 
 
@@ -259,22 +266,22 @@ class PointReader:
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
         self._axes = [
-            {format_value(value): place for place, value in enumerate(values)}
+            {format_value(value): index for index, value in enumerate(values)}
             for values in request.axes.values()
         ]
 
     def read(self, lines: Sequence[str], number: int) -> SweepPoint | None:
-        """Parse a point's rows, one for each decoder; the caller checks by writing them again.
+        """Parse a point's rows, one for each decoder; the caller writes them again to verify.
 
-        ``number`` is that of the first line. None if they are not rows of this sweep;
-        ParameterError for an impossible count.
+        ``number``: the number of the first line. Returns None if they are not rows of this sweep;
+        raises ParameterError for an impossible count.
         """
         first = len(self._axes) + 3
         try:
             rows = [next(csv.reader([line], strict=True)) for line in lines]
             index = 0
-            for places, text in zip(self._axes, rows[0], strict=False):
-                index = index * len(places) + places[text]
+            for indices, text in zip(self._axes, rows[0], strict=False):
+                index = index * len(indices) + indices[text]
             cells = [(row[first], row[first + 1], row[first + 5], row[first + 7]) for row in rows]
         except (LookupError, StopIteration, csv.Error):
             return None
@@ -286,14 +293,14 @@ class PointReader:
         for line, (right_bits, sent_bits, read_whole, _) in enumerate(cells, number):
             read_count("sent bits", sent_bits, images * bits, images * bits, line)
             whole.append(read_count("images read whole", read_whole, 0, images, line))
-            least = whole[-1] * bits  # every other image has a wrong bit
-            most = least + (images - whole[-1]) * (bits - 1)
-            right.append(read_count("right bits", right_bits, least, most, line))
+            min_right = whole[-1] * bits  # every other image has a wrong bit
+            max_right = min_right + (images - whole[-1]) * (bits - 1)
+            right.append(read_count("right bits", right_bits, min_right, max_right, line))
         return SweepPoint(index, images * bits, tuple(right), note, tuple(whole))
 
 
 def read_count(name: str, text: str, least: int, most: int, line: int) -> int:
-    """Parse a count of a table; the ParameterError for a wrong one names the line."""
+    """Parse a count of a table; raises a ParameterError with the line if it is out of range."""
     is_count = text.isascii() and text.isdigit() and len(text) <= len(str(most))
     if is_count and least <= int(text) <= most:
         return int(text)

@@ -12,14 +12,15 @@ from occ_model.scene.scene import TOLERANCE, Scene
 
 SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
 """How a decoder's signal is simulated: "profile" as column means, "rows" from a sample of the
-image's rows, "image" from the whole image, "auto" by the first of these that the plan allows."""
+image's rows, "image" from the whole image, "auto" in the first of these ways that the plan
+allows."""
 
 ShownQuantity: TypeAlias = Literal["rate", "bits"]  # success rates in percent, or net bits a second
 SHOWN_QUANTITIES: tuple[ShownQuantity, ...] = ("rate", "bits")
 
 SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "rows", "image")
 
-MOST_POINTS = 1_000_000  # of a sweep, whose counts all stay in memory
+MOST_POINTS = 1_000_000  # points of a sweep, whose counts all stay in memory
 MOST_AXES = 31  # parameters of a sweep: NumPy's arrays have 32 axes, one is the decoders'
 MOST_IMAGES = 1_000_000  # images at a point
 MOST_JOBS = 1024  # processes of a sweep
@@ -64,8 +65,8 @@ class SweepRequest:
         """Return the parameters of a point by its index; the last axis runs fastest."""
         reversed_values: list[ParameterValue] = []
         for values in reversed(list(self.axes.values())):
-            index, place = divmod(index, len(values))
-            reversed_values.append(values[place])
+            index, position = divmod(index, len(values))
+            reversed_values.append(values[position])
         return dict(zip(self.axes, reversed(reversed_values), strict=True))
 
     def bits_sent(self, index: int) -> int:
@@ -78,7 +79,7 @@ class SweepRequest:
     def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
         """Return the net bits a second of a point; None if the model refuses the scene.
 
-        Each image is taken to carry a new payload that is read as often as the scene's own.
+        It assumes that each image has a new payload, which is read as often as the scene's own.
         """
         if not point.sent or not point.whole:
             return None
@@ -93,11 +94,11 @@ class SweepRequest:
     def in_order_of_work(self) -> Iterator[int]:
         """Yield the indices of the points in the order that takes the least time."""
         names = list(self.axes)
-        slow = sorted((name for name in names if name in _OUTER_AXES), key=_OUTER_AXES.index)
-        order = [*slow, *(name for name in names if name not in _OUTER_AXES)]
+        outer_names = sorted((name for name in names if name in _OUTER_AXES), key=_OUTER_AXES.index)
+        order = [*outer_names, *(name for name in names if name not in _OUTER_AXES)]
         sizes = [math.prod(self.shape[names.index(name) + 1 :]) for name in order]
-        for place in product(*(range(len(self.axes[name])) for name in order)):
-            yield sum(size * step for size, step in zip(sizes, place, strict=True))
+        for indices in product(*(range(len(self.axes[name])) for name in order)):
+            yield sum(size * index for size, index in zip(sizes, indices, strict=True))
 
 
 @dataclass(frozen=True, slots=True)

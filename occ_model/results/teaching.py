@@ -36,9 +36,9 @@ class Equation:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposureWindow:
-    """One column's exposure on the light's waveform, in seconds from the drawing's first piece.
+    """One column's exposure on the light's waveform, in seconds from the first piece.
 
-    A piece is a stretch of equal light, of a code a chip.
+    A piece is an interval of constant light: for a code, a chip.
     """
 
     column: int
@@ -47,7 +47,7 @@ class ExposureWindow:
     # Shape (pieces + 1,): start of each piece around the exposure, and end of the last one
     edges: FloatArray
     levels: FloatArray  # Shape (pieces,): light of each, 1 being the panel fully lit
-    on_time: float
+    on_time: float  # Seconds for which the panel is lit during the exposure
     # Whether only the first pieces of the exposure are drawn
     shortened: bool
 
@@ -67,10 +67,10 @@ class ExposureWindow:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LightCurve:
-    """The light of the LED, on an axis of the columns that begin their exposures at each time."""
+    """The light of the LED over the columns: each time is the column whose exposure starts then."""
 
-    # Shape (knots,): the light, 1 being the panel fully lit, which is linear between knots; where
-    # it jumps, two knots are at the same column
+    # Shape (knots,): the light, 1 being the panel fully lit, which is linear between knots; at a
+    # jump, two knots are at the same column
     columns: FloatArray
     light: FloatArray
     # Shape (pieces + 1,): the column at which each piece starts, and at which the last one ends
@@ -79,27 +79,27 @@ class LightCurve:
     places: IndexArray  # Shape (pieces,): the number of each piece in the period sent, from 0
 
     def light_at(self, column: float) -> float:
-        after = int(np.searchsorted(self.columns, column, side="right"))
-        after = min(max(after, 1), len(self.columns) - 1)
-        columns, light = self.columns[after - 1 : after + 1], self.light[after - 1 : after + 1]
+        knot = int(np.searchsorted(self.columns, column, side="right"))
+        knot = min(max(knot, 1), len(self.columns) - 1)
+        columns, light = self.columns[knot - 1 : knot + 1], self.light[knot - 1 : knot + 1]
         return float(np.interp(column, columns, light))
 
     def mean(self, first: float, last: float) -> float:
         """Return the mean light between two columns on the curve."""
         areas = np.diff(self.columns) * (self.light[1:] + self.light[:-1]) / 2.0
         integral = np.concatenate([[0.0], np.cumsum(areas)])
-        at_first, at_last = np.interp([first, last], self.columns, integral)
-        return float(at_last - at_first) / (last - first)
+        first_integral, last_integral = np.interp([first, last], self.columns, integral)
+        return float(last_integral - first_integral) / (last - first)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RollingShutter:
     """Exposures of evenly spaced columns, with times from the first column's start."""
 
-    columns: IndexArray  # Shape (shown,): the columns
-    starts: FloatArray  # Shape (shown,): when the exposure of each begins, in seconds
-    exposure_time: float  # How long each lasts, in seconds
-    lit_fraction: FloatArray  # Shape (shown,): mean light of each, 1 being the panel fully lit
+    columns: IndexArray  # Shape (n,): the columns
+    starts: FloatArray  # Shape (n,): when the exposure of each begins, in seconds
+    exposure_time: float  # How long each exposure lasts, in seconds
+    lit_fraction: FloatArray  # Shape (n,): mean light of each, 1 being the panel fully lit
     # Shape (pieces + 1,): when each piece begins, and when the last one ends, in seconds
     edges: FloatArray
     levels: FloatArray  # Shape (pieces,): light of each
@@ -112,7 +112,7 @@ class RollingShutter:
 
 @dataclass(frozen=True, slots=True)
 class MarkedValue:
-    """A value of a parameter that deserves a mark."""
+    """A notable value of a parameter, marked in a view."""
 
     value: float
     label: str
@@ -145,7 +145,7 @@ class LessonStep:
     answer: str
     scene: Scene
     pane: str = ""  # The pane to show; empty for the current one
-    decoder: str = ""  # Whose verdict and steps are shown at first; empty for the paper's
+    decoder: str = ""  # The decoder whose result is shown at first; empty for the paper's
     photo: str = ""  # Name of the sample photo to open
     control: str = ""  # The parameter to change; empty for several or none
     # None if the answer is in words
@@ -155,22 +155,22 @@ class LessonStep:
     animation: bool = False
     # Action of the step's button, one of ``occ_model.teaching.lessons.ACTIONS``
     action: str = ""
-    # Whether the step is about the student's own photo; ``photo`` replaces it while none is open
+    # Whether the step is about the student's own photo; ``photo`` is used while none is open
     own_photo: bool = False
 
     @property
-    def asked(self) -> Scene:
+    def question_scene(self) -> Scene:
         return self.scene if self.check is None else self.check.scene
 
-    def scene_to_judge(self, shown: Scene) -> Scene:
-        """Return the scene for a check: the question's while the step's own scene is shown."""
-        return self.asked if shown == self.scene else shown
+    def scene_to_judge(self, current: Scene) -> Scene:
+        """Return the scene for a check: the question's as long as the step's own is shown."""
+        return self.question_scene if current == self.scene else current
 
-    def with_unit(self, given: str) -> str:
+    def with_unit(self, answer: str) -> str:
         """Append the question's unit to an answer without one."""
         unit = "" if self.check is None else self.check.asked_in
-        given = given.strip()
-        return f"{given} {unit}" if unit and _NUMBER.fullmatch(given) else given
+        answer = answer.strip()
+        return f"{answer} {unit}" if unit and _NUMBER.fullmatch(answer) else answer
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""A film, whose frames come one by one, so that it can have any length."""
+"""A film, whose frames are read one by one, so that it can have any length."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
@@ -10,7 +10,7 @@ from occ_model.arrays import ByteArray
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 
-USUAL_RATE = 30.0  # frames a second of a film that does not state them
+USUAL_RATE = 30.0  # assumed frames a second of a film that does not state its rate
 LATEST_TIME = 1e8  # latest time of a frame after the film's first one, in seconds: three years
 
 
@@ -33,7 +33,7 @@ class VideoFrame:
         Exposure time in seconds by the camera's own clock; None if the film does not state it.
     scene
         For a simulated frame, the exact scene that it shows: ``occ.render(frame.scene, ...)`` gives
-        this picture. Its times are real ones: if a clock drifts, its switching frequency, exposure
+        this picture. Its times are real times: if a clock drifts, its switching frequency, exposure
         time and readout time differ from those of the film's scene. Its start time is reduced by
         whole periods of its light. None for a frame from a file.
     start
@@ -62,19 +62,19 @@ class Video(ABC):
     shape
         Rows and columns of every frame, with columns as the scan axis.
     frame_rate
-        Nominal frames a second by the camera's clock; None if a file does not state them.
+        Nominal frames a second by the camera's clock; None if a file does not state the rate.
     frame_count
         Number of frames by the recording or the file; None if unknown or endless. A damaged file
         may have fewer, and for an MKV or WebM file the number is estimated from its length until
         all of it has been read.
     time_step
-        Seconds of which the frames' times are whole multiples, by the kind of their container; None
-        if they are not known to be rounded.
+        Seconds to whose multiples the container rounds the frames' times; None if they are not
+        known to be rounded.
     path
         The file, None if the film is simulated.
     scene, recording
-        Scene and recording with which a film was simulated, if it was, also from its file; None for
-        other films. They are the truth against which a reading can be judged; a reader does not use
+        Scene and recording with which a film was simulated, also if read from a file; None for
+        other films. They are the truth with which a reading is compared; a reader does not use
         them.
     """
 
@@ -94,7 +94,7 @@ class Video(ABC):
 
     @property
     def problem(self) -> str | None:
-        """A sentence if the film is found to be damaged or to end early, so far; or None."""
+        """A sentence if the film has so far proved damaged or too short; else None."""
         return None
 
     @abstractmethod
@@ -111,7 +111,7 @@ class Video(ABC):
 
     @abstractmethod
     def frame(self, index: int) -> VideoFrame:
-        """Return one frame; the one after the last returned takes the least time.
+        """Return one frame; the frame after the last returned one takes the least time.
 
         Raises
         ------

@@ -26,11 +26,11 @@ class FrameReading:
     Parameters
     ----------
     index, time
-        Those of the frame; the time in seconds.
+        Number and time, in seconds, of the frame.
     region
         The rectangle of the image that was read, None if no panel was found.
     chips : ndarray of uint8, shape (chips,)
-        The chips in view, in the order sent; those at both ends may be incomplete.
+        The visible chips, in the order sent; those at both ends may be incomplete.
     ratios : ndarray of float64, shape (chips,)
         For each chip, the logarithm of the likelihood ratio of lit to dark.
     whole : (int, int)
@@ -38,10 +38,10 @@ class FrameReading:
     chip_length
         Columns of a chip; None if no chips were read.
     place
-        The place of the first chip in the repeated period, in chips; None if the frame does not
-        show it, or not yet.
+        The place of the first chip in the repeated period, in chips; None if it is not known, or
+        not yet.
     failure
-        None, or a sentence that says why the frame was not read or placed.
+        None, or a sentence on why the frame was not read or its place is unknown.
     """
 
     index: int
@@ -66,24 +66,24 @@ class Clock:
     switching_frequency
         In Hz, at the middle of the film.
     drift
-        Its change in Hz a second; None if too few frames show it.
+        Its change in Hz a second; None if there are too few frames to measure it.
     chips_of_cycle
-        How many such chips make a cycle of the lamp that is filmed; 0 of a code.
+        Number of chips in a cycle of the filmed lamp; 0 for a code.
     readout_time
-        From one column to the next in seconds, which is chips a column over chips a second.
+        From one column to the next in seconds: chips a column over chips a second.
     frame_period
         From one frame to the next, in seconds.
     gap
         The part of the frame period in which no column starts its exposure, in seconds.
     timing_noise
-        Root mean square difference of the frames' starts from their stamps, in seconds.
+        Root mean square difference of the frames' starts from their time stamps, in seconds.
     frames
         Number of frames whose phase was used.
     alternatives
         Other switching frequencies in Hz that fit equally well, each with its readout time: aliases
         that the approximate readout time does not exclude.
     problems
-        Sentences on contradictions in the frames' times or phases, and on what is not certain.
+        Sentences on contradictions in the frames' times or phases, and on uncertainties.
     """
 
     switching_frequency: MeasuredValue
@@ -99,17 +99,17 @@ class Clock:
 
     @property
     def lamp_frequency(self) -> MeasuredValue | None:
-        """The frequency of the lamp that is filmed, in Hz; None if a code is sent."""
-        return self._of_cycles(self.switching_frequency)
+        """The frequency of the filmed lamp, in Hz; None for a code."""
+        return self._divide_by_cycle(self.switching_frequency)
 
     @property
     def lamp_drift(self) -> MeasuredValue | None:
-        """The change of the lamp's frequency in Hz a second; None of a code, or if not known."""
-        return None if self.drift is None else self._of_cycles(self.drift)
+        """The change of the lamp's frequency in Hz a second; None for a code, or if unknown."""
+        return None if self.drift is None else self._divide_by_cycle(self.drift)
 
-    def _of_cycles(self, measured: MeasuredValue) -> MeasuredValue | None:
+    def _divide_by_cycle(self, chip_rate: MeasuredValue) -> MeasuredValue | None:
         chips = self.chips_of_cycle
-        return MeasuredValue(measured.value / chips, measured.error / chips) if chips else None
+        return MeasuredValue(chip_rate.value / chips, chip_rate.error / chips) if chips else None
 
     @property
     def is_sure(self) -> bool:
@@ -144,11 +144,11 @@ class FilmProgress:
     Parameters
     ----------
     frames, placed
-        Number of frames so far, and of those whose place in the packet is known.
+        Number of frames so far, and of frames whose place in the packet is known.
     payload
         The payload as far as it is known, in the scene's notation; unknown letters are dots.
     known
-        Fraction of the payload's chips that were seen.
+        Fraction of the payload's chips that have been read.
     complete
         Whether the whole payload has been read.
     clock
@@ -171,15 +171,15 @@ class VideoReading:
     Parameters
     ----------
     packets
-        The packets that were sent from the first frame's start to the last one's end; empty if the
-        frames' times do not show how many were sent between frames. Time at which these jump cannot
-        be counted, and is left out of this and of all rates.
+        The packets sent from the first frame's start to the last one's end; empty if the frames'
+        times do not show how many were sent between frames. Where these times jump, packets cannot
+        be counted, and that time is excluded here and from all rates.
     clock
         The film's clock; None if too few frames show it.
     bits : ndarray of uint8
         The payload's bits, joined from all frames; empty if it was not read.
     known : ndarray of bool
-        Which chips of the repeated period were seen.
+        Which chips of the repeated period were read.
     payload
         The bits in the notation of the scene's payload, or the digits of a code.
     certainty
@@ -189,12 +189,12 @@ class VideoReading:
     duration
         Length of the film in seconds, to the end of the last frame's period.
     failure
-        None, or a sentence that says why no payload was read.
+        None, or a sentence on why no payload was read.
     problems
         Sentences on irregular frame times, and on what is uncertain about the clock.
     complete_after
-        Length of the film, in seconds, to the end of that frame's period; None if the payload is
-        not complete, or there is no clock.
+        Length of the film, in seconds, to the end of the period of the frame that completed the
+        payload; None if it is not complete, or there is no clock.
     faults
         A sentence on how often a plug-in has failed; empty if none has.
     """
@@ -215,7 +215,7 @@ class VideoReading:
 
     @property
     def read(self) -> int:
-        """Number of packets that one frame shows completely, and that are right as far as known."""
+        """Number of packets that one frame shows completely and that are not known to be wrong."""
         return sum(packet.is_right for packet in self.packets.in_view)
 
     @property
@@ -226,8 +226,8 @@ class VideoReading:
     @property
     def cut_off(self) -> int:
         """Number of packets that no frame shows completely: in a gap, or across a frame's edge."""
-        shown = sum(packet.frame is not None for packet in self.packets.in_view)
-        return len(self.packets) - shown
+        complete = sum(packet.frame is not None for packet in self.packets.in_view)
+        return len(self.packets) - complete
 
     @property
     def doubled(self) -> int:
@@ -238,19 +238,23 @@ class VideoReading:
     @property
     def bits_per_second(self) -> float:
         """Payload bits a second in all packets that were read, with repetitions."""
-        right = (one.bits for one in self.packets.in_view if one.is_right)
-        bits = sum(len(one) for one in right if one is not None)
+        right = (packet.bits for packet in self.packets.in_view if packet.is_right)
+        bits = sum(len(packet) for packet in right if packet is not None)
         return bits / self.duration if self.duration > 0.0 else 0.0
 
     @property
     def net_bits_per_second(self) -> float:
-        """Bits a second as if every frame had another payload: repeats in a frame count once.
+        """Bits a second as if each frame had its own payload: repetitions in a frame count once.
 
-        It can be compared with that of studies of single pictures.
+        It is comparable with the rate in studies of single pictures.
         """
-        right = (one for one in self.packets.in_view if one.is_right)
-        once = {(one.frame, one.part): len(one.bits) for one in right if one.bits is not None}
-        return sum(once.values()) / self.duration if self.duration > 0.0 else 0.0
+        right = (packet for packet in self.packets.in_view if packet.is_right)
+        distinct = {
+            (packet.frame, packet.part): len(packet.bits)
+            for packet in right
+            if packet.bits is not None
+        }
+        return sum(distinct.values()) / self.duration if self.duration > 0.0 else 0.0
 
     @property
     def reception_rate(self) -> float | None:
@@ -287,14 +291,19 @@ class VideoReading:
         ]
         return tuple(
             RateWindow(
-                *between, sent, sent - sum(one.is_right for one in shown), *_count_compared(shown)
+                *times_of_window,
+                sent,
+                sent - sum(packet.is_right for packet in visible),
+                *_count_compared(visible),
             )
-            for between, (sent, shown) in zip(times, self.packets.cut(edges), strict=True)
+            for times_of_window, (sent, visible) in zip(times, self.packets.cut(edges), strict=True)
         )
 
 
 def _count_compared(packets: Sequence[PacketReading]) -> tuple[int, int]:
     """Count the bits that could be compared, and the wrong ones among them."""
-    compared = [one for one in packets if one.bits is not None and one.wrong_bits is not None]
-    bits = sum(len(one.bits) for one in compared if one.bits is not None)
-    return bits, sum(one.wrong_bits or 0 for one in compared)
+    comparable = [
+        packet for packet in packets if packet.bits is not None and packet.wrong_bits is not None
+    ]
+    bits = sum(len(packet.bits) for packet in comparable if packet.bits is not None)
+    return bits, sum(packet.wrong_bits or 0 for packet in comparable)

@@ -211,13 +211,13 @@ def _add_seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | Non
     other_times = [each for each in measurements if each.rows_differ == rows_differ]
     if not other_times:
         return None
-    total = other_times[0].everything_else
+    total = other_times[0].other_seconds
     added: set[str] = set()
     for name in included:
         seconds = costs.seconds_of(name)
         if seconds is None:
             return None
-        groups = (each.together.get(name) for each in measurements)
+        groups = (each.shared_steps.get(name) for each in measurements)
         group = next((each for each in groups if each is not None), name)
         if group not in added:
             added.add(group)

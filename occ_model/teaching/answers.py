@@ -85,12 +85,13 @@ _MAX_NAMED = 2
 
 def explanation(step: LessonStep, scene: Scene) -> str:
     """Return a step's explanation, which names the scene of its numbers if it is another one."""
-    if step.own_photo or scene == step.asked:
+    question = step.question_scene
+    if step.own_photo or scene == question:
         return step.answer
     names = (name for names in GROUPS.values() for name in names)
-    differing = [name for name in names if scene.value(name) != step.asked.value(name)]
+    differing = [name for name in names if scene.value(name) != question.value(name)]
     values = ", ".join(
-        f"{PARAMETERS[name].label}: {PARAMETERS[name].format(step.asked.value(name)) or 'empty'}"  # type: ignore[arg-type]
+        f"{PARAMETERS[name].label}: {PARAMETERS[name].format(question.value(name)) or 'empty'}"  # type: ignore[arg-type]
         for name in differing[:_MAX_NAMED]
     )
     more = ", …" if len(differing) > _MAX_NAMED else ""

@@ -1,8 +1,8 @@
 """The matched decoder: correlate the signal with the forward model of every code and phase.
 
 Beyond the paper, it knows the switching frequency, the exposure time and the readout time. The
-signal is first folded over one packet. Exposures of several chips are possible, because each code
-still has its own profile.
+signal is first folded over one packet. An exposure may cover several chips, because each code still
+has its own profile.
 """
 
 import math
@@ -39,10 +39,10 @@ from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.scheme import bits_of, packet_length, scheme_of
 
 _MIN_CORRELATION = 0.7  # minimum for reading a code: half of the signal's variance is explained
-_MIN_CONFIDENCE = 0.05  # minimum for reading a code; below it a code may be best by chance
+_MIN_CONFIDENCE = 0.05  # minimum for reading a code; below it the best code may be so by chance
 _NEGLIGIBLE_UNEXPLAINED = 1e-3
-"""Unexplained fraction of the variance below which a code explains everything, since bins and
-ranks are not more exact. If two codes do, either can be the one that is sent."""
+"""Unexplained fraction of the variance below which a code counts as a perfect match, since bins and
+ranks are no more exact. If two codes match perfectly, either may have been sent."""
 
 _SAME_LEVEL = 1e-5  # maximum rounding error of lit fractions
 
@@ -53,7 +53,7 @@ If each chip has a column of its own, no gap exceeds one chip, except for roundi
 """
 
 _CANDIDATE_CODES = 16  # number of codes compared in the second, more exact step
-_AT_ONCE = 2**15  # correlations in memory at a time, to fit the processor's cache
+_SUMS_IN_MEMORY = 2**15  # correlations computed at a time, to fit the processor's cache
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -69,16 +69,16 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if scene.transmitter.pattern:
         return replace(result, failure="A raw chip pattern is sent, which contains no packets.")
     scheme = scheme_of(scene.transmitter)
-    most = MAX_BITS if scheme.is_papers else MOST_BITS
-    if scheme.bits > most:
+    max_bits = MAX_BITS if scheme.is_papers else MOST_BITS
+    if scheme.bits > max_bits:
         return replace(
             result,
             failure=f"The payload has {scheme.bits} bits; the matched decoder compares all "
-            f"payloads, for this scheme of up to {most} bits: use the sequence detector.",
+            f"payloads, at most {max_bits} bits for this scheme: use the sequence detector.",
         )
     frequency = scene.transmitter.switching_frequency
-    chips_seen = len(signal) * scene.camera.readout_time * frequency
-    if chips_seen < scheme.length:
+    visible_chips = len(signal) * scene.camera.readout_time * frequency
+    if visible_chips < scheme.length:
         view = describe_short_view(len(signal), scheme.length, scene)
         return replace(result, failure=f"Less than one packet: {view}")
     exposure = Fraction(scene.camera.exposure_time) * Fraction(frequency)
@@ -90,22 +90,22 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if not np.isfinite(templates.energy).any():
         return replace(
             result,
-            failure="All codes look the same: the exposure time is a whole number of packets, or "
-            "so many packets that only their mean is left.",
+            failure="All codes look the same: the exposure lasts a whole number of packets, or so "
+            "many packets that only their mean remains.",
         )
     starts = _start_bins(len(signal), scene, scheme.length)
     counts = np.bincount(starts, minlength=scheme.length * BINS_PER_CHIP)
     gap = _widest_gap(counts) / BINS_PER_CHIP
     if gap > _WIDEST_GAP:
-        unseen = (
-            f"Not every chip is seen: the columns show a packet only at places up to {gap:.2g} "
-            "chips apart."
+        failure = (
+            f"Not every chip is visible: exposures start up to {gap:.2g} chips apart within a "
+            "packet."
         )
-        return replace(result, failure=blame_short_chips(unseen, scene))
-    read = _find_best_code(result, _fold(signal, starts, counts), templates, scene)
-    if read.failure is None:
-        return read
-    return replace(read, failure=mention_short_chips(read.failure, scene))
+        return replace(result, failure=blame_short_chips(failure, scene))
+    result = _find_best_code(result, _fold(signal, starts, counts), templates, scene)
+    if result.failure is None:
+        return result
+    return replace(result, failure=mention_short_chips(result.failure, scene))
 
 
 def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
@@ -119,16 +119,21 @@ def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
 
 def _widest_gap(counts: IndexArray) -> int:
     """Return the largest distance between bins of a packet in which an exposure starts."""
-    seen = np.flatnonzero(counts)
-    return int(np.diff(seen, append=seen[0] + len(counts)).max())
+    filled_bins = np.flatnonzero(counts)
+    return int(np.diff(filled_bins, append=filled_bins[0] + len(counts)).max())
 
 
 def _fold(signal: FloatArray, starts: IndexArray, counts: IndexArray) -> FloatArray:
     """Average the columns whose exposures start in the same bin of a packet, shape (bins,)."""
     sums = np.bincount(starts, signal, minlength=len(counts))
-    seen = np.flatnonzero(counts)
+    filled_bins = np.flatnonzero(counts)
     # Bins without columns are interpolated, since a profile has no jumps.
-    return np.interp(np.arange(len(counts)), seen, sums[seen] / counts[seen], period=len(counts))
+    return np.interp(
+        np.arange(len(counts)),
+        filled_bins,
+        sums[filled_bins] / counts[filled_bins],
+        period=len(counts),
+    )
 
 
 def _find_best_code(
@@ -142,36 +147,36 @@ def _find_best_code(
     # gamma and enhancement need not be known.
     rank = folded.argsort(kind="stable").argsort()
     if isinstance(templates, CodeTemplates):
-        likely, shifts = find_most_likely(templates.levels[rank], templates)
+        candidates, shifts = find_most_likely(templates.levels[rank], templates)
     else:
-        likely, shifts = templates.find_most_likely(
+        candidates, shifts = templates.find_most_likely(
             rank, _CANDIDATE_CODES, math.sqrt(1.0 - _NEGLIGIBLE_UNEXPLAINED)
         )
-    models = templates.profiles(likely)
-    # The levels of each single code are more exact than those of all codes.
+    models = templates.profiles(candidates)
+    # The levels of a single code are more exact than those of all codes together.
     signals = np.sort(models, axis=1)[:, rank]
     places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
     models = np.take_along_axis(models, places, axis=1)
     # A flat profile has only rounding errors, with which any signal correlates.
-    is_seen = np.isfinite(templates.energy[likely])
+    has_swing = np.isfinite(templates.energy[candidates])
     correlations = np.minimum(
         _row_correlations(signals, models), _level_correlations(folded, models)
     )
-    correlations = np.where(is_seen, correlations, 0.0)
+    correlations = np.where(has_swing, correlations, 0.0)
     second, best = np.argsort(correlations)[-2:].tolist()
     r1, r2 = float(correlations[best]), float(correlations[second])
     confidence = 1.0 - _unexplained(r1) / _unexplained(r2)
-    code = int(likely[best])
+    code = int(candidates[best])
     result = replace(
         result, correlation=r1, confidence=confidence, folded=signals[best], model=models[best]
     )
     failure = None
     if isinstance(templates, PayloadTemplates):
-        failure = _explain_ambiguity(code, likely, scene)
+        failure = _explain_ambiguity(code, candidates, scene)
     if failure is None and (r1 < _MIN_CORRELATION or confidence < _MIN_CONFIDENCE):
         failure = (
             f"No code stands out: the best one, {code}, has a correlation of {r1:.3f} with the "
-            f"signal, and the second best, {likely[second]}, of {r2:.3f}."
+            f"signal, and the second best, {candidates[second]}, of {r2:.3f}."
         )
     if failure is not None:
         return replace(result, failure=failure)
@@ -179,9 +184,9 @@ def _find_best_code(
     return add_bits(result, Framed((), bits), scene)
 
 
-def _explain_ambiguity(code: int, likely: IndexArray, scene: Scene) -> str | None:
+def _explain_ambiguity(code: int, candidates: IndexArray, scene: Scene) -> str | None:
     """Return a sentence if another code sends the same chips; None otherwise."""
-    other = find_same_chips(code, likely, scheme_of(scene.transmitter))
+    other = find_same_chips(code, candidates, scheme_of(scene.transmitter))
     if other is None:
         return None
     first, second = sorted((code, other))
@@ -194,31 +199,35 @@ def _explain_ambiguity(code: int, likely: IndexArray, scene: Scene) -> str | Non
 def find_most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
     """Return the codes that correlate best with the signal, and the bins at which they start."""
     bins, period = len(signal), packet_length(templates.bits)
-    about_mean = signal - signal.mean()
-    spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(templates.response))
-    with_response = np.fft.irfft(spectrum, bins)
+    centred = signal - signal.mean()
+    spectrum = np.fft.rfft(centred) * np.conj(np.fft.rfft(templates.response))
+    correlations = np.fft.irfft(spectrum, bins)
     places = np.arange(period)[:, None] * BINS_PER_CHIP + np.arange(bins)
-    first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], templates.bits)
+    first, second = sums_of_halves(np.concatenate([correlations] * 2)[places], templates.bits)
     codes = codes_by_levels(templates.bits)
     scores = _maximum_sums(first, second).ravel() / np.sqrt(templates.energy[codes])
     count = min(_CANDIDATE_CODES, len(scores))
-    likely = np.argpartition(scores, -count)[-count:]
-    of_first, of_second = np.divmod(likely, len(second))
-    return codes[likely], (first[of_first] + second[of_second]).argmax(axis=1)
+    candidates = np.argpartition(scores, -count)[-count:]
+    first_row, second_row = np.divmod(candidates, len(second))
+    return codes[candidates], (first[first_row] + second[second_row]).argmax(axis=1)
 
 
 def _maximum_sums(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the maximum of each sum of a row of one array and a row of the other."""
+    """Add each row of one array to each row of the other, and return the maximum of each sum."""
     columns, shape = first.shape[1], (len(first), len(second))
-    # Neighbours in memory belong to different sums, several of which the processor adds at a time.
+    # Neighbours in memory belong to different sums, so that the processor adds several at a time.
     first, second = first.T[:, :, None].copy(), second.T[:, None].copy()
-    step = max(1, _AT_ONCE // (shape[0] * shape[1]))
+    step = max(1, _SUMS_IN_MEMORY // (shape[0] * shape[1]))
     sums = np.empty((min(step, columns), *shape))
     largest = np.full(shape, -np.inf)
     for start in range(0, columns, step):
         part = slice(start, start + step)
-        some = np.add(first[part], second[part], out=sums[: len(first[part])])
-        np.maximum(largest, some.reshape(len(some), -1).max(axis=0).reshape(shape), out=largest)
+        sums_of_part = np.add(first[part], second[part], out=sums[: len(first[part])])
+        np.maximum(
+            largest,
+            sums_of_part.reshape(len(sums_of_part), -1).max(axis=0).reshape(shape),
+            out=largest,
+        )
     return largest
 
 
@@ -231,14 +240,14 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
     rows, bins = models.shape
     order = models.argsort(axis=1)
     light = (folded - folded.mean())[order]
-    begins = np.ones((rows, bins), dtype=bool)
-    begins[:, 1:] = np.diff(np.take_along_axis(models, order, axis=1), axis=1) > _SAME_LEVEL
-    starts = np.flatnonzero(begins)
+    is_level_start = np.ones((rows, bins), dtype=bool)
+    is_level_start[:, 1:] = np.diff(np.take_along_axis(models, order, axis=1), axis=1) > _SAME_LEVEL
+    starts = np.flatnonzero(is_level_start)
     counts = np.diff(starts, append=light.size)
-    between = np.add.reduceat(light.ravel(), starts) ** 2 / counts
+    energies = np.add.reduceat(light.ravel(), starts) ** 2 / counts
     energy = float(light[0] @ light[0])
     # A signal that folds to one level correlates with nothing.
-    fractions = np.bincount(starts // bins, between, minlength=rows) / (energy or np.inf)
+    fractions = np.bincount(starts // bins, energies, minlength=rows) / (energy or np.inf)
     return np.asarray(np.sqrt(np.clip(fractions, 0.0, 1.0)))
 
 

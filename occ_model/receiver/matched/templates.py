@@ -1,6 +1,6 @@
-"""Make the templates of all codes: their forward models, in a form that compares all at once.
+"""Make the templates of all codes: their forward models, in a form that is compared all at once.
 
-Those of the paper's scheme are sums of one response; those of other schemes are a table.
+Templates of the paper's scheme are sums of one response; those of other schemes form a table.
 """
 
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ from occ_model.transmitter.scheme import Scheme, bits_of, packet_length, packets
 
 BINS_PER_CHIP = 8  # so that an edge is known to a sixteenth of a chip
 
-_TONE_CODES = 256  # codes for the distribution of lit fractions, which more do not change
-_ROUNDING = 1e-12  # variance of lit fractions below which it is rounding error
+_TONE_CODES = 256  # codes for the distribution of lit fractions; more do not change it
+_ROUNDING = 1e-12  # variance of lit fractions below which it is a rounding error
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -34,8 +34,8 @@ class CodeTemplates:
     bits: int
     # Shape (bins,): lit fraction of an exposure that starts in each bin, if only chip 0 is lit
     response: FloatArray
-    # Shape (codes,): sum of squares of each code's profile about its mean; infinite if that is only
-    # rounding error, so that such a profile correlates with no signal
+    # Shape (codes,): sum of squares of each code's profile about its mean; infinite if it is only a
+    # rounding error, so that the profile correlates with no signal
     energy: FloatArray
     # Shape (bins,): evenly spaced quantiles of the lit fractions in all codes' profiles
     levels: FloatArray
@@ -50,10 +50,10 @@ def make_code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     """Make the forward model of every code; ``exposure``: exact length in chips."""
     response = chip_response(packet_length(bits), exposure)
     bins = np.arange(len(response))
-    some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
+    sampled_codes = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
     fractions = (bins + 0.5) / len(bins)
-    # The same as numpy.quantile, which searches each place separately and takes five times as long.
-    values = np.sort(_profiles(some, bits, response), axis=None)
+    # Equals numpy.quantile, which searches each value separately and takes five times as long.
+    values = np.sort(_profiles(sampled_codes, bits, response), axis=None)
     levels = np.interp(fractions * (values.size - 1), np.arange(values.size), values)
     templates = CodeTemplates(bits, response, _energies(bits, response), levels)
     for array in (templates.response, templates.energy, templates.levels):
@@ -75,9 +75,9 @@ def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArra
     """Sum values, shape (chips, n), over the lit chips in each half of every packet.
 
     A bit lights one of its two chips: the first one if the level after the bit is 0, the second one
-    if it is 1. A bit's chips thus depend only on the level after it. The sum over a packet is that
-    over its first half, header and ``bits // 2`` bits, of which there are only 2^(bits // 2), plus
-    that over its second half. Rows are numbered by the levels, read as a binary number.
+    if it is 1. A bit's chips thus depend only on the level after it. The sum over a packet is the
+    sum over its first half (header and ``bits // 2`` bits), which has only 2^(bits // 2) variants,
+    plus that over its second half. A row's number is the levels, read as a binary number.
     """
     header = np.array(HEADER, dtype=np.float64) @ values[: len(HEADER)]
     pairs = values[len(HEADER) :].reshape(bits, 2, -1)
@@ -97,9 +97,9 @@ def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
 @lru_cache(maxsize=4)
 def codes_by_levels(bits: int) -> IndexArray:
     """Return the code for each sequence of levels after its bits, read as a binary number."""
-    after = np.arange(2**bits)
-    before = after >> 1 | HEADER[-1] << (bits - 1)
-    codes: IndexArray = after ^ before  # a bit is 1 if the level changes
+    levels = np.arange(2**bits)
+    previous_levels = levels >> 1 | HEADER[-1] << (bits - 1)
+    codes: IndexArray = levels ^ previous_levels  # a bit is 1 if the level changes
     codes.flags.writeable = False
     return codes
 
@@ -119,9 +119,9 @@ def _energies(bits: int, response: FloatArray) -> FloatArray:
     period = packet_length(bits)
     spectrum = np.abs(np.fft.rfft(response)) ** 2
     spectrum[0] = 0.0  # about the mean
-    own = np.fft.irfft(spectrum, len(response))[::BINS_PER_CHIP]
+    autocorrelation = np.fft.irfft(spectrum, len(response))[::BINS_PER_CHIP]
     chips = np.arange(period)
-    first, second = sums_of_halves(own[(chips[:, None] - chips) % period], bits)
+    first, second = sums_of_halves(autocorrelation[(chips[:, None] - chips) % period], bits)
     within_first, across = sums_of_halves(first.T, bits)
     within_second = sums_of_halves(second.T, bits)[1]
     sums = within_first.diagonal()[:, None] + 2.0 * across.T + within_second.diagonal()
@@ -130,10 +130,10 @@ def _energies(bits: int, response: FloatArray) -> FloatArray:
     return np.where(energies > _ROUNDING * len(response), energies, np.inf)
 
 
-MOST_BITS = 12  # maximum bits to compare all payloads, which are 4,096
-_PAYLOADS_AT_ONCE = 512  # payloads whose correlations are in memory at a time
+MOST_BITS = 12  # bits up to which all payloads are compared: 4,096
+_PAYLOADS_AT_ONCE = 512  # payloads whose correlations are computed at a time
 
-_ROUNDING_OF_SPECTRA = 1e-6  # the same for payloads' profiles, in single precision
+_ROUNDING_OF_SPECTRA = 1e-6  # like _ROUNDING, for payloads' profiles in single precision
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -144,7 +144,7 @@ class PayloadTemplates:
     # Shape (payloads, bins // 2 + 1): spectrum of each payload's profile about its mean
     spectra: NDArray[np.complex64]
     means: FloatArray  # Shape (payloads,): mean of each profile, in lit fractions
-    # Shape (payloads,): sum of squares of each profile about its mean; infinite if that is only
+    # Shape (payloads,): sum of squares of each profile about its mean; infinite if it is only a
     # rounding error
     energy: FloatArray
     # Shape (payloads, bins): the lit fractions of each profile about its mean, sorted
@@ -152,31 +152,31 @@ class PayloadTemplates:
 
     def profiles(self, codes: IndexArray) -> FloatArray:
         """Return the lit fractions over a period for some payloads, shape (codes, bins)."""
-        about_mean = np.fft.irfft(self.spectra[codes], self.period * BINS_PER_CHIP, axis=1)
-        return np.asarray(about_mean + self.means[codes, None], dtype=np.float64)
+        centred = np.fft.irfft(self.spectra[codes], self.period * BINS_PER_CHIP, axis=1)
+        return np.asarray(centred + self.means[codes, None], dtype=np.float64)
 
     def find_most_likely(
-        self, rank: IndexArray, count: int, sure: float
+        self, rank: IndexArray, count: int, certain_score: float
     ) -> tuple[IndexArray, IndexArray]:
         """Return the ``count`` payloads that correlate best with a signal, and their phases.
 
-        Each payload is compared with the signal converted to its own levels, because it may light
-        most chips or hardly any. ``rank``, shape (bins,): the rank of each bin's value in the
-        folded signal. All payloads with a correlation of at least ``sure`` are included.
+        The signal is converted to the levels of each payload before they are compared, because a
+        payload may light most chips or hardly any. ``rank``, shape (bins,): each bin's rank in the
+        folded signal. All payloads with a correlation of at least ``certain_score`` are included.
         """
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)
         for start in range(0, len(scores), _PAYLOADS_AT_ONCE):
             part = slice(start, start + _PAYLOADS_AT_ONCE)
             spectra = np.fft.rfft(self.levels[part][:, rank], axis=1)
-            matches = np.fft.irfft(spectra * self.spectra[part].conj(), len(rank), axis=1)
-            phases[part] = matches.argmax(axis=1)
-            scores[part] = matches.max(axis=1)
+            correlations = np.fft.irfft(spectra * self.spectra[part].conj(), len(rank), axis=1)
+            phases[part] = correlations.argmax(axis=1)
+            scores[part] = correlations.max(axis=1)
         # The signal has the same energy, since it has the same levels in another order.
         scores /= self.energy
-        count = min(max(count, int((scores >= sure).sum())), len(scores))
-        likely = np.argpartition(scores, -count)[-count:]
-        return likely.astype(np.int64), phases[likely]
+        count = min(max(count, int((scores >= certain_score).sum())), len(scores))
+        candidates = np.argpartition(scores, -count)[-count:]
+        return candidates.astype(np.int64), phases[candidates]
 
 
 @lru_cache(maxsize=2)
@@ -207,7 +207,7 @@ def make_payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplat
 
 
 def find_same_chips(code: int, others: IndexArray, scheme: Scheme) -> int | None:
-    """Find another payload with the same repeated chips, possibly from another start."""
+    """Find another payload whose chips, sent repeatedly, are the same except for their start."""
     twice = np.tile(scheme.encode(bits_of(code, scheme.bits)), 2).tobytes()
     for other in others.tolist():
         if other != code and scheme.encode(bits_of(other, scheme.bits)).tobytes() in twice:

@@ -42,20 +42,19 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT
 from occ_model.transmitter.scheme import scheme_of
 
-_IMPROVEMENTS = 4  # maximum number of rounds of fit and detection
+_MAX_ROUNDS = 4  # maximum number of rounds of fit and detection
 
 _MAX_NOISE_RATIO = 0.9
-"""Ratio of the noise's variances after and before a round above which no other one is tried."""
+"""Ratio of the noise variances after and before a round, above which no further round follows."""
 
 _MIN_CERTAINTY = 0.9  # minimum probability that all bits are correct, to read a code
 
-_MAX_MEMORY = 32  # maximum chips in an exposure, since a longer mean leaves hardly any swing
+_MAX_MEMORY = 32  # maximum chips in an exposure, since a mean of more has hardly any swing
 _DOUBTFUL_FRACTION = 0.02
-"""Fraction of the signal's variance, neither due to the chips nor to noise, from which their
-timing may be wrong."""
+"""Unexplained fraction of the signal's variance above which the chips' timing may be wrong."""
 
 _MAX_UNEXPLAINED_OF_ANY_CHIPS = 0.005
-"""``MAX_UNEXPLAINED`` if no rule refuses chips, whose light may differ from random data."""
+"""``MAX_UNEXPLAINED`` of a scheme that accepts any chips: random data's light may not fit them."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -86,7 +85,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _explain_refusal(timing: RowTiming, rows: int, scene: Scene) -> str | None:
-    """Return why chips cannot be resolved with a timing, or that too few are in view."""
+    """Return why chips cannot be resolved with a timing, or that too few are visible."""
     if has_short_chips(scene):
         return blame_short_chips("The sequence detector needs one for each chip.", scene)
     if timing.memory > _MAX_MEMORY:
@@ -105,62 +104,64 @@ def _explain_refusal(timing: RowTiming, rows: int, scene: Scene) -> str | None:
 def _fit(
     signal: FloatArray, scene: Scene, timing: RowTiming, words: tuple[Word, ...]
 ) -> tuple[SequenceFit, Light]:
-    """Detect the chips; if they explain too little, follow their timing and detect them again."""
+    """Detect the chips; if they explain too little, refine their timing and detect them again."""
     light = convert_to_light(signal, scene)
     brightness = guess_brightness(light.values, expected_light(scene), timing, PER_CHIP)
-    known = find_phase(light.values, timing, brightness, words)
-    found = _improve_rounds(
-        signal, scene, detect(light.values, known, brightness, words), light, words
+    nominal_timing = find_phase(light.values, timing, brightness, words)
+    fit_and_light = _improve_rounds(
+        signal, scene, detect(light.values, nominal_timing, brightness, words), light, words
     )
-    if found[0].unexplained() <= _DOUBTFUL_FRACTION:
-        return found
-    followed = follow_timing(light.values, known, brightness, words)
-    fit = detect(light.values, followed, brightness, words)
-    other = _improve_rounds(signal, scene, fit, light, words)
-    return other if other[0].unexplained() < found[0].unexplained() else found
+    if fit_and_light[0].unexplained() <= _DOUBTFUL_FRACTION:
+        return fit_and_light
+    refined_timing = follow_timing(light.values, nominal_timing, brightness, words)
+    fit = detect(light.values, refined_timing, brightness, words)
+    refined = _improve_rounds(signal, scene, fit, light, words)
+    return refined if refined[0].unexplained() < fit_and_light[0].unexplained() else fit_and_light
 
 
 def _improve_rounds(
     signal: FloatArray, scene: Scene, fit: SequenceFit, light: Light, words: tuple[Word, ...]
 ) -> tuple[SequenceFit, Light]:
     """Improve timing, brightness and light by the detected chips, and detect them again."""
-    for _ in range(_IMPROVEMENTS):
+    for _ in range(_MAX_ROUNDS):
         if light.is_estimated:
-            # The chips found have their own distribution of light, closer to the picture's.
+            # The light of the detected chips is distributed more like the picture's.
             light = replace(light, values=rank_to_light(signal, fit.model))
         elif light.clipped.any():
-            # A white column may have had more light, according to the chips found.
-            least = fit.brightness.dark + fit.brightness.swing * fit.model
-            more = np.where(
+            # A white column may have had more light, as far as the detected chips show.
+            least_light = fit.brightness.dark + fit.brightness.swing * fit.model
+            unclipped = np.where(
                 light.clipped,
-                np.maximum(convert_to_light(signal, scene).values, least),
+                np.maximum(convert_to_light(signal, scene).values, least_light),
                 light.values,
             )
-            light = replace(light, values=more)
-        before, fit = fit, detect(light.values, *improve(light.values, fit), words)
-        same = np.array_equal(fit.chips.values, before.chips.values)
-        settled = (same and not light.is_estimated) or fit.noise > _MAX_NOISE_RATIO * before.noise
-        if settled and fit.unexplained() <= MAX_UNEXPLAINED:
+            light = replace(light, values=unclipped)
+        previous, fit = fit, detect(light.values, *improve(light.values, fit), words)
+        is_unchanged = np.array_equal(fit.chips.values, previous.chips.values)
+        is_settled = (
+            is_unchanged and not light.is_estimated
+        ) or fit.noise > _MAX_NOISE_RATIO * previous.noise
+        if is_settled and fit.unexplained() <= MAX_UNEXPLAINED:
             break
     return fit, light
 
 
 def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeResult:
-    fraction = fit.brightness.lit_fraction(light.values)
-    count = len(fraction)
-    places = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
-    starts = np.asarray(places / fit.timing.step, dtype=np.float64)
-    about, model = fraction - fraction.mean(), fit.model - fit.model.mean()
-    energy = math.sqrt(float(about @ about) * float(model @ model))
-    seen = (starts > -1.0 / fit.timing.step) & (starts < count)
+    lit_fraction = fit.brightness.lit_fraction(light.values)
+    count = len(lit_fraction)
+    positions = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
+    starts = np.asarray(positions / fit.timing.step, dtype=np.float64)
+    centred, model = lit_fraction - lit_fraction.mean(), fit.model - fit.model.mean()
+    energy = math.sqrt(float(centred @ centred) * float(model @ model))
+    is_visible = (starts > -1.0 / fit.timing.step) & (starts < count)
     return replace(
         result,
         chip_length=1.0 / fit.timing.step,
-        chips=fit.chips.values[seen],
-        chip_starts=starts[seen],
-        chip_likelihoods=probability(fit.ratios())[seen],
-        correlation=float(about @ model) / energy if energy > 0.0 else 0.0,
-        light=fraction,
+        chips=fit.chips.values[is_visible],
+        chip_starts=starts[is_visible],
+        chip_likelihoods=probability(fit.ratios())[is_visible],
+        correlation=float(centred @ model) / energy if energy > 0.0 else 0.0,
+        light=lit_fraction,
         light_model=fit.model,
     )
 
@@ -172,9 +173,9 @@ def _read_payload(
     ratios = np.where(fit.chips.values == 1, 1.0, -1.0) * fit.ratios()
     scheme = scheme_of(scene.transmitter)
     frame = read_frame(ratios, scheme, header)
-    read = add_bits(result, replace(frame.framed, headers=()), scene)
-    read = replace(read, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
-    failure = read.failure
+    result = add_bits(result, replace(frame.framed, headers=()), scene)
+    result = replace(result, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
+    failure = result.failure
     unexplained = fit.unexplained()
     if unexplained > (_MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else MAX_UNEXPLAINED):
         failure = (
@@ -189,5 +190,5 @@ def _read_payload(
             f"{scheme.bits} bits are correct with a probability of only {frame.certainty:.2g}."
         )
     if failure is None:
-        return read
-    return replace(read, code=None, payload="", failure=failure)
+        return result
+    return replace(result, code=None, payload="", failure=failure)

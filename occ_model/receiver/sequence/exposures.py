@@ -1,4 +1,4 @@
-"""Model what rows show of the chips: each row is the mean of the chips in its exposure.
+"""Model the light of rows: each row is the mean of the chips in its exposure.
 
 Row i is exposed over [i s + p, i s + p + T] in chips, with s = t_r f, T = t f and a phase p. The
 fraction of chip k in it is the overlap of the exposure with [k, k + 1], divided by T: the taps of a
@@ -12,7 +12,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 
-_KINDS = 4  # of chips in an exposure: the latest, those completely covered, and the two earliest
+_KINDS = 4  # kinds of chips in an exposure: the latest, completely covered ones, the two earliest
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ def taps(timing: RowTiming, starts: FloatArray) -> tuple[IndexArray, FloatArray]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipStatistics:
-    """Statistics that determine the squared distance of rows from chips, gathered by the last chip.
+    """Statistics that determine the squared distance of rows from chips, for each last chip.
 
     The squared distance of the rows that end in a chip from the light of chips c is c' G c - 2 v'
     c, plus a number that does not depend on the chips.
@@ -72,39 +72,43 @@ def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
 
 @lru_cache(maxsize=32)
 def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
-    """Return which chips of an exposure have the same sums over rows.
+    """Group the chips of an exposure that have the same sums over rows into kinds.
 
-    All chips between the first and the last ones have the same fraction. Returns a chip of each
-    kind, the pairs of kinds whose fractions are multiplied, and the number of the sum for each
-    feature: first the sums of a kind and the light, then those of products.
+    All chips between the first and the last ones have the same fraction. Returns one chip of each
+    kind, the two kinds of each product of fractions, and the index of each feature's sum: first
+    come the sums of a kind times the light, then those of the products.
     """
     kind = np.clip(np.arange(reach), None, 1)
     kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
-    chosen = np.unique(kind, return_index=True)[1]
-    kinds = len(chosen)
-    one, other = np.triu_indices(kinds)
+    examples = np.unique(kind, return_index=True)[1]
+    kinds = len(examples)
+    first_kind, second_kind = np.triu_indices(kinds)
     product = np.zeros((kinds, kinds), dtype=np.int64)
-    product[one, other] = product[other, one] = kinds + np.arange(len(one))
+    product[first_kind, second_kind] = product[second_kind, first_kind] = kinds + np.arange(
+        len(first_kind)
+    )
     upper, lower = _pairs(reach)
     sums = np.concatenate([kind, product[kind, kind], product[kind[upper], kind[lower]]])
-    return chosen, one, other, sums
+    return examples, first_kind, second_kind, sums
 
 
 def gather(light: FloatArray, timing: RowTiming) -> ChipStatistics:
-    """Gather rows, given as fractions of full light, by the chip in which each of them ends."""
+    """Sum up rows, given as fractions of full light, for each chip in which rows end."""
     last, fractions = taps(timing, timing.starts(len(light)))
     first, reach = int(last[0]), fractions.shape[1]
-    chosen, one, other, sums = _kinds(reach)
-    of_kinds = np.ascontiguousarray(fractions[:, chosen].T)
+    examples, first_kind, second_kind, sums = _kinds(reach)
+    kind_fractions = np.ascontiguousarray(fractions[:, examples].T)
     # Differences of running sums are exact enough, as no sum exceeds the number of rows.
-    running = np.zeros((len(chosen) + len(one) + 1, len(light) + 1))
-    terms = running[:, 1:]
-    np.multiply(of_kinds, light, out=terms[: len(chosen)])
-    np.multiply(of_kinds[one], of_kinds[other], out=terms[len(chosen) : -1])
+    running_sums = np.zeros((len(examples) + len(first_kind) + 1, len(light) + 1))
+    terms = running_sums[:, 1:]
+    np.multiply(kind_fractions, light, out=terms[: len(examples)])
+    np.multiply(
+        kind_fractions[first_kind], kind_fractions[second_kind], out=terms[len(examples) : -1]
+    )
     np.multiply(light, light, out=terms[-1])
     np.cumsum(terms, axis=1, out=terms)
     edges = np.searchsorted(last, np.arange(first, int(last[-1]) + 2))
-    of_chips = np.diff(running[:, edges], axis=1)
-    features = of_chips[sums]
+    chip_sums = np.diff(running_sums[:, edges], axis=1)
+    features = chip_sums[sums]
     features[2 * reach :] *= 2.0
-    return ChipStatistics(first, features.T, of_chips[-1])
+    return ChipStatistics(first, features.T, chip_sums[-1])

@@ -1,12 +1,12 @@
-"""Fit what the detector does not know: the phase of the chips, and their brightness.
+"""Fit what the detector does not know: the phase and the brightness of the chips.
 
 The light of a row is b(x) + a(x) p, with p the lit fraction of its exposure and x its place in the
 picture; a and b vary slowly because of the lens and an uneven panel. These and the timing are
 improved from detected chips (decision-directed), and then the chips are detected again.
 
-An error of 1 % in the readout time amounts to half a chip at the ends of 96 chips, and to several
-chips over a picture. The chips detected in the middle give the timing there, which holds for a part
-twice as large, and so on up to the whole picture.
+An error of 1 % in the readout time shifts the ends of 96 chips by half a chip, and the ends of a
+picture by several. Therefore the timing is fitted in the middle first, then in a part twice as
+large, and so on up to the whole picture.
 """
 
 from dataclasses import dataclass, replace
@@ -18,21 +18,21 @@ from occ_model.arrays import FloatArray
 from occ_model.receiver.sequence.code_words import MOST_STATES
 from occ_model.receiver.sequence.exposures import ChipStatistics, RowTiming, gather, taps
 from occ_model.receiver.sequence.search import Chips, find_best_chips, least_distances, search_beam
-from occ_model.receiver.sequence.trellis import Word, count_most_states, make_trellis
+from occ_model.receiver.sequence.trellis import Word, count_paths, make_trellis
 from occ_model.receiver.signal import unexplained_fraction
 
 _PHASES = 8  # number of phases tried, evenly spaced over one chip
 TRIED_CHIPS = 96  # chips in the middle of the picture with which the phases are tried
 
-_LAG_ROWS = 3  # distance in rows at which products show the contrast without the independent noise
-_MIN_NOISE = 1e-8  # minimum variance in fractions of full light, since no model is more exact
+_LAG_ROWS = 3  # lags in rows at which the autocovariance has no contribution of independent noise
+_MIN_NOISE = 1e-8  # minimum variance in squared fractions of full light: no model is more exact
 _SINGULAR = 1e-10  # fraction of the largest singular value below which others are rounding errors
 _MAX_STEP = 0.1  # maximum change of the phase in one improvement, in chips
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Brightness:
-    """The light of rows with a dark lamp (b), and the swing by a lit one (a), shape (rows,)."""
+    """The light of rows with a dark lamp (b), and what a lit lamp adds (a), shape (rows,)."""
 
     dark: FloatArray
     swing: FloatArray
@@ -56,8 +56,8 @@ class SequenceFit:
     @property
     def noise(self) -> float:
         """Variance of the rows about the model, in squared fractions of full light."""
-        free = max(1, len(self.residual) - len(self.chips.values))
-        return max(float(self.residual @ self.residual) / free, _MIN_NOISE)
+        degrees_of_freedom = max(1, len(self.residual) - len(self.chips.values))
+        return max(float(self.residual @ self.residual) / degrees_of_freedom, _MIN_NOISE)
 
     def noise_of_sums(self) -> float:
         """Return the variance per row of the residual's sum over an exposure.
@@ -65,8 +65,8 @@ class SequenceFit:
         It exceeds the noise if neighbouring residuals are correlated and do not average out.
         """
         reach = min(round(self.timing.exposure / self.timing.step), len(self.residual) // 4)
-        own = _autocorrelation(self.residual, reach)
-        return self.noise * max(1.0, 1.0 + 2.0 * float(own[1:].sum()))
+        correlations = _autocorrelation(self.residual, reach)
+        return self.noise * max(1.0, 1.0 + 2.0 * float(correlations[1:].sum()))
 
     def ratios(self) -> FloatArray:
         """Return the log-likelihood ratio of each chip to its opposite, shape (chips,)."""
@@ -78,11 +78,11 @@ class SequenceFit:
 
 
 def lit_fractions(chips: Chips, timing: RowTiming, rows: int) -> tuple[FloatArray, FloatArray]:
-    """Return the lit fraction of each row's exposure, and its derivative with the phase."""
+    """Return the lit fraction of each row's exposure, and its derivative by the phase."""
     starts = timing.starts(rows)
     last, fractions = taps(timing, starts)
-    place = last[:, None] - np.arange(fractions.shape[1]) - chips.first
-    lit = chips.values[np.clip(place, 0, len(chips.values) - 1)].astype(np.float64)
+    index = last[:, None] - np.arange(fractions.shape[1]) - chips.first
+    lit = chips.values[np.clip(index, 0, len(chips.values) - 1)].astype(np.float64)
     model = np.einsum("ij,ij->i", fractions, lit)
     # The exposure gains the chip in which it ends and loses the one in which it starts.
     first = np.clip(np.floor(starts).astype(np.int64) - chips.first, 0, len(chips.values) - 1)
@@ -97,13 +97,15 @@ def guess_brightness(
     ``expected``: the lit fractions of exposures of random data in the order of time, with
     ``per_chip`` values per chip.
     """
-    about = light - light.mean()
+    centred = light - light.mean()
     lags = np.arange(1, _LAG_ROWS + 1)
-    own = np.array([about[lag:] @ about[:-lag] for lag in lags]) / len(light)
-    swing = expected - expected.mean()
+    row_covariances = np.array([centred[lag:] @ centred[:-lag] for lag in lags]) / len(light)
+    centred_expected = expected - expected.mean()
     shifts = np.rint(lags * timing.step * per_chip).astype(np.int64)
-    model = np.array([np.roll(swing, shift) @ swing for shift in shifts]) / len(swing)
-    ratio = max(float(own.sum()), 1e-12) / max(float(model.sum()), 1e-12)
+    expected_covariances = np.array(
+        [np.roll(centred_expected, shift) @ centred_expected for shift in shifts]
+    ) / len(centred_expected)
+    ratio = max(float(row_covariances.sum()), 1e-12) / max(float(expected_covariances.sum()), 1e-12)
     scale = float(np.sqrt(ratio))
     dark = float(light.mean()) - scale * float(expected.mean())
     return Brightness(np.full(len(light), dark), np.full(len(light), scale))
@@ -115,18 +117,18 @@ def find_phase(
     """Find the phase for which the chips in the middle of the picture fit best."""
     count = min(len(light), round((TRIED_CHIPS + timing.exposure) / timing.step))
     first = (len(light) - count) // 2
-    fraction = brightness.lit_fraction(light)[first : first + count]
-    tried = [
-        replace(timing, phase=timing.step * first + place / _PHASES) for place in range(_PHASES)
+    lit_fraction = brightness.lit_fraction(light)[first : first + count]
+    timings = [
+        replace(timing, phase=timing.step * first + index / _PHASES) for index in range(_PHASES)
     ]
-    seen = [gather(fraction, one) for one in tried]
-    if count_most_states(words, timing.memory) <= MOST_STATES:
-        distances = least_distances(make_trellis(words, timing.memory), seen)
+    statistics = [gather(lit_fraction, one) for one in timings]
+    if count_paths(words, timing.memory) <= MOST_STATES:
+        distances = least_distances(make_trellis(words, timing.memory), statistics)
     else:
-        chips = [_find_most_likely(words, timing, one) for one in seen]
-        models = [lit_fractions(c, t, count)[0] for c, t in zip(chips, tried, strict=True)]
-        distances = np.array([float(np.sum((fraction - model) ** 2)) for model in models])
-    best = tried[int(np.argmin(distances))]
+        chips = [_find_most_likely(words, timing, one) for one in statistics]
+        models = [lit_fractions(c, t, count)[0] for c, t in zip(chips, timings, strict=True)]
+        distances = np.array([float(np.sum((lit_fraction - model) ** 2)) for model in models])
+    best = timings[int(np.argmin(distances))]
     return replace(best, phase=best.phase - timing.step * first)
 
 
@@ -134,16 +136,16 @@ def detect(
     light: FloatArray, timing: RowTiming, brightness: Brightness, words: tuple[Word, ...]
 ) -> SequenceFit:
     """Detect the chips; ``light``: proportional to the light of each row, up to a constant."""
-    fraction = brightness.lit_fraction(light)
-    chips = _find_most_likely(words, timing, gather(fraction, timing))
-    model, _ = lit_fractions(chips, timing, len(fraction))
-    return SequenceFit(chips, timing, brightness, model, fraction - model)
+    lit_fraction = brightness.lit_fraction(light)
+    chips = _find_most_likely(words, timing, gather(lit_fraction, timing))
+    model, _ = lit_fractions(chips, timing, len(lit_fraction))
+    return SequenceFit(chips, timing, brightness, model, lit_fraction - model)
 
 
 def _find_most_likely(
     words: tuple[Word, ...], timing: RowTiming, statistics: ChipStatistics
 ) -> Chips:
-    if count_most_states(words, timing.memory) <= MOST_STATES:
+    if count_paths(words, timing.memory) <= MOST_STATES:
         return find_best_chips(make_trellis(words, timing.memory), statistics)
     return search_beam(words, timing.memory, statistics)
 
@@ -156,11 +158,11 @@ def improve(light: FloatArray, fit: SequenceFit) -> tuple[RowTiming, Brightness]
     # timing.
     powers = _powers(count)
     terms = np.concatenate([powers, powers * model, powers[:2] * (slope * fit.brightness.swing)])
-    found = np.linalg.lstsq(terms @ terms.T, terms @ light, rcond=_SINGULAR)[0]
-    dark, swing = found[:3] @ powers, found[3:6] @ powers
+    coefficients = np.linalg.lstsq(terms @ terms.T, terms @ light, rcond=_SINGULAR)[0]
+    dark, swing = coefficients[:3] @ powers, coefficients[3:6] @ powers
     if not (swing > 0.0).all():
         return fit.timing, fit.brightness
-    shift, drift = np.clip(found[6:], -_MAX_STEP, _MAX_STEP).tolist()
+    shift, drift = np.clip(coefficients[6:], -_MAX_STEP, _MAX_STEP).tolist()
     # The phase of the row at x changes by shift + drift x.
     step = fit.timing.step + 2.0 * drift / max(count - 1, 1)
     timing = replace(fit.timing, phase=fit.timing.phase + shift - drift, step=step)
@@ -169,27 +171,29 @@ def improve(light: FloatArray, fit: SequenceFit) -> tuple[RowTiming, Brightness]
 
 @lru_cache(maxsize=4)
 def _powers(rows: int) -> FloatArray:
-    """Return 1, x and x squared for x from -1 to 1 over the rows, shape (3, rows)."""
-    place = np.linspace(-1.0, 1.0, rows)
-    return np.stack([np.ones(rows), place, place * place])
+    """Return 1, x and x^2 for x from -1 to 1 over the rows, shape (3, rows)."""
+    x = np.linspace(-1.0, 1.0, rows)
+    return np.stack([np.ones(rows), x, x * x])
 
 
 def _autocorrelation(values: FloatArray, reach: int) -> FloatArray:
     """Return the autocorrelation of values up to a lag of ``reach``, shape (reach + 1,)."""
-    about = values - values.mean()
-    energy = max(float(about @ about), _MIN_NOISE)
-    ahead = [float(about[lag:] @ about[: len(about) - lag]) for lag in range(1, reach + 1)]
-    return np.array([energy, *ahead]) / energy
+    centred = values - values.mean()
+    energy = max(float(centred @ centred), _MIN_NOISE)
+    products = [float(centred[lag:] @ centred[: len(centred) - lag]) for lag in range(1, reach + 1)]
+    return np.array([energy, *products]) / energy
 
 
-_MAX_TURNS = 8  # rounds for a part's timing, each of which moves its ends by at most 0.1 chips
+_MAX_PART_ROUNDS = (
+    8  # rounds for a part's timing, each of which moves its ends by at most 0.1 chips
+)
 _CONVERGED_CHIPS = 0.01  # movement of a part's ends in chips below which the fit has converged
 
 
 def follow_timing(
     light: FloatArray, timing: RowTiming, brightness: Brightness, words: tuple[Word, ...]
 ) -> RowTiming:
-    """Improve a timing that fits the middle, and whose step may be wrong by some percent."""
+    """Improve a timing that fits the middle but whose step may be wrong by a few percent."""
     count = len(light)
     size = round((TRIED_CHIPS + timing.exposure) / timing.step)
     while True:
@@ -205,12 +209,14 @@ def _follow_in_part(
 ) -> RowTiming:
     first = (len(light) - size) // 2
     part = slice(first, first + size)
-    seen = light[part]
-    bright = Brightness(brightness.dark[part], brightness.swing[part])
-    here = replace(timing, phase=timing.phase + timing.step * first)
-    for _ in range(_MAX_TURNS):
-        before = here
-        here, _bright = improve(seen, detect(seen, here, bright, words))
-        if abs(here.step - before.step) * size < _CONVERGED_CHIPS:
+    part_light = light[part]
+    part_brightness = Brightness(brightness.dark[part], brightness.swing[part])
+    part_timing = replace(timing, phase=timing.phase + timing.step * first)
+    for _ in range(_MAX_PART_ROUNDS):
+        previous = part_timing
+        part_timing, _brightness = improve(
+            part_light, detect(part_light, part_timing, part_brightness, words)
+        )
+        if abs(part_timing.step - previous.step) * size < _CONVERGED_CHIPS:
             break
-    return replace(here, phase=here.phase - here.step * first)
+    return replace(part_timing, phase=part_timing.phase - part_timing.step * first)

@@ -1,9 +1,8 @@
 """Make the trellis of a code: which chips may follow which within an exposure.
 
 A code is a set of words of chips, each from one state of the encoder to another; a header is an
-additional word. The places at which words start in a chip sequence are unknown, and any word may
-follow any other that ends in its initial state. Each state of the trellis is a place within a word,
-with the chips before it.
+additional word. Where words start in a chip sequence is unknown, and a word may follow any other
+that ends in its initial state. A state of the trellis is a place within a word and the last chips.
 """
 
 from dataclasses import dataclass
@@ -18,11 +17,11 @@ NO_STATE = -1  # marks an unused place of a table
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """Chips that are sent together, leading from one state of the encoder to another."""
+    """Chips that are sent together and lead from one state of the encoder to another."""
 
-    before: int
+    start_state: int
     chips: tuple[int, ...]
-    after: int
+    end_state: int
 
 
 FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any other
@@ -32,17 +31,17 @@ FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any oth
 class Trellis:
     """The states of a code for exposures of some chips, and the steps between them.
 
-    A step adds a chip. The steps into a state are numbered; missing ones are ``NO_STATE``.
+    A step adds a chip. The steps into each state are numbered; unused numbers have ``NO_STATE``.
     """
 
     memory: int  # Number of chips in a state
     places: IndexArray  # Shape (states,): the place within the words, see steps_from_places
     chips: ByteArray  # Shape (states, memory): the last chips, with the latest first
-    before: IndexArray  # Shape (steps, states): the state from which each step comes
+    origins: IndexArray  # Shape (steps, states): the state from which each step comes
     words: FloatArray  # Shape (words, memory + 1): possible chips of a step, with the latest first
-    word_of: IndexArray  # Shape (steps, states): the word of each step
-    # Shape (ways, states): the steps from each state, as indices of the flattened ``before``
-    after: IndexArray
+    word_indices: IndexArray  # Shape (steps, states): the word of each step
+    # Shape (steps, states): the steps from each state, as indices of the flattened ``origins``
+    exits: IndexArray
 
     @property
     def states(self) -> int:
@@ -53,94 +52,101 @@ class Trellis:
 def steps_from_places(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...]:
     """Return the steps from each place within the words, as pairs of a chip and a place.
 
-    Places are the encoder's states between words, and those within words. Words with the same
-    beginning have common places, and places from which the same chips can follow are merged.
+    A place is a state of the encoder between words, or a place within a word. Words with the same
+    beginning share places, and places from which the same chips can follow are merged.
     """
-    count = 1 + max(max(word.before, word.after) for word in words)
+    count = 1 + max(max(word.start_state, word.end_state) for word in words)
     steps: list[dict[tuple[int, int], int]] = [{} for _ in range(count)]
     for word in words:
-        place = word.before
+        place = word.start_state
         for chip in word.chips[:-1]:
             key = (chip, NO_STATE)
             if key not in steps[place]:
                 steps[place][key] = len(steps)
                 steps.append({})
             place = steps[place][key]
-        steps[place][(word.chips[-1], word.after)] = word.after
-    return _merge([tuple((chip, to) for (chip, _), to in one.items()) for one in steps])
+        steps[place][(word.chips[-1], word.end_state)] = word.end_state
+    return _merge(
+        [tuple((chip, to) for (chip, _), to in place_steps.items()) for place_steps in steps]
+    )
 
 
 def _merge(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, int], ...], ...]:
     """Merge places from which the same chips can follow, by refining classes until stable."""
     classes, count = [0] * len(steps), 1
     while True:
-        seen: dict[tuple[int, frozenset[tuple[int, int]]], int] = {}
-        finer = []
-        for own, one in zip(classes, steps, strict=True):
-            key = (own, frozenset((chip, classes[to]) for chip, to in one))
-            finer.append(seen.setdefault(key, len(seen)))
-        if len(seen) == count:
+        class_numbers: dict[tuple[int, frozenset[tuple[int, int]]], int] = {}
+        refined_classes = []
+        for place_class, place_steps in zip(classes, steps, strict=True):
+            key = (place_class, frozenset((chip, classes[to]) for chip, to in place_steps))
+            refined_classes.append(class_numbers.setdefault(key, len(class_numbers)))
+        if len(class_numbers) == count:
             break
-        classes, count = finer, len(seen)
-    merged = {own: sorted(key[1]) for key, own in zip(seen, range(count), strict=True)}
-    # The classes have the same numbers in both rounds, each that of its first place.
-    return tuple(tuple(merged[own]) for own in range(count))
+        classes, count = refined_classes, len(class_numbers)
+    class_steps = {
+        place_class: sorted(key[1])
+        for key, place_class in zip(class_numbers, range(count), strict=True)
+    }
+    # Both rounds number the classes equally, in the order of their first places.
+    return tuple(tuple(class_steps[place_class]) for place_class in range(count))
 
 
-def count_most_states(words: tuple[Word, ...], memory: int) -> int:
-    """Return the maximum number of a trellis's states: that of paths of ``memory`` steps."""
+def count_paths(words: tuple[Word, ...], memory: int) -> int:
+    """Return the maximum number of a trellis's states: the number of paths of ``memory`` steps."""
     steps = steps_from_places(words)
-    ways = [1] * len(steps)
+    path_counts = [1] * len(steps)
     for _ in range(memory):
-        on = [0] * len(steps)
-        for place, one in enumerate(steps):
-            for _, to in one:
-                on[to] += ways[place]
-        ways = on
-    return sum(ways)
+        next_counts = [0] * len(steps)
+        for place, place_steps in enumerate(steps):
+            for _, to in place_steps:
+                next_counts[to] += path_counts[place]
+        path_counts = next_counts
+    return sum(path_counts)
 
 
 @lru_cache(maxsize=16)
 def make_trellis(words: tuple[Word, ...], memory: int) -> Trellis:
     """Make the trellis of a code; ``memory``: one chip less than an exposure can touch."""
     steps = steps_from_places(words)
-    reached: set[tuple[int, tuple[int, ...]]] = {(place, ()) for place in range(len(steps))}
+    reachable: set[tuple[int, tuple[int, ...]]] = {(place, ()) for place in range(len(steps))}
     for _ in range(memory):
-        reached = {(to, (chip, *chips)) for place, chips in reached for chip, to in steps[place]}
-    states = sorted(reached)
-    number = {state: place for place, state in enumerate(states)}
-    into: list[list[tuple[int, tuple[int, ...]]]] = [[] for _ in states]
-    for (place, chips), state in number.items():
+        reachable = {
+            (to, (chip, *chips)) for place, chips in reachable for chip, to in steps[place]
+        }
+    states = sorted(reachable)
+    state_numbers = {state: place for place, state in enumerate(states)}
+    steps_into: list[list[tuple[int, tuple[int, ...]]]] = [[] for _ in states]
+    for (place, chips), origin in state_numbers.items():
         for chip, to in steps[place]:
             word = (chip, *chips)
-            into[number[to, word[:memory]]].append((state, word))
-    most = max(map(len, into))
-    before = np.full((most, len(states)), NO_STATE)
-    words_of = np.zeros((most * len(states), memory + 1))
-    for state, found in enumerate(into):
-        for step, (origin, word) in enumerate(found):
-            before[step, state] = origin
-            words_of[step * len(states) + state] = word
-    different, word_of = np.unique(words_of, axis=0, return_inverse=True)
+            steps_into[state_numbers[to, word[:memory]]].append((origin, word))
+    max_steps = max(map(len, steps_into))
+    origins = np.full((max_steps, len(states)), NO_STATE)
+    step_words = np.zeros((max_steps * len(states), memory + 1))
+    for state, state_steps in enumerate(steps_into):
+        for step, (origin, word) in enumerate(state_steps):
+            origins[step, state] = origin
+            step_words[step * len(states) + state] = word
+    words_of_steps, word_indices = np.unique(step_words, axis=0, return_inverse=True)
     return Trellis(
         memory,
         np.array([place for place, _ in states]),
         np.array([chips for _, chips in states], dtype=np.uint8).reshape(len(states), memory),
-        before,
-        different,
-        word_of.reshape(before.shape),
-        _steps_from_states(before),
+        origins,
+        words_of_steps,
+        word_indices.reshape(origins.shape),
+        _steps_from_states(origins),
     )
 
 
-def _steps_from_states(before: IndexArray) -> IndexArray:
+def _steps_from_states(origins: IndexArray) -> IndexArray:
     """Return the steps from each state, as indices of the flattened table of steps into states."""
-    flat = before.ravel()
-    used = np.flatnonzero(flat != NO_STATE)
-    used = used[np.argsort(flat[used], kind="stable")]
-    origins = flat[used]
-    starts = np.searchsorted(origins, np.arange(before.shape[1]))
-    rank = np.arange(len(used)) - starts[origins]
-    after = np.full((int(rank.max()) + 1, before.shape[1]), NO_STATE)
-    after[rank, origins] = used
-    return after
+    flat_origins = origins.ravel()
+    steps = np.flatnonzero(flat_origins != NO_STATE)
+    steps = steps[np.argsort(flat_origins[steps], kind="stable")]
+    sorted_origins = flat_origins[steps]
+    starts = np.searchsorted(sorted_origins, np.arange(origins.shape[1]))
+    rank = np.arange(len(steps)) - starts[sorted_origins]
+    exits = np.full((int(rank.max()) + 1, origins.shape[1]), NO_STATE)
+    exits[rank, sorted_origins] = steps
+    return exits

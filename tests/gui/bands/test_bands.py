@@ -67,7 +67,7 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
 @pytest.mark.parametrize(
     ("changes", "why"),
     [({"exposure_time": 1e-3, "iso": 4e6}, "overexposed"),
-     ({"exposure_time": 1e-4, "readout_time": 1 / 1920}, "like places")],
+     ({"exposure_time": 1e-4, "readout_time": 1 / 1920}, "the same phase")],
 )  # fmt: skip
 def test_bars_that_the_picture_hides_are_not_headlined_as_seen(
     view: BandsView, changes: dict[str, float], why: str
@@ -237,13 +237,13 @@ def test_brightness_is_kept_by_speed_and_aperture(exposure: float) -> None:
 @pytest.mark.parametrize("duty", [0.0, 1.0])
 def test_a_steady_lamp_needs_no_cure(duty: float) -> None:
     cure = cure_of(_LAMP.replace(light="lamp", duty=duty), 1e-6)
-    assert (cure.repeats, cure.depth) == (0.0, (0.0, 0.0))
+    assert (cure.repetition_rate, cure.depth) == (0.0, (0.0, 0.0))
 
 
 def test_the_cure_of_a_lamp_of_1920_hz_shows_no_bars() -> None:
     cure = cure_of(_LAMP)
-    assert cure.repeats == pytest.approx(1920.0)
+    assert cure.repetition_rate == pytest.approx(1920.0)
     assert [speed.name for speed in cure.speeds] == ["1/640 s", "1/320 s"]
-    assert [speed.name for speed in cure.kept] == ["1/240 s", "1/120 s"]
+    assert [speed.name for speed in cure.safe_speeds] == ["1/240 s", "1/120 s"]
     assert occ.band_depth(cure.scene).peak_to_peak < 1e-9
     assert not occ.band_depth(cure.scene).is_visible

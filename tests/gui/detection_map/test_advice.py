@@ -115,7 +115,7 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     assert "Below 3.468 kHz a picture does not contain" in lines[3]
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
-    assert "above 1.17 ms, columns that are lit throughout are white" in lines[7]
+    assert "above 1.17 ms, completely lit columns are white" in lines[7]
 
 
 def test_an_end_without_a_sure_value_has_no_destination(small_scene: Scene) -> None:

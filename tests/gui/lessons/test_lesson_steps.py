@@ -84,7 +84,7 @@ def test_check_formula_explanation_and_report_use_the_present_scene(
     lesson = not_none(bench.pane.controller.current)
     (first, *others) = bench.pane.answers.list_steps(lesson)
     assert first.scene == bench.scenes.scene
-    assert [each.scene for each in others] == [each.step.asked for each in others]
+    assert [each.scene for each in others] == [each.step.question_scene for each in others]
 
 
 def test_the_values_of_a_question_must_be_set_before_an_answer_is_judged(

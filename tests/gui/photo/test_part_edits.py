@@ -81,7 +81,7 @@ def test_every_lamp_has_an_outline_with_its_number_above_it_and_a_row(bench: Ben
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
     tip = not_none(table.item(2, 3)).toolTip()
-    assert tip == "Doubtful: only 2.1 periods are in view, which can be a coincidence."
+    assert tip == "Doubtful: only 2.1 periods are visible, which may be a coincidence."
     for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
         place = (number.pos().x(), number.pos().y())
         assert place == (lamp.region.first_column, lamp.region.first_row)

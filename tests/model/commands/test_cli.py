@@ -258,7 +258,7 @@ def test_what_hides_the_bars_of_a_picture_is_named(capsys: pytest.CaptureFixture
     pulses = "bands --set pattern=10 --set"
     for words, what, bars in (
         ("switching_frequency=64kHz --set readout_time=31.25us --set exposure_time=10us",
-         "like places of the light's period", "196 %"),
+         "columns all start at the same phase", "196 %"),
         ("switching_frequency=240Hz --set exposure_time=10ms", "is overexposed", "32.7 %"),
     ):  # fmt: skip
         assert main(f"{pulses} {words}".split()) == 0

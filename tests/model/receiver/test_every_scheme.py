@@ -84,8 +84,8 @@ def test_the_matched_decoder_refuses_too_many_payloads(payload: str, most: int) 
     scene = SCENE.replace(line_code="manchester", payload=payload)
     result = occ.decode(signal(scene, 0.0), scene, "matched")
     assert result.failure == (
-        "The payload has 40 bits; the matched decoder compares all payloads, for this scheme of up "
-        f"to {most} bits: use the sequence detector."
+        "The payload has 40 bits; the matched decoder compares all payloads, at most "
+        f"{most} bits for this scheme: use the sequence detector."
     )
 
 

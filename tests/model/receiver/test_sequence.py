@@ -119,8 +119,8 @@ def test_chips_are_improved_as_long_as_it_helps(
     made: list[Any] = []
 
     def detect(*_: object) -> Any:
-        before = made[-1].chips.values.tolist() if made else [0, 1]
-        chips = [chip ^ flips[len(made)] for chip in before]
+        start_state = made[-1].chips.values.tolist() if made else [0, 1]
+        chips = [chip ^ flips[len(made)] for chip in start_state]
         made.append(fit_of(noises[len(made)], chips, unexplained))
         return made[-1]
 
@@ -172,11 +172,11 @@ def test_headers_lead_only_between_states_of_the_encoder(line_code: str) -> None
     )
     headers = [word for word in found.words if word.chips == found.header]
     blocks = [word for word in found.words if word.chips != found.header]
-    states = {word.before for word in blocks}
+    states = {word.start_state for word in blocks}
     assert found.header
-    assert {word.after for word in blocks} <= states
+    assert {word.end_state for word in blocks} <= states
     # After a header the encoder may be in any state, as a frame may continue from any.
-    assert {(word.before, word.after) for word in headers} == set(product(states, states))
+    assert {(word.start_state, word.end_state) for word in headers} == set(product(states, states))
 
 
 @pytest.mark.parametrize("longest", [1, 2, 3])

@@ -57,12 +57,12 @@ def test_crops_stretch_both_pictures_equally_and_state_the_amplification() -> No
     checks = np.where(np.indices(CROP).sum(axis=0) % 2, 3.0, -3.0)
     other[100:164, 200:312] -= checks
     crop = choose_crop(one, other)
-    assert crop.with_effect.shape == crop.without.shape == crop.difference.shape == CROP
+    assert crop.with_effect.shape == crop.without_effect.shape == crop.difference.shape == CROP
     assert not crop.is_averaged
     np.testing.assert_allclose(crop.difference, 128 + checks * crop.amplification, atol=1)
-    both = crop.with_effect.astype(int) - crop.without
-    inside = (np.minimum(crop.with_effect, crop.without) > 0) & (
-        np.maximum(crop.with_effect, crop.without) < 255
+    both = crop.with_effect.astype(int) - crop.without_effect
+    inside = (np.minimum(crop.with_effect, crop.without_effect) > 0) & (
+        np.maximum(crop.with_effect, crop.without_effect) < 255
     )
     assert np.ptp(np.abs(both[inside])) <= 1  # both are stretched in the same way
 
@@ -80,12 +80,12 @@ def test_the_times_of_a_picture_add_up_to_the_pictures_time(scene: Scene, tolera
     frame = occ.render(scene, tolerance=tolerance, noise="reused")
     fractions = TimeFractions.of(frame)
     assert fractions.seconds == pytest.approx(sum(frame.timings.values()), rel=1e-12)
-    assert fractions.everything_else >= 0.0
-    parts = (*fractions.effects.values(), fractions.everything_else)
+    assert fractions.other_seconds >= 0.0
+    parts = (*fractions.effects.values(), fractions.other_seconds)
     assert sum(parts) == pytest.approx(fractions.seconds, rel=1e-12)
-    included = set(fractions.effects) | set(fractions.together)
+    included = set(fractions.effects) | set(fractions.shared_steps)
     assert included == set(frame.plan.included)
-    assert set(fractions.together.values()) <= set(fractions.effects)
+    assert set(fractions.shared_steps.values()) <= set(fractions.effects)
 
 
 def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:

@@ -409,11 +409,11 @@ def test_the_command_answers_with_one_table_of_all_decoders(
         assert re.fullmatch(r" ?1[34][.\d]* kHz", cells[2])
         assert " kHz to " in cells[3]
     place = lines.index(
-        "  Below 3.468 kHz a picture does not contain two packets, nor always the two headers "
-        "that this decoder needs."
+        "  Below 3.468 kHz a picture does not contain two packets, and not always the two "
+        "headers that this decoder needs."
     )
     assert place < lines.index("The matched decoder, switching frequency:")
-    assert lines[-1].endswith("; above 1.17 ms, columns that are lit throughout are white.")
+    assert lines[-1].endswith("; above 1.17 ms, completely lit columns are white.")
 
 
 def test_the_commands_table_and_sentences_state_the_same_ends(

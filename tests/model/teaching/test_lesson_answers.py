@@ -271,7 +271,7 @@ def test_an_explanation_names_its_scene_if_another_is_shown() -> None:
     assert ", …): " in explanation(asked, more)
     other = step(1, 2)
     assert "Readout time: 20 µs" in explanation(other, other.scene)
-    assert explanation(other, other.asked) == other.answer
+    assert explanation(other, other.question_scene) == other.answer
 
 
 @pytest.mark.parametrize(

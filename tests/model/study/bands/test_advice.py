@@ -274,4 +274,4 @@ def test_the_present_depth_of_any_light_is_that_of_its_bars(light: str) -> None:
 )  # fmt: skip
 def test_steady_light_needs_no_other_exposure(steady: dict[str, Any]) -> None:
     found = cure_of(occ.load_preset("phone-136us").replace(**steady))
-    assert (found.repeats, found.depth) == (0.0, (0.0, 0.0))
+    assert (found.repetition_rate, found.depth) == (0.0, (0.0, 0.0))

@@ -18,7 +18,7 @@ from occ_model.errors import MatchError, ParameterError, one_line, shown
 from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
-from occ_model.photo.match_facts import in_columns, match_facts
+from occ_model.photo.match_facts import format_facts, match_facts
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.decoding import Region
@@ -165,7 +165,7 @@ def _assumption_of_match(match: Match, scene: Scene, options: argparse.Namespace
 def _report_lines(match: Match, assumption: str, noted: float | None) -> list[str]:
     """Describe a match in lines; ``noted`` is the exposure time in seconds by the camera."""
     verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
-    return [*verdict, *in_columns(match_facts(match, assumption, noted))]
+    return [*verdict, *format_facts(match_facts(match, assumption, noted))]
 
 
 _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")

@@ -10,13 +10,15 @@ from occ_model.errors import MatchError, ParameterError, counted
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of, weighted_correlation
 from occ_model.results.match import Comparison
 
-_LEAST_DEVIATION = 1e-9  # standard deviation below which a profile is constant but for rounding
+_LEAST_DEVIATION = 1e-9  # standard deviation below which a profile is constant except for rounding
 
 RIM = 6
-"""Columns at either end of a photo's stripes where blur mixes the lamp with what is beside it: in
-the two sample photos residuals of up to 140 grey levels end within five."""
+"""Columns at either end of a photo's stripes where blur mixes the lamp with its surroundings: in
+the two sample photos residuals of up to 140 grey levels end within five columns."""
 
-_EDGES_PER_SHAPE = 4  # edges in view for each polynomial of uneven light; fewer would be stripes
+_EDGES_PER_SHAPE = (
+    4  # edges in view for each polynomial of uneven light, so that it fits no stripes
+)
 
 
 def compare(
@@ -28,9 +30,9 @@ def compare(
 ) -> Comparison:
     """Compare a photo's profile with a simulated one, column by column.
 
-    The photo's profile is scaled to the mean and the standard deviation that the simulation has
-    around each column: how bright a photo is, here and there, says nothing about its stripes. Its
-    outermost columns, where blur mixes the lamp with what is beside it, are left out.
+    The photo's profile is scaled to the simulation's local mean and standard deviation, as uneven
+    brightness says nothing about the stripes. Its outermost columns, where blur mixes the lamp with
+    its surroundings, are left out.
 
     Parameters
     ----------
@@ -43,8 +45,8 @@ def compare(
     scale
         Columns of the simulation per column of the photo.
     swing : ndarray of float64, shape (columns of the photo,), or None
-        Height of the photo's stripes before they were flattened: faint ones count as much less as
-        they were stretched. None: all count equally.
+        Height of the photo's stripes before flattening, by which their columns are weighted. None:
+        all columns have the same weight.
 
     Returns
     -------
@@ -53,13 +55,13 @@ def compare(
     Raises
     ------
     ParameterError
-        A profile has not one value for each column.
+        A profile does not have one value for each column.
     MatchError
         Fewer than two columns of the simulation are covered by the photo.
     """
     if not (np.isfinite(first_column) and np.isfinite(scale) and scale > 0.0):
         raise MatchError(
-            f"The photo is to lie at column {first_column:g}, scaled by {scale:g}; allowed: "
+            f"The photo is placed at column {first_column:g}, scaled by {scale:g}; allowed: "
             "numbers, and a scale above 0."
         )
     swing = np.ones(len(flattened)) if swing is None else swing
@@ -68,7 +70,7 @@ def compare(
             shape = np.shape(profile)
             raise ParameterError(f"{name} has the shape {shape}; allowed: a value for each column.")
     rim = min(RIM, len(flattened) // 4)
-    # As numbers of Python: far beside the picture they are infinite without a warning.
+    # Python's floats overflow to infinity without a warning.
     begin, step = float(first_column), float(scale)
     low, high = begin + rim * step, begin + (len(flattened) - 1 - rim) * step
     first = max(0, math.ceil(min(low, len(simulated))))
@@ -80,33 +82,33 @@ def compare(
         )
     place = (np.arange(first, last + 1) - first_column) / scale
     columns = np.arange(len(flattened))
-    seen, height = (np.interp(place, columns, of) for of in (flattened, swing))
+    photo, height = (np.interp(place, columns, values) for values in (flattened, swing))
     height /= np.sqrt(np.mean(height**2))
-    under = simulated[first : last + 1]
-    of_mean = int(np.clip(_edges(seen) // _EDGES_PER_SHAPE, 1, MEAN_SHAPES))
-    (mean, deviation), (own, spread) = (trend_of(one, of_mean) for one in (under, seen))
-    evened = (seen - own) / spread
+    covered = simulated[first : last + 1]
+    shapes = int(np.clip(_edges(photo) // _EDGES_PER_SHAPE, 1, MEAN_SHAPES))
+    (mean, deviation), (own, spread) = (trend_of(one, shapes) for one in (covered, photo))
+    flattened_photo = (photo - own) / spread
     correlation = 0.0
-    if min(seen.std(), under.std()) > _LEAST_DEVIATION:
-        correlation = weighted_correlation(evened, (under - mean) / deviation, height**2)
-    return Comparison(first, mean + deviation * evened, under, correlation, height)
+    if min(photo.std(), covered.std()) > _LEAST_DEVIATION:
+        correlation = weighted_correlation(flattened_photo, (covered - mean) / deviation, height**2)
+    return Comparison(first, mean + deviation * flattened_photo, covered, correlation, height)
 
 
 def _edges(profile: FloatArray) -> int:
     """Count changes of a profile from well above its mean to well below it, and back."""
-    about = profile - profile.mean()
-    sides = np.sign(about[np.abs(about) > 0.5 * about.std()])
+    deviation = profile - profile.mean()
+    sides = np.sign(deviation[np.abs(deviation) > 0.5 * deviation.std()])
     return int(np.count_nonzero(np.diff(sides)))
 
 
 def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str) -> Comparison:
     """Compare photo and simulation after the receiver's enhancement of both.
 
-    ``enhanced``: shape (columns,), the simulated profile after it. ``method``: the enhancement, by
-    the photo's own histogram: see :class:`occ_model.camera.enhancement.Enhancement`.
+    ``enhanced``, shape (columns,), is the simulated profile after it. ``method`` is applied with
+    the photo's own histogram; see :class:`occ_model.camera.enhancement.Enhancement`.
     """
     first = comparison.first_column
     photo = enhance(comparison.photo, method).astype(np.float64)
-    under = enhanced[first : first + len(photo)]
-    correlation = weighted_correlation(photo, under, np.ones(len(photo)))
-    return Comparison(first, photo, under, correlation)
+    simulated = enhanced[first : first + len(photo)]
+    correlation = weighted_correlation(photo, simulated, np.ones(len(photo)))
+    return Comparison(first, photo, simulated, correlation)

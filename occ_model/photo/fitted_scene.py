@@ -1,4 +1,4 @@
-"""Make the scene whose picture is the photo's, with uncertainties in SI units, from a fit."""
+"""Make the scene that reproduces a photo, with uncertainties in SI units, from a fit."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -11,7 +11,7 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
-from occ_model.photo.photo_scene import at_the_photo, with_chips, with_levels
+from occ_model.photo.photo_scene import fit_to_photo, with_chips, with_levels
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results.decoding import Region
@@ -22,20 +22,20 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import sent_chips
 
 _MOST_DEVIATIONS = 3.0  # standard deviations above which two exposure times contradict each other
-_NOTE_ERROR = 0.012  # relative deviation of a noted exposure time: 1/500 stands for 1/512 s
+_NOTE_ERROR = 0.012  # relative deviation of a noted exposure time, as cameras note 1/512 s as 1/500
 
 _DOUBTFUL_DEVIATION, _REFUSED_DEVIATION = 0.03, 0.1
 """Relative standard deviations of the readout time, or the frequency, above which a match is
 doubtful, and above which it is refused."""
 
 DOUBTFUL_EXPOSURE_DEVIATION = 0.5
-"""Relative standard deviation of the exposure time above which it is doubtful: two of them reach
-from it to nothing."""
+"""Relative standard deviation of the exposure time above which it is doubtful, as 0 is then within
+two standard deviations."""
 
 _MOST_EDGE_ERROR = 0.25  # maximum error of the outermost edges in shortest pulses
 
 
-def at_rate(scene: Scene, rate: float) -> Scene:
+def scale_frequency(scene: Scene, rate: float) -> Scene:
     """Return a scene at ``rate`` times its switching frequency."""
     if rate == 1.0:
         return scene
@@ -62,7 +62,7 @@ def readout_and_frequency(fit: StripeFit, scene: Scene, estimate: str) -> tuple[
     return readout, fit.timing.step / readout
 
 
-def described(
+def make_match(
     photo: Photo,
     scene: Scene,
     estimate: str,
@@ -74,28 +74,31 @@ def described(
 ) -> Match:
     """Express an explanation in SI units, and as a scene.
 
-    Of fits that are as good with another exposure the one is taken that is nearest to the exposure
-    time in the photo's EXIF data, or the shortest. ``check`` is called every few hundredths of a
-    second; what it raises ends the work. A pulse that ``was_read`` has a duty that was estimated.
+    If fits with several exposures are equally good, the one nearest to the exposure time in the
+    photo's EXIF data is chosen, or the shortest. ``check`` is called every few hundredths of a
+    second, and may raise an exception to end the work. A pulse that ``was_read`` has an estimated
+    duty.
     """
     region = stripes.region
     better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
     explanation = replace(explanation, fits=better.fits)
-    best = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
-    fit = _within_pulse(best, min(runs_of(explanation.chips)))
+    best = explanation.nearest(
+        lambda candidate: exposure_time(candidate, scene, estimate), photo.exposure_time
+    )
+    fit = _limit_step_error(best, min(runs_of(explanation.chips)))
     scene = _with_timing(scene, fit, explanation, estimate, region)
     scene = with_levels(
-        at_the_photo(scene, photo, region),
+        fit_to_photo(scene, photo, region),
         float(np.median(fit.low)),
         float(np.median(fit.low + fit.swing)),
     )
     uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
-    unsure = doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
-    unknown = uncertainties["exposure_time"] / scene.camera.exposure_time
+    doubts = doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
+    exposure_fraction = uncertainties["exposure_time"] / scene.camera.exposure_time
     scene = round_estimates(scene, uncertainties)
     if was_read and is_single_pulse(explanation.chips):
-        # The duty stated is that of whole chips, and so off by its change in the fit, too.
-        least = min(runs_of(explanation.chips))  # of which no more can be missing
+        # The stated duty is that of whole chips, so that its change in the fit is also an error.
+        least = min(runs_of(explanation.chips))  # an upper limit of that error
         uncertainties["duty"] = min(math.hypot(*fit.longer), least) / len(explanation.chips)
     camera = scene.camera
     return Match(
@@ -112,12 +115,14 @@ def described(
         profile=fit.profile,
         correlation=fit.correlation,
         other_exposures=tuple(
-            exposure_time(other, scene, estimate) for other in explanation.fits if other is not best
+            exposure_time(other_fit, scene, estimate)
+            for other_fit in explanation.fits
+            if other_fit is not best
         ),
-        reasons=(*better.doubts, *unsure),
+        reasons=(*better.doubts, *doubts),
         exposure_reasons=(
             *better.exposure_doubts,
-            *doubts_by_fraction("exposure_time", unknown, DOUBTFUL_EXPOSURE_DEVIATION),
+            *doubts_by_fraction("exposure_time", exposure_fraction, DOUBTFUL_EXPOSURE_DEVIATION),
             *doubts_by_enhancement(photo),
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
@@ -133,16 +138,16 @@ def doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
 
 
 def doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
-    """Return a sentence where a relative standard deviation is beyond its limit, else none."""
+    """Return a sentence if a relative standard deviation is above its limit."""
     if fraction <= limit:
         return []
-    shown, most = distinct_texts(100.0 * fraction, 100.0 * limit)
-    what = PARAMETERS[name].in_sentence
-    return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
+    percent, most = distinct_texts(100.0 * fraction, 100.0 * limit)
+    label = PARAMETERS[name].in_sentence
+    return [f"The {label} is known only to {percent} %; at most {most} % are allowed."]
 
 
 def doubts_by_enhancement(photo: Photo) -> list[str]:
-    """Doubt what was fitted to equalized levels: the noise decides how they are spread."""
+    """Doubt a fit to equalized levels, whose spread depends on the noise."""
     if photo.enhancement != "equalization":
         return []
     return [
@@ -161,7 +166,7 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
     noted = photo.exposure_time
     if noted is None:
         return []
-    # Of both: the camera rounds what it notes.
+    # The deviations of both, as the camera rounds the time that it notes.
     deviations = abs(exposure - noted) / math.hypot(deviation, _NOTE_ERROR * noted)
     if deviations <= _MOST_DEVIATIONS:
         return []
@@ -172,10 +177,10 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
     ]
 
 
-def _within_pulse(fit: StripeFit, shortest: int) -> StripeFit:
-    """Let a step be no more uncertain than by what edges are at the right chips.
+def _limit_step_error(fit: StripeFit, shortest: int) -> StripeFit:
+    """Limit the step's uncertainty so that all edges belong to the right chips.
 
-    Sharp edges that lie exactly between columns leave a fit without a slope over the step.
+    If sharp edges lie exactly between columns, a fit's slope over the step is zero.
     """
     most = _MOST_EDGE_ERROR * shortest / len(fit.profile)
     factor = np.ones(4)
@@ -188,8 +193,8 @@ def _with_timing(
 ) -> Scene:
     timing, columns = fit.timing, len(fit.profile)
     readout, frequency = readout_and_frequency(fit, scene, estimate)
-    scene, turned = with_chips(scene, explanation.chips)
-    first = timing.start(columns) - timing.step * region.first_column - turned
+    scene, shift = with_chips(scene, explanation.chips)
+    first = timing.start(columns) - timing.step * region.first_column - shift
     try:
         return scene.replace(
             readout_time=readout,
@@ -210,7 +215,7 @@ def _uncertainties(
     """Propagate the fit's covariance to the estimated parameters, in SI units."""
     timing = fit.timing
     frequency = scene.transmitter.switching_frequency
-    # The first column's start in chips, as it depends on step, exposure and middle.
+    # Derivatives of the first column's start in chips by step, exposure, middle and gamma.
     half = 0.5 * (len(fit.profile) - 1) + first_column
     start = np.array([-half, -0.5, 1.0, 0.0])
     step = np.array([1.0, 0.0, 0.0, 0.0])
@@ -226,7 +231,7 @@ def _uncertainties(
         begin = scene.model.start_time * frequency
         slopes = {
             "switching_frequency": step / readout,
-            # In seconds these are chips times t_r / step, and have the step's uncertainty.
+            # In seconds these are chips times t_r / step, so that the step's uncertainty adds.
             "exposure_time": (exposure - step * (timing.exposure / timing.step)) / frequency,
             "start_time": (start - step * (begin / timing.step)) / frequency,
         }
@@ -237,13 +242,12 @@ def _uncertainties(
 
 
 def round_estimates(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
-    """Round what was estimated to the digits that its uncertainty leaves, at least to one of it."""
+    """Round estimates to the digits that their uncertainties leave, at least to one."""
 
-    def rounded(name: str, declared: Quantity) -> float:
-        value = float(scene.value(name))
-        return declared.unit.round_estimate(value, min(uncertainties[name], abs(value)))
+    def round_value(parameter: Quantity) -> float:
+        value = float(scene.value(parameter.name))
+        deviation = min(uncertainties[parameter.name], abs(value))
+        return parameter.unit.round_estimate(value, deviation)
 
-    found = {name: PARAMETERS[name] for name in uncertainties}
-    return scene.replace(
-        **{n: rounded(n, one) for n, one in found.items() if isinstance(one, Quantity)}
-    )
+    parameters = [PARAMETERS[name] for name in uncertainties]
+    return scene.replace(**{p.name: round_value(p) for p in parameters if isinstance(p, Quantity)})

@@ -20,10 +20,10 @@ from occ_model.photo.fit.best_timing import EXPLAINED_CORRELATION
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fitted_scene import (
-    at_rate,
-    described,
     exposure_time,
+    make_match,
     readout_and_frequency,
+    scale_frequency,
 )
 from occ_model.photo.lamp_chips import in_chips, with_lamp
 from occ_model.photo.lamp_fit.match import match_lamp
@@ -201,9 +201,9 @@ class _Case:
         apart = [one for one in others if not is_turned(one, found)]
         verdict = self.judge.verdict(found, apart, is_given=self.sent == "scene")
         self.report(0.9)
-        chips = described(
+        chips = make_match(
             photo,
-            at_rate(scene, found.rate),
+            scale_frequency(scene, found.rate),
             estimate,
             self.candidates.stripes,
             found.explanation,
@@ -354,7 +354,7 @@ def _doubt_of_exchange(match: Match, other: float) -> str:
 
 
 def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str) -> Alternative:
-    scene = at_rate(scene, other.rate)
+    scene = scale_frequency(scene, other.rate)
     readout, frequency = readout_and_frequency(other.fit, scene, estimate)
     return Alternative(
         sent=other.sent,

@@ -1,4 +1,4 @@
-"""The facts that a match states: estimates with their errors, quality of the fit, alternatives."""
+"""The facts of a match: estimates with their errors, quality of the fit, alternatives."""
 
 from collections.abc import Iterator
 
@@ -52,9 +52,9 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
     ``noted``: the exposure time in seconds that the camera recorded.
     """
     texts = dict[str, tuple[str, str]]()
-    other = _FREQUENCIES[match.lamp is None]  # of what is not sent
+    excluded = _FREQUENCIES[match.lamp is None]  # of what is not sent
     for name in ESTIMATES:
-        if name != other:
+        if name != excluded:
             texts[name] = _estimate(match, name, condition)
     if (frame := frame_of_match(match)) is not None:
         texts["frame"] = condition + estimate_text(quantity("readout_time"), *frame), ""
@@ -70,8 +70,8 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
     return (*facts, *(Fact("alternative", LABELS["alternative"], text) for text in alternatives))
 
 
-def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
-    """Format facts in lines; a parameter has its name, as it is typed."""
+def format_facts(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
+    """Format facts as lines of two columns; parameters have the names that users type."""
     for fact in facts:
         label = fact.label[:1].lower() + fact.label[1:]
         yield f"{fact.key if fact.key in ESTIMATES else label:{width}}{fact}"
@@ -82,27 +82,27 @@ def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
     text = estimate_text(quantity(name), getattr(match, name), deviation)
     if deviation is None:
         return text, "assumed" if condition and name == match.known else "given"
-    # Gamma is found from the shape of the stripes, not from their timing.
+    # Gamma is estimated from the shape of the stripes, not from their timing.
     note = "doubtful" if name in match.doubtful_alone else ""
     return text if name == "gamma" else condition + text, note
 
 
 def _fit(match: Match) -> dict[str, tuple[str, str]]:
     stripes = match.stripes
-    found = _lamp(match) if match.lamp is not None else _chips(match)
-    found |= {
+    texts = _lamp(match) if match.lamp is not None else _chips(match)
+    texts |= {
         "periods": (f"{match.periods_in_view:.3g}", ""),
         "averaging": (match.scene.model.averaging, ""),
         "region": (str(match.region), ""),
-        # The comparison of both profiles leaves the rims out, where blur mixes in what is beside.
+        # The comparison of both profiles leaves out the rims, where blur mixes in the surroundings.
         "correlation": (f"{match.correlation:.4f}", "rims included"),
         "residual": (f"{match.rmse:.2f} grey levels", "rims included"),
         "saturated": (f"{100.0 * stripes.saturated:.1f} % of the region's pixels", ""),
     }
     if stripes.period is not None:
         columns = Unit("columns").format_estimate(stripes.period, stripes.period_uncertainty)
-        found["repeats"] = columns, ""
-    return found
+        texts["repeats"] = columns, ""
+    return texts
 
 
 def _chips(match: Match) -> dict[str, tuple[str, str]]:
@@ -131,20 +131,20 @@ def _duty(match: Match) -> tuple[str, str]:
     return PERCENT.format_estimate(duty, deviation), note
 
 
-def _alternative(other: Alternative, estimated: str, condition: str) -> str:
-    side = "lower" if other.evidence <= 0.0 else "higher"
+def _alternative(alternative: Alternative, estimated: str, condition: str) -> str:
+    side = "lower" if alternative.evidence <= 0.0 else "higher"
     text = (
-        f"{other.sent}: correlation {other.correlation:.3f}, log-likelihood {side} by "
-        f"{abs(other.evidence):.1f}"
+        f"{alternative.sent}: correlation {alternative.correlation:.3f}, log-likelihood {side} by "
+        f"{abs(alternative.evidence):.1f}"
     )
     if estimated in _FREQUENCIES:
-        estimated = _FREQUENCIES[other.lamp is not None]
-    value, declared = getattr(other, estimated), quantity(estimated)
-    if value is None or other.exposure_time is None:
+        estimated = _FREQUENCIES[alternative.lamp is not None]
+    value, parameter = getattr(alternative, estimated), quantity(estimated)
+    if value is None or alternative.exposure_time is None:
         return text
-    exposure = quantity("exposure_time").format(other.exposure_time, _DIGITS)
+    exposure = quantity("exposure_time").format(alternative.exposure_time, _DIGITS)
     return (
-        f"{text}; {condition}{declared.in_sentence} {declared.format(value, _DIGITS)}, exposed "
+        f"{text}; {condition}{parameter.in_sentence} {parameter.format(value, _DIGITS)}, exposed "
         f"for {exposure}"
     )
 
@@ -152,8 +152,8 @@ def _alternative(other: Alternative, estimated: str, condition: str) -> str:
 def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
     """Format an estimate in SI units, with its deviation if any, to the significant digits.
 
-    An exposure time that is hardly known is stated as an upper limit, since the value less its
-    error would be negative.
+    An exposure time with a large error is stated as an upper limit, since the value minus its error
+    would be close to zero or negative.
     """
     text = quantity.unit.format_estimate(value, deviation)
     if quantity.name != "exposure_time" or deviation is None or deviation <= _LARGEST_ERROR * value:

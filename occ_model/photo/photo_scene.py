@@ -1,4 +1,4 @@
-"""A scene with what a photo shows: its chips, its size and place, its light, its EXIF data."""
+"""Set a scene's chips, panel, light and camera from a photo."""
 
 import math
 
@@ -16,33 +16,33 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import code_of, scheme_of, sent_chips
 
-_NOTED = ("iso", "f_number")  # taken from a photo's EXIF data; the exposure time is fitted
+_EXIF_PARAMETERS = ("iso", "f_number")  # from a photo's EXIF data; the exposure time is fitted
 
 
 def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
-    """Set a scene's chips: as the code or payload that they are, else as a raw pattern.
+    """Set a scene's chips: as a code or payload if they are one, else as a raw pattern.
 
-    ``turned``: number of chips by which its period starts later than the given chips.
+    Return the scene, and the number of chips by which its period starts later than ``chips``.
     """
-    sent = _sending(scene, chips)
-    if sent is not None:
-        packet = sent_chips(sent.transmitter)
-        for turned in range(len(chips)):
-            if np.array_equal(np.roll(chips, -turned), packet):
-                return sent, turned
+    sending_scene = _scene_of_payload(scene, chips)
+    if sending_scene is not None:
+        packet = sent_chips(sending_scene.transmitter)
+        for shift in range(len(chips)):
+            if np.array_equal(np.roll(chips, -shift), packet):
+                return sending_scene, shift
     return scene.replace(pattern="".join(map(str, chips.tolist()))), 0
 
 
-def _sending(scene: Scene, chips: ByteArray) -> Scene | None:
-    """Return the scene with the payload that its scheme reads from a period of chips, if any."""
+def _scene_of_payload(scene: Scene, chips: ByteArray) -> Scene | None:
+    """Return the scene with the payload that its scheme decodes from a period of chips, if any."""
     scene = scene.replace(pattern="")
     scheme = scheme_of(scene.transmitter)
     if len(chips) != scheme.length:
         return None
     # A frame starts anywhere in the first period, and the next header follows it.
-    read = scheme.decode(np.tile(chips, 3))
-    bits = read.bits.tolist()
-    if read.failure is not None:
+    decoded = scheme.decode(np.tile(chips, 3))
+    bits = decoded.bits.tolist()
+    if decoded.failure is not None:
         return None
     if not scene.transmitter.payload:
         return scene.replace(code=code_of(bits))
@@ -51,14 +51,14 @@ def _sending(scene: Scene, chips: ByteArray) -> Scene | None:
     return scene.replace(payload="bits:" + "".join(map(str, bits)))
 
 
-def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
-    """Fit the picture's size to the photo, and the panel, level and upright, to a region of it."""
+def fit_to_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
+    """Set the picture's size to the photo's, and an upright panel to a region of it."""
     rows, columns = photo.samples.shape
     try:
         scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)
     except ParameterError as error:
         raise MatchError(f"The photo cannot be a picture of the scene's camera: {error}") from None
-    # A pixel's centre has a whole number, its edge lies half a pixel beside it.
+    # A pixel's centre is at a whole number, its edge half a pixel away.
     across = 0.5 * (region.first_column + region.last_column) - 0.5
     down = 0.5 * (region.first_row + region.last_row) - 0.5
     rims = np.array(
@@ -92,12 +92,12 @@ def with_levels(scene: Scene, low: float, high: float) -> Scene:
 
 
 def with_notes(scene: Scene, photo: Photo) -> Scene:
-    noted = {name: getattr(photo, name) for name in _NOTED}
+    noted = {name: getattr(photo, name) for name in _EXIF_PARAMETERS}
     return with_allowed(scene, **{n: value for n, value in noted.items() if value is not None})
 
 
 def with_allowed(scene: Scene, **changes: ParameterValue) -> Scene:
-    """Change the values within their range, and leave the others: they were not fitted."""
+    """Change the values that are in range, and ignore the others."""
     for name, value in changes.items():
         try:
             PARAMETERS[name].check(value)

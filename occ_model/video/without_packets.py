@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import counted
-from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_fraction
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
@@ -52,7 +52,7 @@ class WithoutPackets:
 
     def add(self, time: float, image: ByteArray, region: Region | None) -> None:
         region = region or Region(0, image.shape[0], 0, image.shape[1])
-        even = without_trend(column_means(image, region))
+        even = remove_trend(column_means(image, region))
         self._looks.append(_analyse_frame(time, float(image.mean()), even, region.first_column))
 
     def fit_clock(

@@ -35,13 +35,13 @@ class ManyRequest:
 
 def match_all(request: ManyRequest, report: Report) -> PhotoTable:
     """Match all photos, and report each row with its index."""
-    from occ_model.photo.many.match_photos import matched_rows, usual_jobs
+    from occ_model.photo.many.match_photos import match_rows, usual_jobs
     from occ_model.photo.many.table import table_of
 
     if request.rows:
         # In a table of this photo alone, its index is 0.
         settings = replace(request.settings.of(request.only), known=())
-        ((_, row),) = matched_rows([request.paths[request.only]], settings, 1, lambda: report(None))
+        ((_, row),) = match_rows([request.paths[request.only]], settings, 1, lambda: report(None))
         given = dict(request.settings.known).get(request.only)
         new_rows = [*request.rows]
         new_rows[request.only] = replace(row, given=given)
@@ -49,7 +49,7 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
         return table_of(request.settings, new_rows)
     rows: dict[int, PhotoRow] = {}
     jobs = request.jobs or usual_jobs()
-    work = matched_rows(request.paths, request.settings, jobs, lambda: report(None))
+    work = match_rows(request.paths, request.settings, jobs, lambda: report(None))
     # Closing ends the processes, even after a cancel.
     with closing(work) as results:
         for index, row in results:

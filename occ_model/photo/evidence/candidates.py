@@ -20,7 +20,7 @@ from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
-from occ_model.photo.fitted_scene import at_rate, exposure_time
+from occ_model.photo.fitted_scene import exposure_time, scale_frequency
 from occ_model.photo.lamp_chips import MOST_PARTS
 from occ_model.photo.photo_scene import with_chips
 from occ_model.results.match import Stripes
@@ -56,7 +56,7 @@ class Candidates:
 
     def exposed(self, fit: StripeFit, rate: float) -> float:
         """Return a fit's exposure time in seconds; ``rate``: its chips per chip of the scene."""
-        return exposure_time(fit, at_rate(self.scene, rate), self.estimate)
+        return exposure_time(fit, scale_frequency(self.scene, rate), self.estimate)
 
     def as_sent(self) -> Hypothesis | None:
         """Fit what the scene sends; None where that never changes, or has no possible fit."""

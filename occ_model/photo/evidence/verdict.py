@@ -12,8 +12,8 @@ from occ_model.photo.evidence.doubts import doubts, exposure_doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, log_likelihood
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.reading.load import Photo
-from occ_model.photo.stripes.envelope import without_trend
-from occ_model.photo.stripes.period import correlated_columns, harmonics_within, without_repetition
+from occ_model.photo.stripes.envelope import remove_trend
+from occ_model.photo.stripes.period import correlated_columns, harmonics_within, remove_repetition
 from occ_model.results.decoding import Region
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
@@ -152,7 +152,7 @@ class Judge:
         profile, columns = self._stripes.profile, len(self._stripes.profile)
         period = len(found.chips) / found.fit.timing.step
         flattened = (profile - found.fit.low) / found.fit.swing
-        left = without_repetition(flattened, period) * found.fit.swing
+        left = remove_repetition(flattened, period) * found.fit.swing
         # The period itself, and a cosine and a sine of each harmonic, beside the levels.
         freedom = found.freedom - 2 + 2 * harmonics_within(columns, period)
         return log_likelihood(float(left @ left) + self._error, columns, independent, freedom)
@@ -189,7 +189,7 @@ def rows_alike(photo: Photo, region: Region) -> float:
     if bands < 2:
         return 1.0
     means = cv2.resize(part, (part.shape[1], bands), interpolation=cv2.INTER_AREA)
-    even = np.array([without_trend(band) for band in means.astype(np.float64)])
+    even = np.array([remove_trend(band) for band in means.astype(np.float64)])
     return float(np.median([_correlation(even, band) for band in range(bands)]))
 
 

@@ -10,7 +10,7 @@ from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.initial_search import Candidate, Search
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.timing import Timing
-from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.results.match import Stripes
 
 _LEAST_SURE_CORRELATION = 0.9  # correlation above which a candidate is not a coincidence
@@ -67,7 +67,7 @@ def explain(
     """
     if chips.min() == chips.max():
         return None
-    search = Search(without_trend(stripes.profile), chips)
+    search = Search(remove_trend(stripes.profile), chips)
     candidates: list[Candidate] = []
     for group in steps:
         candidates = search.candidates(group, gamma, check)

@@ -26,7 +26,7 @@ from occ_model.photo.fit.chips_of_harmonics import (
     harmonics_of,
     refined,
 )
-from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.envelope import remove_trend
 
 MOST_CHIPS = 128  # maximum number of chips in a period
 
@@ -66,7 +66,7 @@ def read_patterns(
     misread, or not be read, where the exposure is shorter than a column's readout: the position of
     an edge within a column is then unknown.
     """
-    lines = harmonics_of(without_trend(profile), period)
+    lines = harmonics_of(remove_trend(profile), period)
     most = min(MOST_CHIPS, int(period / LEAST_COLUMNS))
     counts = _counts_by_edges(edges_of(flattened), period, most)
     column = None if is_clipped else 1.0 / period
@@ -93,7 +93,7 @@ def read_otherwise(
     This is for stripes that what was read explains badly: an exposure of two or three chips shows
     hardly any of some harmonics, and is easily taken for one of a single chip.
     """
-    lines = harmonics_of(without_trend(profile), period)
+    lines = harmonics_of(remove_trend(profile), period)
     lengths = [one.times * len(one.chips) for one in read]
     counts = {length // part for length in lengths for part in _PARTS if length % part == 0}
     known = {canonical(one.chips).tobytes() for one in read}

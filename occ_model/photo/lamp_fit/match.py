@@ -19,7 +19,7 @@ from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.read_lamp import LampReading, read_lamp
 from occ_model.photo.lamp_fit.readings import StripeReading, readings_of
 from occ_model.photo.lamp_fit.verdict import floor_limit
-from occ_model.photo.photo_scene import at_the_photo, with_levels, with_notes
+from occ_model.photo.photo_scene import fit_to_photo, with_levels, with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
@@ -78,7 +78,7 @@ def match_lamp(
         )  # fmt: skip
     except ParameterError as error:
         raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
-    scene = at_the_photo(scene, photo, place.region)
+    scene = fit_to_photo(scene, photo, place.region)
     scene = with_levels(scene, float(np.median(low)), float(np.median(high)))
     name = "readout_time" if estimate == "readout_time" else "lamp_frequency"
     unsure = doubts_by_error(name, float(scene.value(name)), errors[name])

@@ -21,7 +21,7 @@ from occ_model.photo.lamps.shape import around, spans_of, without_halo
 from occ_model.photo.lamps.strips import steady_lamps, strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
-from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -185,7 +185,7 @@ def counts_some(one: Blinking, means: FloatArray) -> bool:
     region, period = one.lamp.region, one.lamp.period
     quarter = len(means) // 4
     inner = means[quarter : len(means) - quarter, region.first_column : region.last_column]
-    found = repeat_period(without_trend(inner.mean(axis=0)))
+    found = repeat_period(remove_trend(inner.mean(axis=0)))
     if period is None or found is None:
         return True
     return abs(found[0] - period) > _PERIOD_TOLERANCE * period

@@ -1,6 +1,6 @@
 """Match many photos of one camera and one scene: one readout time from all of them.
 
-Files may be matched in several processes; where a file ends its process, the others go on.
+Files may be matched in several processes; if a file ends its process, the others continue.
 """
 
 import os
@@ -53,11 +53,11 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> PhotoTable:
-    """Match many photos of one scene, and combine what they measured.
+    """Match many photos of one scene, and combine their estimates.
 
     The mean is over the photos that are sure, without outliers; a doubtful one never changes it.
-    Its uncertainty is that of the photos' scatter and errors. The error of the frequency, or of the
-    readout time, that is given comes on top.
+    Its uncertainty follows from the photos' scatter and errors. It excludes the error of the given
+    frequency or readout time.
 
     Parameters
     ----------
@@ -70,21 +70,21 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
     scan_axis, channel
         As for :func:`occ_model.load_photo`; for files only.
     known
-        Values of the known parameter in SI units for single photos, by their places from 0: the
-        frequency of another lamp, or the readout time of another camera. The scene's holds for all
-        others.
+        Values of the known parameter in SI units for single photos, by their indices from 0: the
+        frequency of another lamp, or the readout time of another camera. All others have the
+        scene's value.
     jobs
-        Number of processes that read and match files; 1: this one. The module that calls this with
-        more must not do so when it is imported (``if __name__ == "__main__":``).
+        Number of processes that read and match files; 1: only this one. With more, the calling
+        module must not call this when it is imported (``if __name__ == "__main__":``).
     progress
-        Called after each photo, and several times a second meanwhile, with the number of photos
-        done and of all. What it raises ends the work.
+        Called after each photo, and several times a second in between, with the number of finished
+        photos and the total number. An exception from it ends the work.
 
     Returns
     -------
     PhotoTable
-        A row for each photo, in their order. A file that cannot be read, and a photo that no
-        scene explains, have a row that says why.
+        A row for each photo, in their order. The row of a file that cannot be read, or of a photo
+        that no scene explains, states why.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
         scene, estimate, sent, averaging, fit_gamma, scan_axis, channel,
         tuple((known or {}).items()),
     )  # fmt: skip
-    sources = checked_photos(photos)
+    sources = check_photos(photos)
     for place in known or ():
         check_count("place of a known value", place, 0, len(sources) - 1)
     settings.check()
@@ -109,18 +109,18 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
     def heartbeat() -> None:
         report(len(rows), len(sources))
 
-    # Closed here, whatever ends it: workers that are not closed would go on.
-    with closing(matched_rows(sources, settings, jobs, heartbeat)) as found:
-        for place, row in found:
+    # Workers that are not closed would continue after an error.
+    with closing(match_rows(sources, settings, jobs, heartbeat)) as matched:
+        for place, row in matched:
             rows[place] = row
             heartbeat()
     return table_of(settings, [rows[place] for place in range(len(sources))])
 
 
-def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
-    given = [photos] if isinstance(photos, str | Path | Photo) else photos
+def check_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
+    items = [photos] if isinstance(photos, str | Path | Photo) else photos
     sources: list[Source] = []
-    for photo in given:
+    for photo in items:
         if not isinstance(photo, str | Path | Photo):
             raise PhotoError(
                 f"{shown(photo)} is not the path of a photo; allowed: str, Path or Photo."
@@ -131,23 +131,23 @@ def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
     return sources
 
 
-def matched_rows(
+def match_rows(
     sources: Sequence[Source], settings: MatchSettings, jobs: int, heartbeat: Heartbeat
 ) -> Generator[tuple[int, PhotoRow], None, None]:
     """Match photos, and yield each row with its index as soon as it is ready."""
-    files = [(place, one) for place, one in enumerate(sources) if isinstance(one, Path)]
-    for place, one in enumerate(sources):
-        if isinstance(one, Photo):
-            yield row_of(place, one, settings, heartbeat)
+    files = [(place, source) for place, source in enumerate(sources) if isinstance(source, Path)]
+    for place, source in enumerate(sources):
+        if isinstance(source, Photo):
+            yield row_of(place, source, settings, heartbeat)
     if jobs > 1 and len(files) > 1:
-        yield from rows_by_workers(files, settings, min(jobs, len(files)), heartbeat)
+        yield from match_by_workers(files, settings, min(jobs, len(files)), heartbeat)
         return
     for place, path in files:
         yield row_of(place, path, settings, heartbeat)
 
 
 def usual_jobs() -> int:
-    """Return the number of processes that use this computer well: one for each core allowed."""
+    """Return the number of cores that this process may use, at most MOST_JOBS."""
     try:
         cores = len(os.sched_getaffinity(0))
     except AttributeError:  # not on every system
@@ -155,19 +155,21 @@ def usual_jobs() -> int:
     return min(cores, MOST_JOBS)
 
 
-def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat: Heartbeat) -> Rows:
+def match_by_workers(
+    files: Files, settings: MatchSettings, jobs: int, heartbeat: Heartbeat
+) -> Rows:
     """Match files in processes, in the order in which they are ready.
 
-    Where processes end again and again, the files that they had are matched alone, and one that
-    ends its process even then becomes a row that says so. Where the system cannot start processes,
-    a thread of this one matches the files; where they cannot work, this process does, with a
-    ``RuntimeWarning``.
+    If processes end repeatedly, their files are matched one by one, and a file that ends its
+    process even then gets a row that says so. If the system cannot start processes, a thread of
+    this one matches the files; if processes start but cannot work, this process matches them, with
+    a ``RuntimeWarning``.
     """
     waiting = iter(files)
     while True:
         sent: dict[int, Path] = {}
         try:
-            yield from _finished(waiting, sent, settings, jobs, heartbeat)
+            yield from _match_in_processes(waiting, sent, settings, jobs, heartbeat)
         except WorkersLostError as error:
             reason = error.reason
         else:
@@ -183,33 +185,35 @@ def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat:
             return
         for place, path in sent.items():
             try:
-                yield from _finished(iter([(place, path)]), {}, settings, 1, heartbeat)
+                yield from _match_in_processes(iter([(place, path)]), {}, settings, 1, heartbeat)
             except WorkersLostError as error:
                 note = f"The process that reads and matches it ended each time ({error.reason})."
                 yield place, PhotoRow(path, UNREADABLE, note)
 
 
 def _has_workers(settings: MatchSettings, heartbeat: Heartbeat) -> bool:
-    """Whether a worker can do anything at all, tried with a path that is not a file."""
+    """Return whether a worker can do any job, by trying a path that is not a file."""
     try:
-        return any(True for _ in _finished(iter([(0, Path())]), {}, settings, 1, heartbeat))
+        return any(
+            True for _ in _match_in_processes(iter([(0, Path())]), {}, settings, 1, heartbeat)
+        )
     except WorkersLostError:
         return False
 
 
-def _finished(
+def _match_in_processes(
     files: Iterator[tuple[int, Path]],
     sent: dict[int, Path],
     settings: MatchSettings,
     jobs: int,
     heartbeat: Heartbeat,
 ) -> Rows:
-    """Match files in processes; ``sent`` holds those that workers have."""
-    # Importing what starts processes takes time.
+    """Match files in processes; ``sent`` holds the files that workers are matching."""
+    # Slow to import, and needed only to start processes.
     from occ_model.parallel.job import WorkerThread
     from occ_model.parallel.process_pool import ProcessPool
 
-    def made() -> Iterator[Job]:
+    def make_jobs() -> Iterator[Job]:
         for place, path in files:
             sent[place] = path
             yield Job(row_of, (place, path, settings))
@@ -217,7 +221,7 @@ def _finished(
     def start() -> Workers:
         return ProcessPool(jobs, PRELOAD)
 
-    with closing(results_of(made(), start, heartbeat, WorkerThread)) as rows:
+    with closing(results_of(make_jobs(), start, heartbeat, WorkerThread)) as rows:
         for place, row in rows:
             del sent[place]
             yield place, row

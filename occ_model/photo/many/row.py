@@ -1,4 +1,4 @@
-"""Match one of several photos: a row of their table, also where it cannot be read."""
+"""Match one of several photos, which gives a row of their table even if it cannot be read."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -25,16 +25,16 @@ class MatchSettings:
     fit_gamma: bool = False
     scan_axis: str = SCAN_AXES[0]  # scan_axis, channel: as for :func:`occ_model.load_photo`
     channel: str = CHANNELS[0]
-    # Values of the known parameter for single photos, as of another lamp: pairs of the photo's
-    # place and the value in SI units. The scene's holds for all others.
+    # Values of the known parameter for single photos, such as one of another lamp: pairs of the
+    # photo's index and the value in SI units. All others have the scene's value.
     known: tuple[tuple[int, float], ...] = ()
 
     def of(self, place: int) -> "MatchSettings":
-        own = dict(self.known).get(place)
-        if own is None:
+        value = dict(self.known).get(place)
+        if value is None:
             return self
         known = known_parameter(self.estimate, self.scene.transmitter)
-        return replace(self, scene=self.scene.replace(**{known: own}))
+        return replace(self, scene=self.scene.replace(**{known: value}))
 
     def check(self) -> None:
         check_words(self.estimate, self.sent, self.averaging)
@@ -52,23 +52,25 @@ def row_of(
     def report(_fraction: float) -> None:
         heartbeat()
 
-    own, given = settings.of(place), dict(settings.known).get(place)
+    photo_settings, given = settings.of(place), dict(settings.known).get(place)
     if isinstance(source, Photo):
         photo = source
     else:
         try:
-            photo = load_photo(source, own.scan_axis, channel=own.channel, progress=report)
+            photo = load_photo(
+                source, photo_settings.scan_axis, channel=photo_settings.channel, progress=report
+            )
         except PhotoError as error:
             note = join_lines(str(error))
             return place, PhotoRow(source, UNREADABLE, note, given=given)
     try:
         match = match_photo(
             photo,
-            own.scene,
-            estimate=own.estimate,
-            sent=own.sent,
-            averaging=own.averaging,
-            fit_gamma=own.fit_gamma,
+            photo_settings.scene,
+            estimate=photo_settings.estimate,
+            sent=photo_settings.sent,
+            averaging=photo_settings.averaging,
+            fit_gamma=photo_settings.fit_gamma,
             progress=report,
         )
     except MatchError as error:

@@ -1,7 +1,7 @@
-"""What can be chosen where a photo is read: by itself, as reading one imports much."""
+"""Choices for reading a photo, in a module of their own because the reader is slow to import."""
 
 SCAN_AXES = ("auto", "columns", "lines")
 """The axis of the file that the rolling shutter scanned; ``"auto"``: the one across the stripes."""
 
 CHANNELS = ("brightest", "luma", "red", "green", "blue")
-"""The channels of a coloured photo; ``"brightest"`` is the colour with the largest mean."""
+"""The channels of a colour photo; ``"brightest"`` is the colour with the largest mean."""

@@ -8,7 +8,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError
-from occ_model.photo.reading.tiff import are_short
+from occ_model.photo.reading.tiff import has_short_tags
 from occ_model.results.frame import ENHANCED
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.camera import DIAGONAL_35MM
@@ -24,38 +24,38 @@ _ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
 
 FOCAL_LENGTH, EQUIVALENT_FOCAL_LENGTH = 0x920A, 0xA405
 _WIDTH, _HEIGHT = 0xA002, 0xA003
-_PIXELS_ACROSS, _PIXELS_DOWN, _PIXELS_UNIT = 0xA20E, 0xA20F, 0xA210
+_X_RESOLUTION, _Y_RESOLUTION, _RESOLUTION_UNIT = 0xA20E, 0xA20F, 0xA210
 _UNITS = {2.0: 25.4e-3, 3.0: 1e-2, 4.0: 1e-3}
-"""Metres in which the pixels of the sensor are counted."""
+"""Length in metres of the unit of the sensor's resolution, by its tag's value."""
 
 _SIDE_DIFFERENCE = 0.02  # fraction by which a pixel's sides may differ
-_DECIMALS = 3  # decimals of millimetres that a focal length is written in at most
-_ISO_OR_MORE = 65535  # value of the oldest tag, of 16 bits, where the ISO speed is larger
+_DECIMALS = 3  # largest number of decimals of a focal length in millimetres
+_ISO_OR_MORE = 65535  # value of the oldest tag, of 16 bits, if the ISO speed is larger
 
 _LONGEST_NAME = 60
 
-_FIRST_LYING = 5  # the first orientation in which the camera's columns are stored as lines
+_FIRST_TRANSPOSED = 5  # the first orientation in which the picture's columns are stored as lines
 
 
 @dataclass(frozen=True, slots=True)
 class CameraNotes:
-    """A photo's EXIF data, None where a value is missing or out of range."""
+    """A photo's EXIF data; None for a value that is missing or out of range."""
 
-    # exposure_time, f_number, iso, equivalent_focal_length: in SI units, within the range that a
-    # scene's parameter of that name has.
+    # exposure_time, f_number, iso, equivalent_focal_length: in SI units, within the range of the
+    # scene's parameter of that name.
     exposure_time: float | None = None
     f_number: float | None = None
     iso: float | None = None
     camera: str | None = None
     equivalent_focal_length: float | None = None
-    focal_length_step: float = 0.0  # what the equivalent focal length is rounded to, in metres
-    enhancement: str | None = None  # by which a receiver of this program enhanced its picture
+    focal_length_step: float = 0.0  # rounding step of the equivalent focal length in metres
+    enhancement: str | None = None  # enhancement of a picture that this program's receiver saved
 
 
 def camera_notes(picture: "PillowImage") -> CameraNotes:
     """Read a picture's EXIF tags (CIPA DC-008).
 
-    Where the exposure time or the f-number is missing, its APEX value is taken.
+    If the exposure time or the f-number is missing, its APEX value is used.
     """
     # A picture can be read although its tags are damaged.
     tags: dict[int, Any] = {}
@@ -70,13 +70,13 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
 
 
 def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
-    """Return the camera's notes of EXIF tags, by their numbers."""
+    """Return the camera's notes from the values of EXIF tags, by the tags' numbers."""
     focal_length, step = _focal_length(tags)
     return CameraNotes(
-        exposure_time=_within("exposure_time", _number(tags.get(EXPOSURE_TIME)))
-        or _within("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
-        f_number=_within("f_number", _number(tags.get(F_NUMBER)))
-        or _within("f_number", _power_of_two(tags.get(_APERTURE_APEX), 0.5)),
+        exposure_time=_check_range("exposure_time", _number(tags.get(EXPOSURE_TIME)))
+        or _check_range("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
+        f_number=_check_range("f_number", _number(tags.get(F_NUMBER)))
+        or _check_range("f_number", _power_of_two(tags.get(_APERTURE_APEX), 0.5)),
         iso=_iso(tags),
         camera=_camera(_text(tags.get(_MAKE)), _text(tags.get(_MODEL))),
         equivalent_focal_length=focal_length,
@@ -85,7 +85,7 @@ def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
 
 
 def orientation_of(picture: "PillowImage") -> int:
-    """Return the EXIF orientation, 1 to 8, that a decoded picture still has."""
+    """Return the EXIF orientation, 1 to 8, that the decoder has not applied."""
     orientation: object = 1
     with suppress(Exception):
         orientation = _exif_of(picture).get(_ORIENTATION)
@@ -93,11 +93,11 @@ def orientation_of(picture: "PillowImage") -> int:
 
 
 def _exif_of(picture: "PillowImage") -> "Exif":
-    """Return a picture's EXIF data, none where they have more numbers than anyone notes."""
+    """Return a picture's EXIF data, or none if a tag has too many numbers."""
     from PIL.Image import Exif
 
     block = picture.info.get("exif")
-    if isinstance(block, bytes) and not are_short(BytesIO(block.removeprefix(b"Exif\0\0"))):
+    if isinstance(block, bytes) and not has_short_tags(BytesIO(block.removeprefix(b"Exif\0\0"))):
         return Exif()
     return picture.getexif()
 
@@ -105,48 +105,56 @@ def _exif_of(picture: "PillowImage") -> "Exif":
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)
-    return orientation >= _FIRST_LYING, mirror_rows, mirror_columns
+    return orientation >= _FIRST_TRANSPOSED, mirror_rows, mirror_columns
 
 
 def _focal_length(tags: Mapping[int, Any]) -> tuple[float | None, float]:
-    """Return the equivalent focal length and its step: as noted, or by the sensor's size."""
+    """Return the equivalent focal length and its step, as noted or by the sensor's size."""
     noted = _number(tags.get(EQUIVALENT_FOCAL_LENGTH))
-    if noted and (found := _within("equivalent_focal_length", noted / 1e3)):
-        return found, 1e-3
-    own, diagonal = _number(tags.get(FOCAL_LENGTH)), _sensor_diagonal(tags)
-    if own is None or diagonal is None or not math.isfinite(own):
+    if noted and (equivalent := _check_range("equivalent_focal_length", noted / 1e3)):
+        return equivalent, 1e-3
+    focal_length, diagonal = _number(tags.get(FOCAL_LENGTH)), _sensor_diagonal(tags)
+    if focal_length is None or diagonal is None or not math.isfinite(focal_length):
         return None, 0.0
     steps = [10.0**-n for n in range(_DECIMALS + 1)]
-    whole = [step for step in steps if math.isclose(own / step, round(own / step), abs_tol=1e-6)]
+    exact_steps = [
+        step
+        for step in steps
+        if math.isclose(focal_length / step, round(focal_length / step), abs_tol=1e-6)
+    ]
     scale = 1e-3 * DIAGONAL_35MM / diagonal
-    found = _within("equivalent_focal_length", own * scale)
-    return found, 0.0 if found is None else max([*whole, steps[-1]]) * scale
+    equivalent = _check_range("equivalent_focal_length", focal_length * scale)
+    return equivalent, 0.0 if equivalent is None else max([*exact_steps, steps[-1]]) * scale
 
 
 def _sensor_diagonal(tags: Mapping[int, Any]) -> float | None:
-    """Return the sensor's diagonal in metres: of its pixels, and how many are in a length."""
-    unit = _UNITS.get(_number(tags.get(_PIXELS_UNIT, 2)) or 0.0)
-    width, height, across, down = (
-        _number(tags.get(tag)) or 0.0 for tag in (_WIDTH, _HEIGHT, _PIXELS_ACROSS, _PIXELS_DOWN)
+    """Return the sensor's diagonal in metres, by its pixels and its resolution."""
+    unit = _UNITS.get(_number(tags.get(_RESOLUTION_UNIT, 2)) or 0.0)
+    width, height, horizontal, vertical = (
+        _number(tags.get(tag)) or 0.0 for tag in (_WIDTH, _HEIGHT, _X_RESOLUTION, _Y_RESOLUTION)
     )
-    is_sensible = min(width, height) >= 1.0 and 0.0 < across < math.inf
-    if unit is None or not is_sensible or not math.isclose(across, down, rel_tol=_SIDE_DIFFERENCE):
+    is_sensible = min(width, height) >= 1.0 and 0.0 < horizontal < math.inf
+    if (
+        unit is None
+        or not is_sensible
+        or not math.isclose(horizontal, vertical, rel_tol=_SIDE_DIFFERENCE)
+    ):
         return None
-    return math.hypot(width, height) / across * unit
+    return math.hypot(width, height) / horizontal * unit
 
 
 def _iso(tags: Mapping[int, Any]) -> float | None:
-    noted = _within("iso", _number(tags.get(ISO)))
+    noted = _check_range("iso", _number(tags.get(ISO)))
     if noted is not None and noted != _ISO_OR_MORE:
         return noted
     for tag in (_ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT):
-        exact = _within("iso", _number(tags.get(tag)))
-        if exact is not None:
-            return exact
+        speed = _check_range("iso", _number(tags.get(tag)))
+        if speed is not None:
+            return speed
     return noted
 
 
-def _within(name: str, number: float | None) -> float | None:
+def _check_range(name: str, number: float | None) -> float | None:
     if number is None:
         return None
     try:
@@ -168,7 +176,7 @@ def _number(value: Any) -> float | None:
 
 
 def _power_of_two(apex: Any, rate: float) -> float | None:
-    """Turn an APEX value A into 2^(rate A): CIPA DC-008, annex C."""
+    """Convert an APEX value A to 2^(rate A), see CIPA DC-008, annex C."""
     number = _number(apex)
     if number is None:
         return None

@@ -25,7 +25,7 @@ from occ_model.photo.reading.limits import (
     check_transparency,
     count_of_pixels,
 )
-from occ_model.photo.reading.tiff import are_short
+from occ_model.photo.reading.tiff import has_short_tags
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -35,48 +35,48 @@ if TYPE_CHECKING:
     Factory: TypeAlias = Callable[[IO[bytes]], ImageFile]
 
 _BYTES_A_PIXEL, _BYTES_OF_NOTES = 8, 16_000_000
-"""Four channels of 16 bits, and bytes for the metadata that a file may hold besides."""
+"""Four channels of 16 bits, and bytes of the metadata that a file may also contain."""
 
 _PIXELS_A_BYTE = {"JPEG": 512, "PNG": 8 * 1032, "GIF": 8 * 4096 // 12}
 """Largest number of pixels in a byte of a file, for formats whose decoders fill in missing data.
 
-A block of 8 x 8 pixels takes a bit of Huffman code; deflate shrinks to 1/1032 at best, and a pixel
-takes a bit; a code of LZW has 12 bits and stands for 4096 pixels.
+JPEG needs at least a bit of Huffman code for a block of 8 x 8 pixels. Deflate compresses to 1/1032
+at best, and a pixel of PNG has at least a bit. A code of LZW has 12 bits for at most 4096 pixels.
 """
 
 _pillow_lock = threading.Lock()
 
 _FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "QOI", "JPEG2000", "AVIF")
-"""The formats that are read. Pillow reads more, and starts other programs for some of them."""
+"""The supported formats. Pillow reads more, but starts other programs for some of them."""
 
 
 @contextmanager
 def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[WatchedFile]:
     """Open a file that should be a photo.
 
-    Raises PhotoError where there is no such file, it may not be read, or it has too many bytes.
-    Errors of a decoder inside the ``with`` block become this error too.
+    PhotoError is raised if there is no such file, it may not be read, or it has too many bytes.
+    Errors of a decoder inside the ``with`` block become a PhotoError, too.
     """
     try:
         _check_file(path, max_pixels)
-        with _pillow_ready(max_pixels), WatchedFile(path, report) as file:
+        with _configure_pillow(max_pixels), WatchedFile(path, report) as file:
             yield file
     except PhotoError:
         raise
     except SceneFileError as error:  # its sentence suits any file
         raise PhotoError(str(error)) from None
     except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files.
-        # A decoder may have replaced the exception that cancelled it by one of its own.
+        # A decoder may have replaced the exception that cancelled it with its own.
         if report.ended_by is not None:
             raise report.ended_by from None
         raise _make_refusal(path, error, max_pixels) from None
 
 
 def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
-    """Return the function that opens a file's first picture, not yet decoded, at each call.
+    """Return a function that opens a file's first picture at each call, without decoding it.
 
     Its arguments are the fractions of the work between which the picture will be decoded. It raises
-    PhotoError where the file is not an image, damaged or too large.
+    PhotoError if the file is not an image, or is damaged or too large.
     """
     return lambda first, last: _first_picture(path, file, max_pixels, (first, last))
 
@@ -84,26 +84,26 @@ def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
 def _make_refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
     from PIL import Image
 
-    shown = one_line(str(path))
+    name = one_line(str(path))
     # Some formats check the size on opening.
     if isinstance(error, Image.DecompressionBombError):
-        return PhotoError(f"{shown} has more than {allowed_pixels(max_pixels)}")
+        return PhotoError(f"{name} has more than {allowed_pixels(max_pixels)}")
     if isinstance(error, MemoryError):
-        return PhotoError(f"{shown} cannot be read: there is too little memory for it.")
+        return PhotoError(f"{name} cannot be read: there is too little memory for it.")
     reason = error.strerror if isinstance(error, OSError) else None
-    return PhotoError(f"{shown} cannot be read: {reason or _describe_damage(error)}.")
+    return PhotoError(f"{name} cannot be read: {reason or _describe_damage(error)}.")
 
 
 @contextmanager
-def _pillow_ready(max_pixels: int) -> Iterator[None]:
+def _configure_pillow(max_pixels: int) -> Iterator[None]:
     """Set the limit of pixels in Pillow, and suppress its warnings about readable files.
 
-    These settings are global, to Pillow and to Python: a lock lets one photo at a time change them,
-    and they are restored after it has been read.
+    These settings are global in Pillow and Python. A lock lets one photo at a time change them, and
+    they are restored after reading it.
     """
     from PIL import Image
 
-    # Without any handler an error that Pillow logs would be printed.
+    # Without a handler, Python would print errors that Pillow logs.
     log, handler = logging.getLogger("PIL"), logging.NullHandler()
     with _pillow_lock, warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -120,22 +120,22 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
 
 def _check_file(path: Path, max_pixels: int) -> None:
     """Refuse a path that is not a regular file or is empty: opening a pipe could block."""
-    shown = one_line(str(path))
+    name = one_line(str(path))
     try:
         status = path.stat()
     except ValueError as error:  # a name that no file can have
-        raise PhotoError(f"{shown} cannot be read: {error}.") from None
+        raise PhotoError(f"{name} cannot be read: {error}.") from None
     if stat.S_ISDIR(status.st_mode):
-        raise PhotoError(f"{shown} is a folder, not a photo.")
+        raise PhotoError(f"{name} is a folder, not a photo.")
     if not stat.S_ISREG(status.st_mode):
-        raise PhotoError(f"{shown} is a device, pipe or socket, not a photo.")
+        raise PhotoError(f"{name} is a device, pipe or socket, not a photo.")
     if status.st_size == 0:
-        raise PhotoError(f"{shown} is an empty file.")
+        raise PhotoError(f"{name} is an empty file.")
     # Some decoders load the whole file into memory.
     largest = _BYTES_A_PIXEL * max_pixels + _BYTES_OF_NOTES
     if status.st_size > largest:
         raise PhotoError(
-            f"{shown} has {status.st_size:,} bytes; allowed for a photo of at most "
+            f"{name} has {status.st_size:,} bytes; allowed for a photo of at most "
             f"{count_of_pixels(max_pixels)} pixels: up to {largest:,}."
         )
 
@@ -143,38 +143,38 @@ def _check_file(path: Path, max_pixels: int) -> None:
 def _first_picture(
     path: Path, file: WatchedFile, max_pixels: int, fractions: tuple[float, float]
 ) -> "ImageFile":
-    """Open the file's first picture, and check its size before anything of it is decoded."""
-    shown, size = one_line(str(path)), os.fstat(file.fileno()).st_size
+    """Open the file's first picture, and check its size before decoding."""
+    path_text, size = one_line(str(path)), os.fstat(file.fileno()).st_size
     name, factory = format_and_factory(path, file)
     check_file_size(path, name, size)
-    if name == "TIFF" and not are_short(file):
-        raise PhotoError(f"{shown} cannot be read: it states too many numbers by one tag.")
+    if name == "TIFF" and not has_short_tags(file):
+        raise PhotoError(f"{path_text} cannot be read: one of its tags has too many numbers.")
     file.seek(0, os.SEEK_SET)
     file.watch(size, *fractions)
     try:
         picture = factory(file)
     except SyntaxError as error:  # Pillow's error for an invalid header
         problem = _describe_damage(error, "the file is damaged or of an unusual kind")
-        raise PhotoError(f"{shown} cannot be read: {problem}.") from None
+        raise PhotoError(f"{path_text} cannot be read: {problem}.") from None
     width, height = picture.size
     check_size(path, width, height, max_pixels)
-    # A wrong size in the header would otherwise be decoded, in seconds, to black.
+    # Decoders take seconds to fill a picture of a wrong size with black.
     if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
         raise PhotoError(
-            f"{shown} cannot be read: the file is damaged ({size:,} bytes cannot hold "
+            f"{path_text} cannot be read: the file is damaged ({size:,} bytes cannot hold "
             f"{width:,} x {height:,} pixels)."
         )
     if picture.format == "TIFF":
-        _check_tiff(shown, picture)
+        _check_tiff(path_text, picture)
     check_decoder(path, picture, size)
     check_memory(path, picture, file.total, file.last)
     check_transparency(path, picture)
-    check_scans(path, picture, file.last, lambda: _content(file, size))
+    check_scans(path, picture, file.last, lambda: _read_content(file, size))
     return picture
 
 
-def _content(file: WatchedFile, size: int) -> bytearray:
-    """Read a whole file without a report of progress: its decoder reads it again."""
+def _read_content(file: WatchedFile, size: int) -> bytearray:
+    """Read a whole file without reporting progress, as its decoder reads it again."""
     content = bytearray(size)
     place = file.tell()
     file.seek(0, os.SEEK_SET)
@@ -183,30 +183,30 @@ def _content(file: WatchedFile, size: int) -> bytearray:
     return content
 
 
-def _check_tiff(shown: str, picture: "ImageFile") -> None:
+def _check_tiff(name: str, picture: "ImageFile") -> None:
     """Refuse a TIFF that Pillow would decode wrongly without an error."""
     from PIL.TiffImagePlugin import BITSPERSAMPLE, PLANAR_CONFIGURATION, TiffImageFile
 
-    if not _is_covered(picture):
-        raise PhotoError(f"{shown} cannot be read: the file is damaged (parts are missing).")
+    if not _has_all_tiles(picture):
+        raise PhotoError(f"{name} cannot be read: the file is damaged (parts are missing).")
     tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
     bits = tags.get(BITSPERSAMPLE, (1,))
     if tags.get(PLANAR_CONFIGURATION) == 2 and len(bits) > 1 and max(bits) > 8:
         raise PhotoError(
-            f"{shown} cannot be read: it keeps each colour of {max(bits)} bits in a plane of "
-            "its own; allowed: pixel by pixel."
+            f"{name} cannot be read: each of its colours of {max(bits)} bits is in a plane of "
+            "its own; allowed: colours stored pixel by pixel."
         )
 
 
-def _is_covered(picture: "ImageFile") -> bool:
-    """Whether the tiles of a TIFF, before it is rotated, reach its last corner."""
+def _has_all_tiles(picture: "ImageFile") -> bool:
+    """Return whether the tiles of a TIFF cover it up to the last corner, before rotation."""
     corners = [tile[1][2:] for tile in picture.tile if tile[1] is not None]
     reach = [max((corner[axis] for corner in corners), default=0) for axis in (0, 1)]
     return reach[0] * reach[1] >= picture.width * picture.height
 
 
 def _describe_damage(error: Exception, problem: str = "the file is damaged") -> str:
-    """Write a decoder's message, which may quote the file's bytes, as part of a sentence."""
+    """Format a decoder's message, which may quote the file's bytes, as part of a sentence."""
     words = re.sub(r"\s+", " ", "".join(c if c.isprintable() else " " for c in str(error)))
     words = words.strip().rstrip(".")[:120]
     return f"{problem} ({words})" if words else problem
@@ -225,7 +225,7 @@ def format_and_factory(path: Path, file: IO[bytes]) -> "tuple[str, Factory]":
     for name in _FORMATS:
         factory, accepts = Image.OPEN.get(name, (None, None))
         if factory is not None and accepts is not None and accepts(start[:16]) is True:
-            # Pillow's own function for JPEG fails where the list of further pictures is damaged.
+            # Pillow's own function for JPEG fails if the list of further pictures is damaged.
             return name, partial(_open, JpegImageFile if name == "JPEG" else factory)
     name = one_line(str(path))
     if kind_of_film(start) is not None:
@@ -245,7 +245,7 @@ def _is_heic(start: bytes) -> bool:
 
 
 def _heic_factory(path: Path) -> "Factory":
-    """Return the function that opens a HEIC photo, without a change of Pillow's global list."""
+    """Return the function that opens a HEIC photo, without changing Pillow's global registry."""
     try:
         from pillow_heif import HeifImageFile
     except ImportError:

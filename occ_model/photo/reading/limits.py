@@ -13,29 +13,30 @@ if TYPE_CHECKING:
 _MOST_MEMORY = 950_000_000
 """Bytes of memory for reading a photo; numpy, OpenCV and the decoders' libraries take 150 MB more.
 
-A picture of 170 million pixels takes 4 bytes for each of them while it is decoded, whatever its
-colours, and 1 for the channel.
+A picture of 170 million pixels takes 4 bytes a pixel while it is decoded, with or without colours,
+and 1 for the channel.
 """
 
 _LONGEST_SIDE = 1_000_000
-"""Pixels of a photo's longer side: as many as a scene has columns, and ten times its rows.
+"""Largest side of a photo in pixels: the maximum columns of a scene, ten times its maximum rows.
 
-The means of columns and of lines are of 64 bits, and are sorted: of a photo of one line they
-would take many times the memory and time of its pixels.
+The means of columns and lines have 64 bits and are sorted. In a photo of one line they would take
+many times the memory and time of its pixels.
 """
 
 _MARKER = re.compile(rb"\xff+([^\x00\x01\xd0-\xd7\xff])")
-"""A JPEG's marker of a segment: not a byte 255 of the data, nor a restart inside a scan."""
+"""A JPEG's marker of a segment, but not a byte 255 of the data or a restart inside a scan."""
 
-_END, _SCAN = b"\xd9", b"\xda"  # the markers of its end and of a scan
+_END, _SCAN = b"\xd9", b"\xda"  # markers of a JPEG's end and of a scan
 
-_MOST_SCANS = 500  # scans of a JPEG; encoders write about 10
+_MOST_SCANS = 500  # largest number of scans of a JPEG; encoders write about 10
 
 _MOST_PIXELS_OF_SCANS = 3_000_000_000
-"""Pixels of a JPEG times its scans: 17 scans of 170 million pixels, which take some seconds."""
+"""Largest product of a JPEG's pixels and scans: 17 scans of 170 million pixels take seconds."""
 
 _MOST_SEGMENTS = 10_000
-"""Segments of a JPEG in several scans; 3,000 of full length are as large as a file may be."""
+"""Largest number of segments of a JPEG in several scans; 3,000 of full length fill a file of the
+largest size."""
 
 MOST_BYTES = {
     "JPEG": 170_000_000,
@@ -46,31 +47,32 @@ MOST_BYTES = {
     "HEIF": 40_000_000,
     "RAW": 150_000_000,
 }
-"""Largest file in bytes, for formats whose decoders take some seconds for it."""
+"""Largest file in bytes, by format: its decoder takes some seconds for it."""
 
-MOST_BYTES_OF_TIFF = 150_000_000  # largest file in bytes, for a compressed TIFF
-MOST_BYTES_IN_PYTHON = 3_500_000  # for what Pillow decodes in Python: QOI, some BMP and PPM
+MOST_BYTES_OF_TIFF = 150_000_000  # largest compressed TIFF in bytes
+MOST_BYTES_IN_PYTHON = 3_500_000  # largest file that Pillow decodes in Python: QOI, some BMP, PPM
 _DEEP_COLOURS = 2  # pictures of 16-bit colours in memory at once: the upper and the lower bytes
 
 _MOST_DEEP_AND_TRANSPARENT = 50_000_000
-"""Pixels of 16-bit colours of which some may be transparent: each takes twice the time or more."""
+"""Largest number of pixels of 16-bit colours with transparency, which take at least twice the time
+of others."""
 
-_LIBTIFF_COLOURS = 4  # bytes of a pixel where libtiff itself converts YCbCr colours
+_LIBTIFF_COLOURS = 4  # bytes of a pixel if libtiff itself converts YCbCr colours
 
 _BITS_PER_SAMPLE = 258
 _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
 def check_size(path: Path, width: int, height: int, max_pixels: int) -> None:
-    """Refuse a picture of too many pixels, or of a side longer than any camera's, undecoded."""
-    has = f"{one_line(str(path))} has {width:,} x {height:,} pixels"
+    """Refuse a picture with too many pixels or too long a side, before decoding."""
+    description = f"{one_line(str(path))} has {width:,} x {height:,} pixels"
     if width * height > max_pixels:
         raise PhotoError(
-            f"{has}, {count_of_pixels(width * height)}; allowed: at most "
+            f"{description}, {count_of_pixels(width * height)}; allowed: at most "
             f"{allowed_pixels(max_pixels)}"
         )
     if max(width, height) > _LONGEST_SIDE:
-        raise PhotoError(f"{has}; allowed: at most {_LONGEST_SIDE:,} along each side.")
+        raise PhotoError(f"{description}; allowed: at most {_LONGEST_SIDE:,} along each side.")
 
 
 def allowed_pixels(max_pixels: int) -> str:
@@ -89,7 +91,7 @@ def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int)
     """Refuse a picture that takes too much memory.
 
     ``decoding``: bytes that decoding takes, in proportion to the pixels. ``kept``: bytes of the
-    file that are kept in memory meanwhile.
+    file that stay in memory during decoding.
     """
     if decoding + kept > _MOST_MEMORY:
         most = width * height * max(_MOST_MEMORY - kept, 0) / decoding
@@ -101,16 +103,16 @@ def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int)
 
 
 def count_scans(content: bytes | bytearray, most: int, most_segments: int) -> int:
-    """Count a JPEG's scans without decoding; ``most + 1`` for more, or too many segments."""
+    """Count a JPEG's scans without decoding; return ``most + 1`` for more, or too many segments."""
     scans, place = 0, 2
     for _ in range(most_segments):
-        found = _MARKER.search(content, place)
-        if found is None or found[1] == _END:
+        marker = _MARKER.search(content, place)
+        if marker is None or marker[1] == _END:
             return scans
-        scans += found[1] == _SCAN
+        scans += marker[1] == _SCAN
         if scans > most:
             return scans
-        place = found.end() + int.from_bytes(content[found.end() : found.end() + 2], "big")
+        place = marker.end() + int.from_bytes(content[marker.end() : marker.end() + 2], "big")
     return most + 1
 
 
@@ -120,7 +122,7 @@ def check_file_size(path: Path, file_format: str, size: int) -> None:
 
 
 def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
-    """Refuse a file that would take its decoder too long, before any of it is decoded."""
+    """Refuse a file that would take its decoder too long, before decoding."""
     from PIL import Image
 
     decoders = {tile[0] for tile in picture.tile}
@@ -140,7 +142,7 @@ def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
 
 
 def check_transparency(path: Path, picture: "ImageFile") -> None:
-    """Refuse a large picture of 16-bit colours with transparency, before any of it is decoded."""
+    """Refuse a large picture of 16-bit colours with transparency, before decoding."""
     transparent = "A" in picture.mode or "transparency" in picture.info
     large = picture.width * picture.height > _MOST_DEEP_AND_TRANSPARENT
     if large and transparent and is_deep_in_colours(raw_modes_of(picture)):
@@ -152,10 +154,10 @@ def check_transparency(path: Path, picture: "ImageFile") -> None:
 
 
 def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header: int) -> None:
-    """Refuse a picture that would take too much memory, before any of it is decoded.
+    """Refuse a picture that would take too much memory, before decoding.
 
-    ``bytes_read``: bytes read on opening the file, all of which may be kept in memory.
-    ``scan_header``: bytes of the last read: in a JPEG the header of its first scan.
+    ``bytes_read``: bytes read on opening the file, all of which may stay in memory.
+    ``scan_header``: bytes of the last read, which in a JPEG is the header of the first scan.
     """
     pixels = picture.width * picture.height
     decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
@@ -165,7 +167,7 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
 def check_scans(
     path: Path, picture: "ImageFile", scan_header: int, content: Callable[[], bytes | bytearray]
 ) -> None:
-    """Refuse a JPEG of too many scans; only one in several scans is read by ``content``."""
+    """Refuse a JPEG with too many scans; ``content`` reads it if it has several."""
     if picture.format != "JPEG" or _is_in_one_scan(picture, scan_header):
         return
     most = min(_MOST_SCANS, _MOST_PIXELS_OF_SCANS // (picture.width * picture.height))
@@ -178,29 +180,34 @@ def check_scans(
 
 
 def is_deep_in_colours(raw_modes: set[str]) -> bool:
-    """Whether a file's samples, by their raw modes in Pillow, are colours of 16 bits."""
+    """Return whether a file's samples, by their raw modes in Pillow, are colours of 16 bits."""
     return len(raw_modes) == 1 and all(
         mode.startswith(("RGB;16", "RGBA;16", "RGBX;16")) for mode in raw_modes
     )
 
 
 def raw_modes_of(picture: "ImageFile") -> set[str]:
-    """Return the raw modes of a picture: Pillow's names of the layout of samples in a file."""
+    """Return a picture's raw modes, Pillow's names for the layout of samples in a file."""
     arguments = [tile[3] for tile in picture.tile]
-    firsts = [given[0] if isinstance(given, tuple) and given else given for given in arguments]
+    firsts = [
+        argument[0] if isinstance(argument, tuple) and argument else argument
+        for argument in arguments
+    ]
     return {first for first in firsts if isinstance(first, str)}
 
 
 def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
-    """Return the largest number of bytes for a pixel from decoding to its one channel."""
+    """Return the peak number of bytes a pixel, from decoding to the extracted channel."""
     deep_colours = is_deep_in_colours(raw_modes_of(picture))
     decoded = _bytes_decoded(picture.mode)
     if deep_colours:
         decoded *= _DEEP_COLOURS
-    kept = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
-    # Finally the channel is transposed, and there is a copy in whole grey levels.
-    turning = 5 if kept == 2 else 2
-    return max(decoded + decoder_bytes_a_pixel(picture, scan_header), decoded + kept, turning)
+    channel = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
+    # Finally the channel is transposed and copied in whole grey levels.
+    transposing = 5 if channel == 2 else 2
+    return max(
+        decoded + decoder_bytes_a_pixel(picture, scan_header), decoded + channel, transposing
+    )
 
 
 def _bytes_decoded(mode: str) -> int:
@@ -210,17 +217,17 @@ def _bytes_decoded(mode: str) -> int:
 
 
 def decoder_bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
-    """Return the bytes that a format's decoder allocates for each pixel beyond its own."""
+    """Return the bytes a pixel that a format's decoder allocates in addition to the picture."""
     bands = len(picture.getbands())
     kind = picture.format
     if kind == "JPEG":
         layers = getattr(picture, "layer", [])
-        # Coefficients of 16 bits, of all scans.
+        # Several scans need coefficients of 16 bits for the whole picture.
         one_scan = _is_in_one_scan(picture, scan_header)
         return 0.0 if one_scan else 2 * _samples_a_pixel(layers)
-    if kind == "JPEG2000":  # whole numbers of 32 bits, and samples of 16
+    if kind == "JPEG2000":  # integers of 32 bits, and samples of 16
         return 6 * bands
-    if kind == "TIFF":  # which Pillow rotates itself
+    if kind == "TIFF":  # Pillow rotates it
         tags = getattr(picture, "tag_v2", {})
         return 0.0 if tags.get(_ORIENTATION, 1) == 1 else _bytes_decoded(picture.mode)
     from PIL import Image
@@ -231,20 +238,20 @@ def decoder_bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
 
 
 def _is_in_one_scan(picture: "ImageFile", scan_header: int) -> bool:
-    """Whether the first scan of a JPEG holds all its colours, so that no other is decoded."""
+    """Return whether the first scan of a JPEG has all colours, so that no other is decoded."""
     layers = getattr(picture, "layer", [])
     return scan_header == 4 + 2 * len(layers) and "progressive" not in picture.info
 
 
 def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
-    """Return the samples of a JPEG per pixel: colours may be subsampled."""
+    """Return the number of samples of a JPEG per pixel, as colours may be subsampled."""
     widest = max((across for _, across, _, _ in layers), default=1)
     highest = max((down for _, _, down, _ in layers), default=1)
     return sum(across * down for _, across, down, _ in layers) / (widest * highest)
 
 
 def _bytes_of_a_strip(picture: "ImageFile") -> float:
-    """Return the bytes of the strips or tiles in which a TIFF is decoded: one may be the whole."""
+    """Return the bytes of a strip or tile in which a TIFF is decoded, which may be all of it."""
     tags = getattr(picture, "tag_v2", None)
     if tags is None or picture.format != "TIFF":
         return 0.0

@@ -1,4 +1,4 @@
-"""Read a photograph: the samples of one channel, its columns being the scan axis."""
+"""Read a photograph: the samples of one channel, with the columns as scan axis."""
 
 import math
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ from occ_model.scene.argument_checks import check_choice, check_count
 __all__ = ["CHANNELS", "Photo", "column_means", "load_photo"]
 
 _USUAL_FRACTION = 0.97
-"""Fraction of the differences between neighbours that are not at a panel's edges."""
+"""Fraction of the smallest differences between neighbours, which are not at a panel's edges."""
 
 Corners: TypeAlias = Region | Sequence[int]
 """A Region, or first row, row after the last, first column, column after the last."""
@@ -45,12 +45,12 @@ class Photo:
     path
         The file.
     samples : ndarray of uint8 or uint16, shape (rows, columns)
-        One channel in the full depth of the file, columns being the scan axis. Others that
-        :func:`occ_model.decode` takes are made so.
+        One channel in the full depth of the file, with the columns as scan axis. Other types that
+        :func:`occ_model.decode` accepts are converted.
     white
         The sample value of white: 255 or 65535.
     image : ndarray of uint8, shape (rows, columns)
-        The samples in whole grey levels; the same array if they are of 8 bits.
+        The samples in whole grey levels; the same array if they have 8 bits.
     profile : ndarray of float64, shape (columns,)
         Mean of each column's samples in grey levels.
     turned
@@ -58,16 +58,16 @@ class Photo:
     channel
         ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"grey"`` for a photo without colours.
     exposure_time, f_number, iso
-        From the EXIF data, in SI units; None where they are missing or out of range.
+        From the EXIF data, in SI units; None if missing or out of range.
     camera
-        The camera's maker and model, None where both are missing.
+        The camera's maker and model; None if both are missing.
     is_linear
-        Whether the samples are in proportion to the light, as those of a RAW file are: the camera
+        Whether the samples are in proportion to the light, as in a RAW file, to which the camera
         has not applied its gamma.
     equivalent_focal_length, focal_length_step
-        From the EXIF data, None where it is missing, and what it is rounded to, in metres.
+        From the EXIF data in metres, None if missing, and its rounding step in metres.
     enhancement
-        How a receiver has enhanced it, by what a picture of this program notes; None for others.
+        The enhancement noted in a picture that this program's receiver saved; None for others.
     """
 
     path: Path
@@ -87,9 +87,9 @@ class Photo:
     enhancement: str | None = None
 
     def __post_init__(self) -> None:
-        given = np.asarray(self.samples)
-        object.__setattr__(self, "samples", samples_of(given, "The photo"))
-        if given.dtype.kind == "f":
+        values = np.asarray(self.samples)
+        object.__setattr__(self, "samples", samples_of(values, "The photo"))
+        if values.dtype.kind == "f":
             object.__setattr__(self, "white", int(white_of(self.samples)))
 
 
@@ -106,20 +106,20 @@ def load_photo(
     Parameters
     ----------
     path
-        An image file of one of the formats in :mod:`occ_model.photo.reading.file`; of several
-        pictures the first is read. Its EXIF orientation is applied, transparent parts are black,
-        and floating-point samples are fractions of white or grey levels by the rule of
-        :func:`occ_model.decode`. A camera's RAW file is read from its green photosites, as
-        :mod:`occ_model.photo.reading.raw` says.
+        An image file of one of the formats in :mod:`occ_model.photo.reading.file`, of which the
+        first picture is read. Its EXIF orientation is applied, transparent parts are black, and
+        floating-point samples are fractions of white or grey levels by the rule of
+        :func:`occ_model.decode`. For a camera's RAW file the green photosites are read; see
+        :mod:`occ_model.photo.reading.raw`.
     scan_axis
         ``"columns"`` or ``"lines"`` of the file, or ``"auto"``.
     channel
-        ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"brightest"``: the largest mean.
+        ``"red"``, ``"green"``, ``"blue"``, ``"luma"``, or ``"brightest"``, by its mean.
     max_pixels
-        Largest number of pixels. Some formats' decoders allow fewer: the memory is limited too.
+        Largest number of pixels. Some formats allow fewer, as the memory is limited, too.
     progress
-        Called with the fraction of the work that is done, from 0 to 1. What it raises cancels the
-        reading, though JPEG 2000, WebP, AVIF, HEIC, RAW and compressed TIFF only after
+        Called with the fraction of the work that is done, from 0 to 1. An exception from it cancels
+        the reading; that of JPEG 2000, WebP, AVIF, HEIC, RAW and compressed TIFF only after
         decoding.
 
     Raises
@@ -127,25 +127,27 @@ def load_photo(
     PhotoError
         There is no such file, it may not be read, or it is not a complete image of allowed size.
     ParameterError
-        ``scan_axis`` or ``channel`` is not one of these words, or ``max_pixels`` is below 1.
+        ``scan_axis`` or ``channel`` is none of these words, or ``max_pixels`` is below 1.
     """
     check_choice("scan_axis", scan_axis, SCAN_AXES)
     check_choice("channel", channel, CHANNELS)
     check_count("max_pixels", max_pixels, 1)
-    file, most = _path(path), int(max_pixels)
+    file, largest = _check_path(path), int(max_pixels)
     report = Reporter(progress)
     report(0.0)
-    with open_file(file, most, report) as opened:
+    with open_file(file, largest, report) as opened:
         is_linear = is_raw(opened)
         if is_linear:
-            mosaic = read_mosaic(file, opened, channel, most, report)
-            notes, orientation, taken = mosaic.notes, mosaic.orientation, mosaic.channel
+            mosaic = read_mosaic(file, opened, channel, largest, report)
+            notes, orientation, channel_name = mosaic.notes, mosaic.orientation, mosaic.channel
             turned = _is_turned(mosaic.one_plane(), orientation, scan_axis)
             samples = mosaic.samples(along_lines=turned != turns_of(orientation)[0])
         else:
-            samples, taken, notes, orientation = _taken(file, opened, channel, most, report)
+            samples, channel_name, notes, orientation = _decode_channel(
+                file, opened, channel, largest, report
+            )
             turned = _is_turned(samples, orientation, scan_axis)
-    samples = _turned(samples, orientation, turned)
+    samples = _turn(samples, orientation, turned)
     white = int(white_of(samples))
     return Photo(
         path=file,
@@ -154,13 +156,13 @@ def load_photo(
         image=_in_grey_levels(samples),
         profile=means_along(samples, 0) * (WHITE / white),
         turned=turned,
-        channel=taken,
+        channel=channel_name,
         is_linear=is_linear,
         **asdict(notes),
     )
 
 
-def _path(path: str | Path) -> Path:
+def _check_path(path: str | Path) -> Path:
     try:
         return Path(path)
     except TypeError:
@@ -170,17 +172,17 @@ def _path(path: str | Path) -> Path:
 
 
 def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
-    """Average columns from ``first_row`` to before ``last_row``, in grey levels of full depth."""
+    """Average each column over rows before ``last_row``, in grey levels with the file's depth."""
     return means_along(photo.samples[first_row:last_row], 0) * (WHITE / photo.white)
 
 
 def _is_turned(samples: Samples, orientation: int, scan_axis: str) -> bool:
-    lying, _, _ = turns_of(orientation)
-    return scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, lying))
+    transposed, _, _ = turns_of(orientation)
+    return scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, transposed))
 
 
-def _turned(samples: Samples, orientation: int, turned: bool) -> Samples:
-    """Turn samples upright, and then the scan axis to the columns."""
+def _turn(samples: Samples, orientation: int, turned: bool) -> Samples:
+    """Turn samples upright, and then make the scan axis the columns."""
     transpose, mirror_rows, mirror_columns = turns_of(orientation)
     if turned:
         transpose, mirror_rows, mirror_columns = not transpose, mirror_columns, mirror_rows
@@ -194,20 +196,20 @@ def _turned(samples: Samples, orientation: int, turned: bool) -> Samples:
     return samples
 
 
-def _taken(
+def _decode_channel(
     path: Path, file: WatchedFile, channel: str, max_pixels: int, report: Reporter
 ) -> tuple[Samples, str, CameraNotes, int]:
     decoded = DecodedPicture(picture_opener(path, file, max_pixels))
     try:
         notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
-        samples, taken = take_channel(
+        samples, channel_name = take_channel(
             decoded,
             channel,
             lambda fraction: report(DECODED_FRACTION + (1.0 - DECODED_FRACTION) * fraction),
         )
     finally:
         decoded.close()
-    return samples, taken, notes, orientation
+    return samples, channel_name, notes, orientation
 
 
 def _in_grey_levels(samples: Samples) -> ByteArray:
@@ -216,18 +218,18 @@ def _in_grey_levels(samples: Samples) -> ByteArray:
     return np.asarray(cv2.convertScaleAbs(samples, alpha=WHITE / white_of(samples)), np.uint8)
 
 
-def stripes_are_lines(samples: Samples, lying: bool) -> bool:
-    """Whether the means of lines differ more, from one to the next, than those of columns.
+def stripes_are_lines(samples: Samples, transposed: bool) -> bool:
+    """Return whether the means of neighbouring lines differ more than those of columns.
 
-    Lines and columns are those of the upright photo, of which ``samples`` may be transposed.
+    Lines and columns are those of the upright photo; ``samples`` may be ``transposed``.
     """
-    axes = (1, 0) if lying else (0, 1)
+    axes = (1, 0) if transposed else (0, 1)
     columns, lines = (roughness_along(samples, axis) for axis in axes)
     return lines > columns
 
 
 def roughness_along(samples: Samples | ByteArray, axis: int) -> float:
-    """Return the mean difference of neighbouring means, without the largest: a panel's edges."""
+    """Return the mean difference of neighbouring means, without those at a panel's edges."""
     means = means_along(samples, axis)
     steps = np.sort(np.abs(np.diff(means)))
     usual = steps[: math.ceil(_USUAL_FRACTION * len(steps))]
@@ -235,7 +237,7 @@ def roughness_along(samples: Samples | ByteArray, axis: int) -> float:
 
 
 def means_along(samples: Samples | ByteArray, axis: int) -> FloatArray:
-    """Average samples along an axis, many times faster than NumPy."""
+    """Average samples along an axis, much faster than NumPy."""
     sums = cv2.reduce(samples, axis, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
     means: FloatArray = np.asarray(sums, dtype=np.float64).ravel() / samples.shape[axis]
     return means
@@ -245,9 +247,9 @@ def region_within(photo: Photo, corners: Corners) -> Region:
     rows, columns = photo.samples.shape
     region = corners if isinstance(corners, Region) else _region_of(corners)
     if region is not None:
-        down = 0 <= region.first_row < region.last_row <= rows
-        across = 0 <= region.first_column < region.last_column <= columns
-        if down and across:
+        has_rows = 0 <= region.first_row < region.last_row <= rows
+        has_columns = 0 <= region.first_column < region.last_column <= columns
+        if has_rows and has_columns:
             return region
     raise ParameterError.of(
         "region",

@@ -9,13 +9,13 @@ from occ_model.files.reading import BoundedFile
 Progress: TypeAlias = Callable[[float], object]
 """Called with the fraction of the work that is done, from 0 to 1; cancels the work by raising."""
 
-_STEP = 1 << 16  # bytes after which progress is reported again: decoders read as many at once
+_STEP = 1 << 16  # bytes between two reports of progress, the number that decoders read at once
 
 
 class Reporter:
     """Reports progress, and keeps the exception that cancelled the work.
 
-    It is kept because a decoder may take any exception while it reads for a damaged file.
+    It is kept because a decoder may regard any exception of a read as a damaged file.
     """
 
     def __init__(self, progress: Progress | None) -> None:
@@ -42,7 +42,7 @@ class WatchedFile(BoundedFile):
         self.last = 0  # number of bytes of the last read
 
     def watch(self, size: int, first: float, last: float) -> None:
-        """Report from now on progress between two fractions, while ``size`` bytes are read."""
+        """Report progress from the fraction ``first`` to ``last`` while reading ``size`` bytes."""
         self._from, self._to, self._size = first, last, max(size, 1)
         self.total, self._next = 0, 0
 

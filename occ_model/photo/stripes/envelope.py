@@ -9,22 +9,22 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 MEAN_SHAPES = 6
-"""Number of polynomials that describe the trend of a profile's mean; of its swing two thirds."""
+"""Number of polynomials for the trend of a profile's mean; its swing has two thirds of them."""
 
 LEAST_SWING = 0.05
-"""Minimum of a local swing relative to the largest one, or of a power to its mean: it divides."""
+"""Minimum ratio of a local swing to the largest one, or of a power to its mean, as it divides."""
 
-_LEAST_VARIANCE = 1e-18  # variance below which a profile is constant but for rounding
+_LEAST_VARIANCE = 1e-18  # variance below which a profile is constant except for rounding
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
     """Return the low and the high level around each column, smoothed.
 
-    A grey-scale opening removes bright stripes, a closing dark ones. ``width``: number of columns
-    within which the stripes reach both levels.
+    A grey-scale opening removes bright stripes, a closing removes dark ones. ``width``: number of
+    columns within which the stripes reach both levels.
     """
     width = max(3, min(width, 2 * len(profile) - 1)) | 1
-    # As one row: OpenCV 4 and 5 give a one-dimensional array different shapes.
+    # One row, as OpenCV 4 and 5 give one-dimensional arrays different shapes.
     line = profile[None, :]
     kernel = np.ones((1, width), dtype=np.uint8)
     levels = []
@@ -35,7 +35,7 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
     return np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
 
 
-@lru_cache(maxsize=8)  # a film's frames ask for the same
+@lru_cache(maxsize=8)  # a film's frames need the same shapes
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
     """Return Chebyshev polynomials, shape (columns, freedom), as a basis of slow changes."""
     place = np.linspace(-1.0, 1.0, count)
@@ -45,22 +45,24 @@ def smooth_shapes(count: int, freedom: int) -> FloatArray:
     return shapes
 
 
-def without_trend(profile: FloatArray) -> FloatArray:
-    """Remove slow changes of a profile's mean and swing, whatever its stripes."""
+def remove_trend(profile: FloatArray) -> FloatArray:
+    """Remove slow changes of a profile's mean and swing."""
     mean, deviation = trend_of(profile, MEAN_SHAPES)
     return np.asarray((profile - mean) / deviation)
 
 
-def trend_of(profile: FloatArray, of_mean: int) -> tuple[FloatArray, FloatArray]:
-    """Return a profile's mean and standard deviation around each column, by so many polynomials."""
-    mean = _smooth(profile, of_mean)
+def trend_of(profile: FloatArray, polynomials: int) -> tuple[FloatArray, FloatArray]:
+    """Return a profile's local mean, by ``of_mean`` polynomials, and its local deviation."""
+    mean = _smooth(profile, polynomials)
     square = (profile - mean) ** 2
-    power = np.maximum(_smooth(square, -(-2 * of_mean // 3)), LEAST_SWING * float(np.mean(square)))
+    power = np.maximum(
+        _smooth(square, -(-2 * polynomials // 3)), LEAST_SWING * float(np.mean(square))
+    )
     return mean, np.sqrt(np.maximum(power, 1e-300))
 
 
 def weighted_correlation(one: FloatArray, other: FloatArray, weights: FloatArray) -> float:
-    """Return the correlation of two profiles, from -1 to 1; 0 where one of them is constant."""
+    """Return the correlation of two profiles, from -1 to 1; 0 if one of them is constant."""
     weights = weights / weights.sum()
     a, b = one - weights @ one, other - weights @ other
     energy = math.sqrt(float(weights @ a**2) * float(weights @ b**2))

@@ -23,24 +23,24 @@ BANDS = 64  # maximum number of bands into which rows are gathered
 
 _LEAST_STRENGTH = 0.25  # minimum strength of the common stripes in a row relative to the median
 _LEAST_SLOPE = 0.3  # minimum slope of an edge relative to a steep one; lenses darken the rim
-_LEAST_NEIGHBOUR_RATIO = 0.6  # minimum slope of an outer edge relative to the edges beside it
+_LEAST_NEIGHBOUR_RATIO = 0.6  # minimum slope of an outer edge relative to its neighbours
 _NOISE_SLOPE = 0.08  # slope relative to a steep edge below which it is noise or compression
 _SLOPE_COLUMNS = 4  # number of columns over which a slope is measured
 _MOST_GAP_RATIO = 1.6  # ratio to the widest gap between edges above which a gap ends the panel
-_STEEP_QUANTILE = 0.98  # quantile of slopes of a steep edge: the panel's rim is steeper
+_STEEP_QUANTILE = 0.98  # quantile of the slopes that counts as a steep edge; rims are steeper
 
 _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
 
 _LEAST_COHERENCE = 0.2  # minimum fraction of the variation that all bands have in common
 _SATURATED_LEVEL = 0.996  # fraction of white above which a sample is saturated
-_MOST_FULL = 0.8  # saturated fraction of the columns above which the others do not show the stripes
+_MOST_SATURATED = 0.8  # saturated fraction of the columns above which no stripes are visible
 
-_LEAST_STRIPS = 3  # above which the outermost ones, cut by the rim, are left out
+_LEAST_STRIPS = 3  # number of strips above which the outermost ones, cut by the rim, are left out
 
 
 def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
-    """Find the stripes in a photo, in a rectangle of it, or in a lamp of whatever shape.
+    """Find the stripes in a photo, in a rectangle of it, or in a lamp of any shape.
 
     Parameters
     ----------
@@ -57,46 +57,46 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
     Raises
     ------
     MatchError
-        There are no stripes: the photo is flat or too narrow, or what changes from column to column
-        is not common to its rows. It says so where there are stripes along the other axis.
+        There are no stripes: the photo is flat or too narrow, or its rows do not change alike from
+        column to column. The message mentions stripes along the other axis.
     ParameterError
         ``region`` is not a rectangle of the photo.
     """
     if isinstance(region, Lamp):
         return _stripes_between(photo, region.region, lamp_profile(photo, region))
     whole = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
-    within = whole if region is None else region_within(photo, region)
-    part = photo if region is None else part_of(photo, within)
+    rectangle = whole if region is None else region_within(photo, region)
+    part = photo if region is None else part_of(photo, rectangle)
     try:
-        found = _stripes_of(part)
+        stripes = _stripes_of(part)
     except MatchError as error:
         raise MatchError(*error.reasons, *_explain_other_axis(part)) from None
-    return replace(found, region=_shift_region(found.region, within))
+    return replace(stripes, region=_shift_region(stripes.region, rectangle))
 
 
 def _explain_other_axis(photo: Photo) -> list[str]:
-    """Explain that a photo without stripes has some along the other axis; empty if it has not."""
+    """State that a photo has stripes along the other axis; empty if it has none."""
     samples = np.ascontiguousarray(photo.samples.T)
     try:
-        found = _stripes_of(replace(photo, samples=samples))
+        stripes = _stripes_of(replace(photo, samples=samples))
     except MatchError:
         return []
-    if found.period is None:
+    if stripes.period is None:
         return []
     axis = "columns" if photo.turned else "lines"
     return [
-        f"There are stripes along the other axis, which repeat after {found.period:.1f} rows: if "
+        f"There are stripes along the other axis, which repeat after {stripes.period:.1f} rows: if "
         f"they are the shutter's, read the photo with {axis} as the scan axis."
     ]
 
 
-def _shift_region(here: Region, within: Region) -> Region:
+def _shift_region(region: Region, outer: Region) -> Region:
     """Return a part's region in the rows and columns of the photo that it was cut from."""
     return Region(
-        here.first_row + within.first_row,
-        here.last_row + within.first_row,
-        here.first_column + within.first_column,
-        here.last_column + within.first_column,
+        region.first_row + outer.first_row,
+        region.last_row + outer.first_row,
+        region.first_column + outer.first_column,
+        region.last_column + outer.first_column,
     )
 
 
@@ -121,32 +121,32 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
     if swing < FLAT_SPAN:
         raise MatchError(_explain_flat(profile, swing, 2 * gap))
     high = np.maximum(high, low + FLAT_SPAN)
-    found = repeat_period((profile - low) / (high - low))
-    period, uncertainty = found if found is not None else (None, None)
+    repetition = repeat_period((profile - low) / (high - low))
+    period, uncertainty = repetition if repetition is not None else (None, None)
     region = _shift_region(Region(0, rows.rows, first, last), rows)
     part = region.crop(photo.samples)
-    full = np.count_nonzero(part >= _SATURATED_LEVEL * photo.white) / part.size
-    return Stripes(region, profile, low, high, period, uncertainty, full)
+    saturated = np.count_nonzero(part >= _SATURATED_LEVEL * photo.white) / part.size
+    return Stripes(region, profile, low, high, period, uncertainty, saturated)
 
 
 def _check_white(profile: FloatArray) -> None:
     white = float(np.mean(profile >= _SATURATED_LEVEL * WHITE))
-    if white > _MOST_FULL:
-        shown, limit = distinct_texts(100.0 * white, 100.0 * _MOST_FULL, 0)
+    if white > _MOST_SATURATED:
+        percent, limit = distinct_texts(100.0 * white, 100.0 * _MOST_SATURATED, 0)
         raise MatchError(
-            f"No stripes: {shown} % of the panel's columns are white; at most {limit} % are "
+            f"No stripes: {percent} % of the panel's columns are white; at most {limit} % are "
             "allowed; expose less, or choose another channel."
         )
 
 
 def _explain_flat(profile: FloatArray, swing: float, width: int) -> str:
-    """Say why a profile has no stripes whose median height within some columns is so small."""
+    """Explain why a profile with this median swing within ``width`` columns has no stripes."""
     span = float(np.ptp(profile))
     if span < FLAT_SPAN:
         return f"No stripes: the columns differ by {span:.2g} grey levels only."
     return (
         f"No stripes with edges: the columns differ by {span:.2g} grey levels in all, but within "
-        f"{width} columns as a rule by {swing:.2g} only; at least {FLAT_SPAN:g} is needed."
+        f"{width} columns usually by only {swing:.2g}; at least {FLAT_SPAN:g} is needed."
     )
 
 
@@ -163,17 +163,17 @@ def _find_striped_rows(photo: Photo) -> tuple[int, int]:
     common, strengths = _common_slopes(slopes)
     coherence = float(strengths @ strengths) / float((slopes**2).sum())
     if bands > 1 and coherence < _LEAST_COHERENCE:
-        shown, limit = distinct_texts(100.0 * coherence, 100.0 * _LEAST_COHERENCE, 0)
+        percent, limit = distinct_texts(100.0 * coherence, 100.0 * _LEAST_COHERENCE, 0)
         raise MatchError(
-            f"No stripes: only {shown} % of the changes from column to column, by their squares, "
+            f"No stripes: only {percent} % of the changes from column to column, by their squares, "
             f"are common to all rows; at least {limit} % are needed."
         )
-    shows = strengths > _LEAST_STRENGTH * np.median(np.sort(strengths)[-(bands // 2 + 1) :])
+    has_stripes = strengths > _LEAST_STRENGTH * np.median(np.sort(strengths)[-(bands // 2 + 1) :])
     best = int(strengths.argmax())
     first, last = best, best + 1
-    while first > 0 and shows[first - 1]:
+    while first > 0 and has_stripes[first - 1]:
         first -= 1
-    while last < bands and shows[last]:
+    while last < bands and has_stripes[last]:
         last += 1
     if bands == rows:
         return first, last
@@ -185,7 +185,7 @@ def _find_striped_rows(photo: Photo) -> tuple[int, int]:
 
 
 def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the most common slopes of the bands, of norm one, and their strength in each band."""
+    """Return the slopes that the bands share, of norm one, and their strength in each band."""
     # The leading pair of singular vectors, from the small matrix of the bands' products.
     _, vectors = np.linalg.eigh(slopes @ slopes.T)
     common = vectors[:, -1] @ slopes
@@ -194,39 +194,42 @@ def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     return (-common, -strengths) if strengths.sum() < 0.0 else (common, strengths)
 
 
-def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outward: int) -> int:
+def _edge_row(photo: Photo, row: int, common: FloatArray, typical: float, outward: int) -> int:
     """Find the first or last row with stripes, within a band to either side of a row."""
     rows = len(photo.samples)
     height = -(-rows // BANDS)
-    first, last = max(0, near - height), min(rows, near + height)
+    first, last = max(0, row - height), min(rows, row + height)
     part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)
     strengths = np.diff(part, axis=1) @ common
-    shows: list[int] = np.flatnonzero(strengths > 0.5 * typical).tolist()
-    if not shows:
-        return near
-    return first + shows[0] if outward < 0 else first + shows[-1] + 1
+    striped: list[int] = np.flatnonzero(strengths > 0.5 * typical).tolist()
+    if not striped:
+        return row
+    return first + striped[0] if outward < 0 else first + striped[-1] + 1
 
 
 def _find_striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     """Find the columns from the first edge to the last, and the widest gap between two edges."""
     slopes = _local_range(profile)
-    # Without noise a few edges leave even the steep columns flat.
+    # Without noise and with few edges, the quantile may be zero.
     steep = float(np.quantile(slopes, _STEEP_QUANTILE)) or float(slopes.max())
     edges = np.flatnonzero(slopes > _LEAST_SLOPE * steep)
     gaps = np.diff(edges)
-    # Noise outside the panel is farther from its edges than they are from each other.
+    # Noise outside the panel is farther from its edges than these are from each other.
     inner = gaps[len(gaps) // 4 : len(gaps) - len(gaps) // 4]
     longest = int(_MOST_GAP_RATIO * inner.max()) if inner.size else 0
-    far = np.flatnonzero(gaps > max(longest, _SLOPE_COLUMNS))
-    before, after = far[far < len(gaps) // 4], far[far >= len(gaps) - len(gaps) // 4]
+    wide_gaps = np.flatnonzero(gaps > max(longest, _SLOPE_COLUMNS))
+    before, after = (
+        wide_gaps[wide_gaps < len(gaps) // 4],
+        wide_gaps[wide_gaps >= len(gaps) - len(gaps) // 4],
+    )
     edges = edges[
         int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
     ]
     separate_edges = int(np.count_nonzero(np.diff(edges) > 1)) + 1 if edges.size else 0
-    found = max(separate_edges, _count_reversals(profile, edges))
-    if found < _LEAST_EDGES:
+    count = max(separate_edges, _count_reversals(profile, edges))
+    if count < _LEAST_EDGES:
         raise MatchError(
-            f"No stripes: {counted(found, 'steep edge')} between bright and dark columns; at least "
+            f"No stripes: {counted(count, 'steep edge')} between bright and dark columns; at least "
             f"{_LEAST_EDGES} are needed; come closer to the panel, or raise its frequency."
         )
     gap = int(np.diff(edges).max())
@@ -238,7 +241,7 @@ def _find_striped_columns(profile: FloatArray) -> tuple[int, int, int]:
 
 
 def _count_reversals(profile: FloatArray, edges: IndexArray) -> int:
-    """Count the edges by the slopes that change their sign: narrow stripes are edges throughout."""
+    """Count edges by sign changes of the slope, as narrow stripes have no gaps between edges."""
     if edges.size == 0:
         return 0
     slopes = np.diff(profile[edges[0] : edges[-1] + 2])
@@ -251,20 +254,21 @@ def _count_reversals(profile: FloatArray, edges: IndexArray) -> int:
 def _follow_faint_edges(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
     """Follow the edges outwards from the first steep one while they slowly become fainter.
 
-    A round lamp covers ever fewer rows towards its ends; at a panel's rim the stripes end at once.
+    A round lamp covers fewer and fewer rows towards its ends; at a panel's rim the stripes end
+    abruptly.
     """
     last_slope = float(slopes[edge : edge + gap + 1].max())
     while True:
         window = slopes[max(0, edge - gap) : edge]
-        here = float(window.max(initial=0.0))
-        if here < max(_LEAST_NEIGHBOUR_RATIO * last_slope, _NOISE_SLOPE * steep):
+        slope = float(window.max(initial=0.0))
+        if slope < max(_LEAST_NEIGHBOUR_RATIO * last_slope, _NOISE_SLOPE * steep):
             return edge
         edge += int(np.flatnonzero(window >= _NOISE_SLOPE * steep)[0]) - len(window)
-        last_slope = here
+        last_slope = slope
 
 
 def _local_range(profile: FloatArray) -> FloatArray:
-    """Return the range of values in a few columns around each; on a slope it exceeds the noise."""
+    """Return the range of values in a few columns around each, which exceeds the noise at edges."""
     kernel = np.ones((1, _SLOPE_COLUMNS), dtype=np.uint8)
     line = profile[None, :]
     return np.asarray((cv2.dilate(line, kernel) - cv2.erode(line, kernel))[0], dtype=np.float64)
@@ -285,13 +289,13 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
         )
     sums, counts = np.zeros(region.columns), np.zeros(region.columns)
     spans = lamp.spans[1:-1] if len(lamp.spans) > _LEAST_STRIPS else lamp.spans
-    for chosen in (spans, lamp.spans):
-        # Where only the outermost strips cover a column, they count.
+    for strips in (spans, lamp.spans):
+        # The outermost strips count only in columns that no other strip covers.
         missing = counts == 0
-        for first, last, left, right in chosen.tolist():
+        for first, last, left, right in strips.tolist():
             part = photo.samples[first:last, left:right]
-            here = slice(left - region.first_column, right - region.first_column)
+            columns_of_strip = slice(left - region.first_column, right - region.first_column)
             sum_of_rows = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)[0]
-            sums[here] += np.where(missing[here], sum_of_rows, 0.0)
-            counts[here] += np.where(missing[here], last - first, 0)
+            sums[columns_of_strip] += np.where(missing[columns_of_strip], sum_of_rows, 0.0)
+            counts[columns_of_strip] += np.where(missing[columns_of_strip], last - first, 0)
     return np.asarray(sums / np.maximum(counts, 1) * (WHITE / photo.white))

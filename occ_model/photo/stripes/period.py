@@ -8,19 +8,19 @@ from occ_model.photo.stripes.envelope import smooth_shapes
 _SHORTEST_PERIOD = 3  # shortest period in columns
 LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
 _TOLERANCE = 0.06  # maximum difference of the shortest period's autocorrelation from the best
-_LONGEST_FRACTION = 0.67  # longest period relative to the width: part of it must be seen twice
+_LONGEST_FRACTION = 0.67  # longest period relative to the width, so that part of it appears twice
 _MOST_HARMONICS = 24  # maximum number of harmonics
 _MOST_ITERATIONS = 8  # maximum number of Gauss-Newton iterations
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
-    """Return the shortest period of stripes in columns and its deviation; None for none."""
-    rough = _rough_period(flattened)
-    return None if rough is None else refine_period(flattened, rough)
+    """Return the shortest period of stripes in columns and its deviation; None if there is none."""
+    estimate = _rough_period(flattened)
+    return None if estimate is None else refine_period(flattened, estimate)
 
 
 def best_repetition(flattened: FloatArray) -> tuple[int, float]:
-    """Return the largest lag after which a profile is searched to repeat, and its best likeness."""
+    """Return the longest period searched, in columns, and the largest autocorrelation."""
     lags, heights = _repetitions(flattened)
     longest = int(_LONGEST_FRACTION * len(flattened))
     return longest, float(heights.max()) if lags.size else 0.0
@@ -46,34 +46,34 @@ def _repetitions(flattened: FloatArray) -> tuple[FloatArray, FloatArray]:
     peaks = start + np.flatnonzero(
         (inner >= correlations[start - 1 : count - 2]) & (inner >= correlations[start + 1 : count])
     )
-    # The peak of a short period lies up to half a column off a lag: a parabola gives its height.
-    before, here, after = correlations[peaks - 1], correlations[peaks], correlations[peaks + 1]
-    bend = np.minimum(before - 2.0 * here + after, -1e-12)
-    aside = np.clip(0.5 * (before - after) / bend, -0.5, 0.5)
-    return peaks + aside, here - 0.25 * (before - after) * aside
+    # A peak lies up to half a column beside a lag; a parabola gives its place and height.
+    before, peak, after = correlations[peaks - 1], correlations[peaks], correlations[peaks + 1]
+    curvature = np.minimum(before - 2.0 * peak + after, -1e-12)
+    offset = np.clip(0.5 * (before - after) / curvature, -0.5, 0.5)
+    return peaks + offset, peak - 0.25 * (before - after) * offset
 
 
 def autocorrelation(values: FloatArray) -> FloatArray:
-    """Return the autocorrelation at every lag, normalized over the columns that both parts have."""
+    """Return the autocorrelation at every lag, normalized over the overlapping columns."""
     count = len(values)
-    about = values - values.mean()
-    spectrum = np.fft.rfft(about, 2 * count)
+    deviations = values - values.mean()
+    spectrum = np.fft.rfft(deviations, 2 * count)
     products = np.fft.irfft(np.abs(spectrum) ** 2)[:count]
-    squares = np.concatenate([[0.0], np.cumsum(about**2)])
+    squares = np.concatenate([[0.0], np.cumsum(deviations**2)])
     lags = np.arange(count)
     energy = np.sqrt(squares[count - lags] * (squares[count] - squares[lags]))
-    flat = energy <= 1e-12 * max(float(squares[-1]), 1e-300)
-    return np.where(flat, 0.0, products / np.where(flat, 1.0, energy))
+    is_flat = energy <= 1e-12 * max(float(squares[-1]), 1e-300)
+    return np.where(is_flat, 0.0, products / np.where(is_flat, 1.0, energy))
 
 
 def refine_period(flattened: FloatArray, period: float, least: int = 1) -> tuple[float, float]:
-    """Return the period near one that explains a profile best, and its deviation.
+    """Return the period near ``period`` that explains a profile best, and its deviation.
 
-    The repeated wave has as many harmonics as columns resolve, and at least so many.
+    The repeated wave has as many harmonics as the columns resolve, and at least ``least``.
     """
     count = len(flattened)
     harmonics = max(least, harmonics_within(count, period))
-    change = 0.1 * period / count  # small against a column at the last stripe
+    change = 0.1 * period / count  # shifts the last stripe by a tenth of a column
     best, best_residual = period, np.inf
     slope = residual = np.zeros(count)
     for _ in range(_MOST_ITERATIONS):
@@ -92,14 +92,14 @@ def refine_period(flattened: FloatArray, period: float, least: int = 1) -> tuple
 
 
 def unrepeated_fraction(flattened: FloatArray, period: float, least: int = 1) -> float:
-    """Return the fraction of a profile's variance that no repeated wave of a period explains."""
+    """Return the fraction of a profile's variance that a wave of this period does not explain."""
     residual = _residual(flattened, period, max(least, harmonics_within(len(flattened), period)))
-    about = flattened - flattened.mean()
-    return float(residual @ residual) / max(float(about @ about), 1e-300)
+    deviations = flattened - flattened.mean()
+    return float(residual @ residual) / max(float(deviations @ deviations), 1e-300)
 
 
-def without_repetition(flattened: FloatArray, period: float) -> FloatArray:
-    """Return what no repeated wave of a period explains, shape as ``flattened``."""
+def remove_repetition(flattened: FloatArray, period: float) -> FloatArray:
+    """Return the residual of a profile from the best wave of this period."""
     return _residual(flattened, period, harmonics_within(len(flattened), period))
 
 
@@ -113,7 +113,7 @@ def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArra
     turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
     waves = np.hstack([np.cos(turn), np.sin(turn)])
     shapes = smooth_shapes(count, 2)
-    # Of constant amplitude: a varying one would compensate a wrong period.
+    # The amplitude is constant, as a varying one would compensate for a wrong period.
     parts = np.hstack([shapes, waves])
     products = parts.T @ parts
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
@@ -123,9 +123,9 @@ def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArra
 def correlated_columns(residual: FloatArray) -> float:
     """Return the number of columns of a fit's residual that count as one independent value.
 
-    1 + 2 times the sum of the autocorrelations up to the first that is not positive. Neighbouring
-    columns are not independent where an effect outside the model, such as a lens's blur, is the
-    same in them.
+    It is 1 plus twice the sum of the autocorrelations up to the first that is not positive.
+    Neighbouring columns are not independent if an effect outside the model, such as a lens's blur,
+    is the same in them.
     """
     power = float(residual @ residual)
     if power <= 0.0:

@@ -13,7 +13,7 @@ import occ_model as occ
 from occ_model.photo.lamp_chips import in_chips, with_lamp
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
-from occ_model.photo.match_facts import in_columns, match_facts
+from occ_model.photo.match_facts import format_facts, match_facts
 from occ_model.results.match import Alternative, Match, known_value
 from occ_model.results.photo_table import PhotoRow, csv_text
 
@@ -116,7 +116,7 @@ def test_a_lamp_is_measured_and_told_in_its_own_words(photo: occ.Photo, estimate
     )
     again = occ.match_photo(photo, match.scene, sent="scene", estimate=estimate)
     assert again.is_applied_to(match.scene)
-    said = "\n".join(in_columns(match_facts(match, "if it is a lamp of 850 Hz: ")))
+    said = "\n".join(format_facts(match_facts(match, "if it is a lamp of 850 Hz: ")))
     assert "chip" not in said
     assert "duty cycle            30 %" in said
 

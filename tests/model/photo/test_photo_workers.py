@@ -7,7 +7,7 @@ from worker_calls import PickledJobs
 
 import occ_model as occ
 from occ_model.parallel import process_pool
-from occ_model.photo.many.match_photos import rows_by_workers
+from occ_model.photo.many.match_photos import match_by_workers
 from occ_model.photo.many.row import MatchSettings
 from occ_model.results.photo_table import PhotoRow
 
@@ -17,7 +17,7 @@ FILES = [(place, Path(name)) for place, name in enumerate(["a.png", "b.png", "c.
 def rows(monkeypatch: pytest.MonkeyPatch, *deadly: Path) -> dict[int, PhotoRow]:
     monkeypatch.setattr(process_pool, "ProcessPool", PickledJobs)
     monkeypatch.setattr(PickledJobs, "deadly", deadly)
-    return dict(rows_by_workers(FILES, MatchSettings(occ.Scene()), 2, lambda: None))
+    return dict(match_by_workers(FILES, MatchSettings(occ.Scene()), 2, lambda: None))
 
 
 @pytest.mark.parametrize("deadly", [[0], [3], [1, 2], [0, 1, 2, 3]])

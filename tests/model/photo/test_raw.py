@@ -145,7 +145,7 @@ def test_cut_files_are_refused_quietly(
 
 def test_black_level_of_white_is_damage(tmp_path: Path) -> None:
     path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16), bits=14, black=16383)
-    with pytest.raises(occ.PhotoError, match="it says that black is 16383 and white 16383"):
+    with pytest.raises(occ.PhotoError, match="it states that black is 16383 and white 16383"):
         occ.load_photo(path)
 
 

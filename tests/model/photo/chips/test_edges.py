@@ -7,9 +7,9 @@ from occ_model.photo.chips.edges import (
     Edges,
     certainty,
     chips_between,
-    coarsest,
     coherence,
     edges_of,
+    find_coarsest,
     lattice_at,
 )
 
@@ -63,7 +63,7 @@ def edges_at(off: np.ndarray | float = 0.0, longer: float = 0.0) -> Edges:
 @pytest.mark.parametrize("longer", [0.0, 3.0, -3.0])
 def test_chips_come_back_from_their_edges_though_bright_runs_are_longer(longer: float) -> None:
     edges = edges_at(longer=longer)
-    lattice = coarsest(edges)
+    lattice = find_coarsest(edges)
     assert 1.0 / lattice.frequency == pytest.approx(COLUMNS, rel=1e-3)
     assert lattice.coherence == pytest.approx(1.0, abs=1e-3)
     found = chips_between(edges, lattice)
@@ -84,7 +84,7 @@ def test_edges_that_do_not_alternate_on_a_lattice_have_no_chips() -> None:
     edges = edges_at()
     doubled = Edges(np.sort(np.append(edges.rising, edges.rising[2] + 0.5)), edges.falling)
     assert chips_between(doubled, lattice_at(doubled, 1.0 / COLUMNS)) is None
-    assert coarsest(Edges(edges.rising[:2], edges.falling[:1])) is None
+    assert find_coarsest(Edges(edges.rising[:2], edges.falling[:1])) is None
 
 
 def test_the_surer_the_nearer_edges_lie_to_their_chips() -> None:

@@ -12,11 +12,11 @@ from occ_model.light.waveform import Waveform
 from occ_model.photo.chips.edges import (
     Edges,
     chips_between,
-    coarsest,
+    find_coarsest,
     lattice_at,
-    without_rims,
+    remove_rims,
 )
-from occ_model.photo.chips.read import in_phase
+from occ_model.photo.chips.read import align_bursts
 from occ_model.photo.fit.timing import Timing
 
 
@@ -64,8 +64,8 @@ def test_a_panel_cut_within_a_chip_has_no_chip_of_its_own_there(
         edges = Edges(400.0 - edges.falling[::-1], 400.0 - edges.rising[::-1])
         chips = lattice_at(edges.within(0.0, 391.0), 1 / 20)
     inner = edges.within(10.0, 390.0)
-    assert without_rims(inner, chips).count == inner.count
-    kept = without_rims(edges, chips)
+    assert remove_rims(inner, chips).count == inner.count
+    kept = remove_rims(edges, chips)
     found = chips_between(kept, chips)
     assert kept.count == edges.count - 1
     assert "".join(map(str, found[0])) in "01" * 20
@@ -116,9 +116,9 @@ def edges_of_bursts(pause: float) -> Edges:
 @pytest.mark.parametrize("pause", [3.3, 4.4])
 def test_a_pause_that_is_no_whole_number_of_chips_is_the_nearest_one(pause: float) -> None:
     edges = edges_of_bursts(pause)
-    moved = in_phase(edges)
+    moved = align_bursts(edges)
     assert moved is not edges
-    lattice = coarsest(moved)
+    lattice = find_coarsest(moved)
     assert 1.0 / lattice.frequency == pytest.approx(CHIP, rel=0.01)
     found = chips_between(moved, lattice)
     lit = BURST.rstrip("0")
@@ -128,7 +128,7 @@ def test_a_pause_that_is_no_whole_number_of_chips_is_the_nearest_one(pause: floa
 
 def test_bursts_that_are_whole_chips_apart_stay_where_they_are() -> None:
     edges = edges_of_bursts(4.0)
-    assert in_phase(edges) is edges
+    assert align_bursts(edges) is edges
 
 
 def test_messages_with_pauses_are_read_rightly_where_they_are_sure() -> None:

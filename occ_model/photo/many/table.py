@@ -82,8 +82,8 @@ def _notes(table: PhotoTable, exposures: Sequence[float]) -> list[str]:
         if len(kinds) > 1:
             listing = ", ".join(f"{name} ({number})" for name, number in kinds.most_common(4))
             notes.append(
-                f"The photos in the mean are of different {kind}, {listing}: their {label} need not "
-                "be the same."
+                f"The photos in the mean are of different {kind}, {listing}: their {label} need "
+                "not be the same."
             )
     if exposures:
         time = quantity("exposure_time")

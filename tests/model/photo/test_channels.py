@@ -57,7 +57,9 @@ def test_deep_tiffs_of_all_kinds_are_read_or_refused(
     planes = np.ascontiguousarray(kept.transpose(2, 0, 1))
     extra = ["unassalpha"] * alpha
     tifffile.imwrite(path, planes, planarconfig="separate", extrasamples=extra, **how)
-    with pytest.raises(PhotoError, match=r"each colour of 16 bits in a plane of its own; "):
+    with pytest.raises(
+        PhotoError, match=r"each of its colours of 16 bits is in a plane of its own; "
+    ):
         load_photo(path)
 
 

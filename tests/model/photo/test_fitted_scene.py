@@ -15,8 +15,8 @@ from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
     _doubts_by_note,
+    _limit_step_error,
     _uncertainties,
-    _within_pulse,
     doubts_by_error,
     exposure_time,
     readout_and_frequency,
@@ -91,9 +91,9 @@ def test_edges_at_the_right_chips_bound_the_error_of_the_step() -> None:
     """Where a fit has no slope over the step, its covariance is that of nothing."""
     wild = COVARIANCE.copy()
     wild[0, 0] = 49.0
-    bound = math.sqrt(_within_pulse(fit_of(covariance=wild), 2).covariance[0, 0])
+    bound = math.sqrt(_limit_step_error(fit_of(covariance=wild), 2).covariance[0, 0])
     assert bound == pytest.approx(0.5 / COLUMNS)
-    np.testing.assert_array_equal(_within_pulse(fit_of(), 1).covariance, COVARIANCE)
+    np.testing.assert_array_equal(_limit_step_error(fit_of(), 1).covariance, COVARIANCE)
 
 
 def test_no_value_is_rounded_to_a_wild_error() -> None:

@@ -245,7 +245,7 @@ class Bench:
 
     def __init__(self, view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> None:
         self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
-        monkeypatch.setattr(match_photos, "matched_rows", self._rows)
+        monkeypatch.setattr(match_photos, "match_rows", self._rows)
         self.controller = controller_of(view)
 
     def _rows(
@@ -364,7 +364,7 @@ def test_a_failure_is_a_sentence_in_the_table(
     def fail(*_arguments: object) -> None:
         raise occ.MatchError("Nothing works.")
 
-    monkeypatch.setattr(match_photos, "matched_rows", fail)
+    monkeypatch.setattr(match_photos, "match_rows", fail)
     controller = controller_of(view)
     controller.start(MatchChoice())
     qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")

@@ -37,7 +37,7 @@ from occ_gui.shell.results import (
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
-from occ_gui.story.feature import story
+from occ_gui.story.feature import declare_story
 from occ_gui.story.story_view import StoryView
 from occ_gui.values.remarks import Failure, Remark
 from occ_gui.window.docks import CurrentPane, DockLayout
@@ -256,7 +256,7 @@ class Parts(QObject):
     def _make_centre(self) -> QWidget:
         """Make the story, with a place for the whole picture in it."""
         whole = self.shell.embed(panes.picture(self.store.store, self.about_photo))
-        return self.shell.embed(story(self.store, self.simulation, whole, [*DECODERS]))
+        return self.shell.embed(declare_story(self.store, self.simulation, whole, [*DECODERS]))
 
     def about_photo(self) -> str:
         """Return the photo's name and the verdict on its match; empty if none is open."""

@@ -23,7 +23,7 @@ from occ_model.scene.payload import PayloadPiece, compare_payload, form_of
 
 Span: TypeAlias = tuple[float, float]  # where a bit is drawn: its first and its last x
 
-_CHIP_HEIGHT, _BIT_HEIGHT, _GAP = 20, 22, 3  # pixels, in text of the usual size
+_CHIP_HEIGHT, _BIT_HEIGHT, _GAP = 20, 22, 3  # pixels, at the usual text size
 
 _MISSING = "·"  # in place of a letter that was not received
 
@@ -78,26 +78,26 @@ class CodeRow(StoryRow):
         if self._result is None or bit >= min(len(self._sent_bits), self._result.bits.size):
             return State.NEUTRAL
         if self._result.failure is not None and not self.fields:
-            return State.NEUTRAL  # it may equal the sent one by chance
+            return State.NEUTRAL  # it may equal the sent bit by chance
         is_right = int(self._result.bits[bit]) == self._sent_bits[bit]
         return State.GOOD if is_right else State.BAD
 
-    def find_received(self, column: float) -> tuple[int | None, int | None]:
+    def find_chip_and_bit(self, column: float) -> tuple[int | None, int | None]:
         """Return the chip, and the index of the bit, read at a column."""
         edges, result = self.edges, self._result
         if edges is None or result is None or not edges[0] <= column < edges[-1]:
             return None, None
-        place = int(edges.searchsorted(column, side="right")) - 1
-        bits = (f.bit for f in self.fields if f.first <= place < f.last)
-        return int(result.chips[place]), next(bits, None)
+        index = int(edges.searchsorted(column, side="right")) - 1
+        bits = (field.bit for field in self.fields if field.first <= index < field.last)
+        return int(result.chips[index]), next(bits, None)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(200, self._lines()[-1][1] + 2 * _GAP)
+        return QSize(200, self._line_bounds()[-1][1] + 2 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(160, self._lines()[-1][1] + 2 * _GAP)
+        return QSize(160, self._line_bounds()[-1][1] + 2 * _GAP)
 
-    def _lines(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
+    def _line_bounds(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
         """Return top and bottom of the chips, of the letters, if any, and of the bits."""
         metrics = self.fontMetrics()
         bit = line_height(metrics, _BIT_HEIGHT, 4)
@@ -111,7 +111,7 @@ class CodeRow(StoryRow):
             return
         chips, letters, bits = (
             QRectF(area.left(), area.top() + top, area.width(), bottom - top)
-            for top, bottom in self._lines()
+            for top, bottom in self._line_bounds()
         )
         if self.edges is None:
             self._explain_no_chips(painter, chips, result)
@@ -130,35 +130,35 @@ class CodeRow(StoryRow):
             spans = self._list_bits(painter, bits, result)
         self._draw_letters(painter, letters, spans)
 
-    def _draw_letters(self, painter: QPainter, place: QRectF, spans: Sequence[Span]) -> None:
+    def _draw_letters(self, painter: QPainter, rect: QRectF, spans: Sequence[Span]) -> None:
         for letter in self.letters:
             if letter.last > len(spans):  # its bits were not received
                 return
             left, right = spans[letter.first][0], spans[letter.last - 1][1]
-            cell = QRectF(left, place.top(), right - left, place.height())
+            cell = QRectF(left, rect.top(), right - left, rect.height())
             state = self.state_of(letter.first)
             if state is not State.NEUTRAL:
                 state = State.GOOD if letter.is_right else State.BAD
             text = letter.received or _MISSING
-            draw_field(painter, cell, (text,), self.palette(), state=state, within=place)
+            draw_field(painter, cell, (text,), self.palette(), state=state, within=rect)
 
     def _draw_fields(
-        self, painter: QPainter, place: QRectF, result: DecodeResult, edges: list[float]
+        self, painter: QPainter, rect: QRectF, result: DecodeResult, edges: list[float]
     ) -> list[Span]:
         """Draw header and bits under their columns; return where the bits are."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
         bits = [(bit, left, right) for bit, left, right in spans if bit is not None]
-        self._draw_bits(painter, place, result, bits)
+        self._draw_bits(painter, rect, result, bits)
         for bit, left, right in spans:
             if bit is None:
-                cell = QRectF(left, place.top(), right - left, place.height())
-                draw_field(painter, cell, HEADER, self.palette(), is_header=True, within=place)
+                cell = QRectF(left, rect.top(), right - left, rect.height())
+                draw_field(painter, cell, HEADER, self.palette(), is_header=True, within=rect)
         return [(left, right) for _, left, right in bits]
 
     def _draw_bits(
         self,
         painter: QPainter,
-        place: QRectF,
+        rect: QRectF,
         result: DecodeResult,
         bits: Sequence[tuple[int, float, float]],
     ) -> None:
@@ -167,41 +167,41 @@ class CodeRow(StoryRow):
         is_marked = have_room_for_marks(metrics, widths)
         has_text = have_room_for_bits(metrics, widths)
         for bit, left, right in bits:
-            cell = QRectF(left, place.top(), right - left, place.height())
+            cell = QRectF(left, rect.top(), right - left, rect.height())
             texts = (str(int(result.bits[bit])),)
             draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
                        is_marked=is_marked, has_text=has_text)  # fmt: skip
 
-    def _explain_no_chips(self, painter: QPainter, place: QRectF, result: DecodeResult) -> None:
+    def _explain_no_chips(self, painter: QPainter, rect: QRectF, result: DecodeResult) -> None:
         """Write why there are no chips: none were read, or the decoder compares whole packets."""
         text = "No chips were read."
         if result.code is not None:
             text = "This decoder compares whole packets, and reads no single chips."
-        self._write(painter, place, text)
+        self._write_text(painter, rect, text)
 
-    def _write(self, painter: QPainter, place: QRectF, text: str) -> None:
+    def _write_text(self, painter: QPainter, rect: QRectF, text: str) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.Text))
-        painter.drawText(place.adjusted(8, 0, 0, 0), LEFT, text)
+        painter.drawText(rect.adjusted(8, 0, 0, 0), LEFT, text)
 
-    def list_label(self) -> str:
+    def make_list_label(self) -> str:
         """Return the label before bits that have no columns of their own."""
         if self._result is not None and self._result.failure is not None:
             return "not accepted:"
         return "from all packets together:"
 
-    def _list_bits(self, painter: QPainter, place: QRectF, result: DecodeResult) -> list[Span]:
+    def _list_bits(self, painter: QPainter, rect: QRectF, result: DecodeResult) -> list[Span]:
         """Draw bits that have no columns of their own side by side after a label."""
         if not result.bits.size:
-            self._write(painter, place, "No bits were read.")
+            self._write_text(painter, rect, "No bits were read.")
             return []
-        label = self.list_label()
-        self._write(painter, place, label)
-        left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
+        label = self.make_list_label()
+        self._write_text(painter, rect, label)
+        left = rect.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
         count = max(len(self._sent_bits), result.bits.size)
-        width = min(34.0, (place.right() - left) / count)
+        width = min(34.0, (rect.right() - left) / count)
         spans = [(left + bit * width, left + (bit + 1) * width) for bit in range(count)]
         bits = [(bit, *spans[bit]) for bit in range(result.bits.size)]
-        self._draw_bits(painter, place, result, bits)
+        self._draw_bits(painter, rect, result, bits)
         return spans
 
     def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
@@ -209,5 +209,5 @@ class CodeRow(StoryRow):
         is_text = bool(self.letters) and self._form == "text"
         letters = "text" if is_text else "bytes"
         names = ("chips", letters if self.letters else "", "bits")
-        for text, (top, bottom) in zip(names, self._lines(), strict=True):
+        for text, (top, bottom) in zip(names, self._line_bounds(), strict=True):
             painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), RIGHT, text)

@@ -1,4 +1,4 @@
-"""Shared by the rows of the story: columns in view, scales, crosshair, width of the gutter."""
+"""Axis of the columns in view, scales, crosshair and gutter, shared by the rows of the story."""
 
 import math
 from collections.abc import Sequence
@@ -13,17 +13,17 @@ from occ_gui.widgets.guarded_paint import guarded
 LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
-GUTTER = 104  # pixels at the left of each row for its name and levels, in text of the usual size
+GUTTER = 104  # pixels at the left of each row for its name and levels, at the usual text size
 
 MARGIN = 12  # pixels at the right of each row
 _LEAST_SPAN = 4.0  # fewest columns in view
 _MARGIN_FRACTION = 0.5  # most empty space beside the picture, as a fraction of the range in view
 
 _WIDEST_WORD = "chips"  # the widest of the words beside a row's name
-GAPS = 14  # pixels between and around a name and what stands beside it
+GAPS = 14  # pixels between and around a name and the word beside it
 _LARGEST_GUTTER = 2 * GUTTER  # more would leave the columns too little room
 
-CURSOR_NAMES = ("1", "2")  # A and B are pins
+CURSOR_NAMES = ("1", "2")  # A and B name pins
 _CURSOR_STARTS = (0.3, 0.6)  # as fractions of the range in view
 
 
@@ -31,7 +31,7 @@ class ColumnAxis(QObject):
     """The range of columns in view.
 
     Column ``i`` lies at ``i``; as a pixel of the picture it reaches from ``i - 0.5`` to
-    ``i + 0.5``, and its exposure begins at the time that lies at ``i``, too.
+    ``i + 0.5``. The time at ``i`` is that at which its exposure begins.
     """
 
     changed = Signal()
@@ -76,15 +76,15 @@ class ColumnAxis(QObject):
         self.is_following = True
         self._set(*self._home)
 
-    def zoom(self, factor: float, at: float) -> None:
-        """Show ``factor`` times as many columns, with the one at ``at`` in its place."""
-        whole = (self._picture_range[1] - self._picture_range[0]) * (1.0 + _MARGIN_FRACTION)
-        span = min(max(self.span * factor, _LEAST_SPAN), max(whole, _LEAST_SPAN))
-        fraction = (at - self.first) / self.span
-        self._move(at - fraction * span, at + (1.0 - fraction) * span)
+    def zoom(self, factor: float, fixed: float) -> None:
+        """Show ``factor`` times as many columns; the column ``fixed`` stays in its place."""
+        widest = (self._picture_range[1] - self._picture_range[0]) * (1.0 + _MARGIN_FRACTION)
+        span = min(max(self.span * factor, _LEAST_SPAN), max(widest, _LEAST_SPAN))
+        fraction = (fixed - self.first) / self.span
+        self._move(fixed - fraction * span, fixed + (1.0 - fraction) * span)
 
     def pan(self, columns: float) -> None:
-        """Move by some columns, to the right where they are positive."""
+        """Move by a number of columns, to the right if it is positive."""
         self._move(self.first + columns, self.last + columns)
 
     def reveal(self, first: float, last: float) -> None:
@@ -100,8 +100,8 @@ class ColumnAxis(QObject):
 
     def _clamp(self, first: float, last: float) -> tuple[float, float]:
         """Shift a range so that the picture stays in view."""
-        beside = _MARGIN_FRACTION * (last - first)
-        low, high = self._picture_range[0] - beside, self._picture_range[1] + beside
+        margin = _MARGIN_FRACTION * (last - first)
+        low, high = self._picture_range[0] - margin, self._picture_range[1] + margin
         shift = max(low - first, 0.0) + min(high - last, 0.0)
         return first + shift, last + shift
 
@@ -121,18 +121,20 @@ class MeasureCursors(QObject):
         self.columns: list[float] = []  # empty while nothing is measured
 
     def switch(self, on: bool, first: float, last: float) -> None:
-        self.columns = [first + part * (last - first) for part in _CURSOR_STARTS] if on else []
+        self.columns = (
+            [first + fraction * (last - first) for fraction in _CURSOR_STARTS] if on else []
+        )
         self.changed.emit()
 
-    def move(self, place: int, column: float, columns: int) -> None:
+    def move(self, index: int, column: float, columns: int) -> None:
         if self.columns:
-            self.columns[place] = min(max(column, 0.0), columns - 1.0)
+            self.columns[index] = min(max(column, 0.0), columns - 1.0)
             self.changed.emit()
 
     def find_nearest(self, column: float, reach: float) -> int | None:
-        distances = [(abs(each - column), place) for place, each in enumerate(self.columns)]
-        distance, place = min(distances, default=(math.inf, None))
-        return place if distance <= reach else None
+        distances = [(abs(other - column), index) for index, other in enumerate(self.columns)]
+        distance, index = min(distances, default=(math.inf, None))
+        return index if distance <= reach else None
 
 
 class Crosshair(QObject):
@@ -190,11 +192,11 @@ def find_gutter_width(font: QFont, names: Sequence[str]) -> int:
 
 
 def measure_name(name: str, font: QFont) -> int:
-    """Return the width in pixels of a row's name and what stands beside it, without gaps."""
+    """Return the width in pixels of a row's name and the word beside it, without gaps."""
     bold = QFont(font)
     bold.setBold(True)
-    beside = QFontMetrics(font).horizontalAdvance(_WIDEST_WORD)
-    return QFontMetrics(bold).horizontalAdvance(name) + beside
+    word = QFontMetrics(font).horizontalAdvance(_WIDEST_WORD)
+    return QFontMetrics(bold).horizontalAdvance(name) + word
 
 
 _HEIGHT = 18
@@ -233,8 +235,8 @@ class Scale(QWidget):
         step = max(round_step(_SPACING * per_pixel), self._least_step)
         digits = max(0, -math.floor(math.log10(step)))
         first, last = math.ceil(low / step), math.floor(high / step)
-        values = [place * step for place in range(first, last + 1)]
-        return [((v - self._start) / self._step, f"{v:.{digits}f}") for v in values]
+        values = [multiple * step for multiple in range(first, last + 1)]
+        return [((value - self._start) / self._step, f"{value:.{digits}f}") for value in values]
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name

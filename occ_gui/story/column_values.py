@@ -1,4 +1,4 @@
-"""Values of one column, and what is difference between two of them."""
+"""Values of one column, and the differences between two columns."""
 
 from dataclasses import dataclass
 
@@ -20,10 +20,10 @@ _MOST_CHIPS = 20_000  # most chips in an exposure whose light is averaged while 
 @dataclass(frozen=True, slots=True)
 class ColumnValues:
     column: int
-    time: float  # when its exposure begins, in seconds
+    time: float  # the start of its exposure in seconds
     light: float  # the light at that time, 0 to 1
-    # The mean light during its exposure; None for too many chips to average
-    fraction: float | None
+    # The mean light during its exposure; None if there are too many chips to average
+    mean_light: float | None
     level: float
     chip: int | None = None
     bit: int | None = None
@@ -38,15 +38,15 @@ def read_values(
     levels = profile.levels
     if levels is None or not 0 <= column < len(levels):
         return None
-    width = scene.camera.exposure_time / scene.camera.readout_time
-    start = light.find_light(column, column + min(width, 1.0), _MOST_CHIPS)
-    curve = light.find_light(column, column + width, _MOST_CHIPS)
-    chip, bit = code.find_received(column)
+    exposure_columns = scene.camera.exposure_time / scene.camera.readout_time
+    start = light.find_light(column, column + min(exposure_columns, 1.0), _MOST_CHIPS)
+    curve = light.find_light(column, column + exposure_columns, _MOST_CHIPS)
+    chip, bit = code.find_chip_and_bit(column)
     return ColumnValues(
         column=column,
         time=scene.model.start_time + column * scene.camera.readout_time,
         light=0.0 if start is None else start.light_at(column),
-        fraction=None if curve is None else curve.mean(column, column + width),
+        mean_light=None if curve is None else curve.mean(column, column + exposure_columns),
         level=float(levels[column]),
         chip=chip,
         bit=bit,
@@ -56,15 +56,21 @@ def read_values(
 
 
 def describe_values(values: ColumnValues, scene: Scene) -> str:
-    parts = [f"column {values.column}", f"{values.time * _MICRO:.1f} µs", _light(values.light)]
-    if values.fraction is not None:
+    parts = [
+        f"column {values.column}",
+        f"{values.time * _MICRO:.1f} µs",
+        _describe_light(values.light),
+    ]
+    if values.mean_light is not None:
         exposure = scene.camera.exposure_time
-        whole = SECOND.format(exposure, 4)
+        exposure_text = SECOND.format(exposure, 4)
         lamp = blinking_lamp(scene.transmitter)
         if has_chips(scene.transmitter) or (lamp is not None and lamp.depth == 1.0):
-            parts.append(f"lit for {SECOND.format(values.fraction * exposure, 3)} of {whole}")
+            parts.append(
+                f"lit for {SECOND.format(values.mean_light * exposure, 3)} of {exposure_text}"
+            )
         else:
-            parts.append(f"mean of {whole} {100.0 * values.fraction:.0f} %")
+            parts.append(f"mean of {exposure_text} {100.0 * values.mean_light:.0f} %")
     parts.append(f"level {values.level:.1f}")
     if values.chip is not None:
         parts.append(f"chip {values.chip}")
@@ -74,7 +80,7 @@ def describe_values(values: ColumnValues, scene: Scene) -> str:
     return "  ·  ".join(parts)
 
 
-def _light(light: float) -> str:
+def _describe_light(light: float) -> str:
     if light in (0.0, 1.0):
         return "light on" if light else "light off"
     return f"light {100.0 * light:.0f} %"
@@ -82,11 +88,11 @@ def _light(light: float) -> str:
 
 @dataclass(frozen=True, slots=True)
 class CursorDifference:
-    columns: float  # from the first to the second, negative where the second is at the left
+    columns: float  # from the first to the second; negative if the second is at the left
     time: float  # the same in seconds
-    # How much higher the profile is at the second, in grey levels; None outside of it
+    # Rise of the profile from the first to the second, in grey levels; None outside the profile
     levels: float | None
-    count: float  # the same time in chips, or in periods of a light without
+    count: float  # the same time in chips, or in periods of a light without chips
     unit: str
 
 
@@ -99,10 +105,10 @@ def measure(
     columns = second - first
     sent = reading.scene.transmitter
     time = columns * reading.scene.camera.readout_time
-    places = [round(first), round(second)]
+    nearest = [round(first), round(second)]
     levels = None
-    if profile is not None and all(0 <= place < len(profile) for place in places):
-        levels = float(profile[places[1]] - profile[places[0]])
+    if profile is not None and all(0 <= index < len(profile) for index in nearest):
+        levels = float(profile[nearest[1]] - profile[nearest[0]])
     count, unit = columns / reading.period_columns, "periods"
     if has_chips(sent):
         count, unit = time * sent.switching_frequency, "chips"

@@ -12,11 +12,11 @@ from occ_gui.widgets.colours import pen_on
 from occ_gui.widgets.guarded_paint import guarded
 
 _SWATCH, _GAP, _ENTRY_GAP = 24, 6, 16  # pixels of a line, after it, and between entries
-_SPACING = 6  # pixels between the legend and what stands beside it
+_SPACING = 6  # pixels between the legend and the controls beside it
 
 
 class CurveLegend(QWidget):
-    """Lines with names, wrapped as needed; room is reserved for the ``usual`` keys."""
+    """Lines with names, wrapped as needed; space is reserved for the ``usual`` keys."""
 
     def __init__(self, lines: Mapping[str, tuple[QPen, str]], usual: tuple[str, ...] = ()) -> None:
         super().__init__()
@@ -27,8 +27,8 @@ class CurveLegend(QWidget):
         self.setAccessibleName("Curves of the profile")
 
     def rename(self, key: str, name: str) -> None:
-        pen, before = self._lines[key]
-        if name != before:
+        pen, old_name = self._lines[key]
+        if name != old_name:
             self._lines[key] = (pen, name)
             keys, self.keys = self.keys, ()
             self.show_lines(keys, self.note, self.toolTip())
@@ -71,8 +71,8 @@ class CurveLegend(QWidget):
 
     def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's name
         usual = self._place_entries([*map(self._width, self._usual)], width)
-        shown = self._place_entries(self._widths(), width)
-        lines = 1 + max((line for _, line in (*usual, *shown)), default=0)
+        placed = self._place_entries(self._widths(), width)
+        lines = 1 + max((line for _, line in (*usual, *placed)), default=0)
         return lines * self.fontMetrics().height() + 2
 
     def _width(self, key: str) -> int:
@@ -83,11 +83,11 @@ class CurveLegend(QWidget):
         return [*map(self._width, self.keys), *note]
 
     @staticmethod
-    def _place_entries(widths: Sequence[int], room: int) -> list[tuple[int, int]]:
+    def _place_entries(widths: Sequence[int], available_width: int) -> list[tuple[int, int]]:
         """Return the left edge and the line of each entry."""
         places, left, line = list[tuple[int, int]](), 0, 0
         for width in widths:
-            if left and left + width > room:
+            if left and left + width > available_width:
                 left, line = 0, line + 1
             places.append((left, line))
             left += width + _ENTRY_GAP
@@ -105,10 +105,10 @@ class CurveLegend(QWidget):
             name = self.note
             if key is not None:
                 pen, name = self._lines[key]
-                thick = QPen(pen_on(self.palette(), pen))
-                thick.setWidth(2)
-                thick.setCosmetic(False)  # as wide as the curve at any scale of the screen
-                painter.setPen(thick)
+                thick_pen = QPen(pen_on(self.palette(), pen))
+                thick_pen.setWidth(2)
+                thick_pen.setCosmetic(False)  # as wide as the curve at any scale of the screen
+                painter.setPen(thick_pen)
                 middle = place.center().y()
                 painter.drawLine(QPointF(left, middle), QPointF(left + _SWATCH, middle))
                 place.setLeft(left + _SWATCH + _GAP)
@@ -117,7 +117,7 @@ class CurveLegend(QWidget):
 
 
 class LegendLine(QWidget):
-    """A legend, and the controls of what is shown at its right."""
+    """A legend, and to its right the controls of what is shown."""
 
     def __init__(self, legend: CurveLegend) -> None:
         super().__init__()
@@ -128,8 +128,12 @@ class LegendLine(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        beside = self.contentsRect().width() - self.controls.sizeHint().width() - _SPACING
-        kinds = QBoxLayout.Direction
-        direction = kinds.LeftToRight if beside >= self._legend.widest else kinds.TopToBottom
+        available_width = self.contentsRect().width() - self.controls.sizeHint().width() - _SPACING
+        directions = QBoxLayout.Direction
+        direction = (
+            directions.LeftToRight
+            if available_width >= self._legend.widest
+            else directions.TopToBottom
+        )
         if direction != self._layout.direction():
             self._layout.setDirection(direction)

@@ -1,4 +1,4 @@
-"""Declares the story in the middle of the window."""
+"""Declaration of the story in the middle of the window."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -37,7 +37,7 @@ class StoryPane(PiecesPane):
         self.made_of = {view.rows: of_reading, view.rows.stripes: of_picture}
         self.verdicts = (view.verdict,)
         self._scenes = scenes
-        # Looking for plug-ins takes some 40 ms: not before the first picture is painted.
+        # The search for plug-ins takes some 40 ms, so it waits for the first picture.
         self._plugins = QTimer(self, singleShot=True)
         self._plugins.setInterval(_REST_MS)
         self._plugins.timeout.connect(self._offer_plugins)
@@ -70,15 +70,15 @@ class StoryPane(PiecesPane):
             self._scenes.change(NO_GESTURE, **step.changes)
 
 
-def story(
+def declare_story(
     scenes: SceneStore, simulation: SimulationController, picture: QWidget, decoders: Sequence[str]
 ) -> Feature[Any]:
     """Declare the pane, which shows ``picture`` in place of its rows."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         # A photo's profile is drawn where both are enhanced, or neither is.
-        is_alike = workspace.is_enhanced == (workspace.picture_kind == "receiver")
-        photo = results.photo_profile if is_alike else None
+        is_comparable = workspace.is_enhanced == (workspace.picture_kind == "receiver")
+        photo = results.photo_profile if is_comparable else None
         return workspace.decoder, workspace.picture_kind, results.reading, results.picture, photo
 
     return Feature(

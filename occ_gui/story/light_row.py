@@ -24,21 +24,21 @@ _GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
 
 _LEAST_HEIGHT = 40
 _STRIP, _LABEL = 18, 15
-"""Pixels of the strip of the bits sent, and of the window's name, in text of the usual size."""
+"""Pixels of the strip of the bits sent, and of the window's label, at the usual text size."""
 
-_LEAST_FOR_STRIP = 66
+_LEAST_FOR_STRIP = 66  # pixels of height from which the strip is drawn
 _LEAST_CHIP = 1.5  # fewest pixels of a chip that is drawn
 
-_LEAST_FOR_DIGIT = 9
+_LEAST_FOR_DIGIT = 9  # pixels of width from which a bit is drawn
 
 _MOST_LETTERS = 60  # letters of a payload in its description
 _GRIP = 6  # pixels beside the window in which the mouse still grabs it
 
 
 class LightRow(StoryRow):
-    """Light against time, where column ``i`` stands at the time that its exposure begins.
+    """Light against time; column ``i`` stands at the time at which its exposure begins.
 
-    The window, as wide as the exposure is long, is dragged to another column.
+    The window, as wide as the exposure is long, can be dragged to another column.
     """
 
     window_dragged = Signal()
@@ -60,7 +60,7 @@ class LightRow(StoryRow):
 
     def show_reading(self, reading: ColumnView) -> None:
         if reading.scene != self._scene:
-            self.update()  # the window, at least
+            self.update()  # the exposure window may have changed
         self._scene, self._sent_bits = reading.scene, reading.sent
         self.letters = compare_payload(reading.scene.transmitter.payload, self._sent_bits)
         self._has_edges = reading.has_edges
@@ -141,11 +141,11 @@ class LightRow(StoryRow):
             return
         xs = self.xs_of(curve.columns).tolist()
         ys = (light.bottom() - curve.light * (light.height() / self._top)).tolist()
-        below = list(map(QPointF, xs, ys))
-        below += [QPointF(xs[-1], light.bottom()), QPointF(xs[0], light.bottom())]
+        polygon = list(map(QPointF, xs, ys))
+        polygon += [QPointF(xs[-1], light.bottom()), QPointF(xs[0], light.bottom())]
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(glow)
-        painter.drawPolygon(QPolygonF(below))
+        painter.drawPolygon(QPolygonF(polygon))
 
     def _fill_up(self, cell: QRectF, level: float) -> QRectF:
         """Return the part of a piece's cell that is below its light."""
@@ -164,8 +164,8 @@ class LightRow(StoryRow):
         fields = packet_fields(self._scene)
         edges = self.xs_of(curve.edges)
         step = float(edges[1] - edges[0])
-        chips_a_bit = fields[-1].last - fields[-1].first if fields else 0
-        if chips_a_bit * step < _LEAST_FOR_DIGIT:
+        chips_per_bit = fields[-1].last - fields[-1].first if fields else 0
+        if chips_per_bit * step < _LEAST_FOR_DIGIT:
             self._write_sent(painter, area)
             return
         length = fields[-1].last
@@ -184,30 +184,33 @@ class LightRow(StoryRow):
         step: float,
     ) -> None:
         header, *bits = fields
-        line = self._strip_height() / (2 if self.letters else 1)
-        low = area.bottom() - line + 1
+        strip_line = self._strip_height() / (2 if self.letters else 1)
+        bits_top = area.bottom() - strip_line + 1
         width = (bits[0].last - bits[0].first) * step
         has_text = have_room_for_bits(painter.fontMetrics(), [width]) or None
         cells = [
-            (HEADER, header, header, low),
-            *(((str(self._sent_bits[bit]),), field, field, low) for bit, field in enumerate(bits)),
+            (HEADER, header, header, bits_top),
             *(
-                ((piece.sent,), bits[piece.first], bits[piece.last - 1], low - line)
+                ((str(self._sent_bits[bit]),), field, field, bits_top)
+                for bit, field in enumerate(bits)
+            ),
+            *(
+                ((piece.sent,), bits[piece.first], bits[piece.last - 1], bits_top - strip_line)
                 for piece in self.letters
             ),
         ]
         for texts, first, last, top in cells:
             cell = QRectF(
-                start + first.first * step, top, (last.last - first.first) * step, line - 2
+                start + first.first * step, top, (last.last - first.first) * step, strip_line - 2
             )
             if cell.right() >= area.left() and cell.left() <= area.right():
                 draw_field(painter, cell, texts, self.palette(), is_header=first is header,
-                           has_text=has_text if top == low else None, within=area)  # fmt: skip
+                           has_text=has_text if top == bits_top else None, within=area)  # fmt: skip
 
     def _write_sent(self, painter: QPainter, area: QRectF) -> None:
-        place = area.adjusted(8, area.height() - self._strip_height(), 0, 0)
+        rect = area.adjusted(8, area.height() - self._strip_height(), 0, 0)
         painter.setPen(self.colour(QPalette.ColorRole.Text))
-        painter.drawText(place, LEFT, self.describe_sent())
+        painter.drawText(rect, LEFT, self.describe_sent())
 
     def describe_sent(self) -> str:
         if self._scene is None:
@@ -215,10 +218,10 @@ class LightRow(StoryRow):
         sent = self._scene.transmitter
         if sent.light != "code" or sent.pattern:
             return describe_light(sent)
-        what = f"code {sent.code}"
+        subject = f"code {sent.code}"
         if sent.payload:
-            what = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
-        return f"{what}, {counted(len(self._sent_bits), 'bit')}"
+            subject = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
+        return f"{subject}, {counted(len(self._sent_bits), 'bit')}"
 
     def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         if self._scene is None:
@@ -231,8 +234,8 @@ class LightRow(StoryRow):
             painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), RIGHT, text)
         strip = self._strip_height()
         if light.bottom() < area.bottom() - strip:
-            place = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
-            painter.drawText(place, LEFT, "sent")
+            rect = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
+            painter.drawText(rect, LEFT, "sent")
 
     def draw_markers(self, painter: QPainter, area: QRectF) -> None:
         """Draw the window: shaded, hatched where the LED is on, with its length above."""
@@ -244,14 +247,14 @@ class LightRow(StoryRow):
         accent = self.colour(QPalette.ColorRole.Highlight)
         shade = QColor(accent)
         shade.setAlpha(70)
-        place = QRectF(left, area.top() + 1, max(right - left, 1.5), light.bottom() - area.top())
+        rect = QRectF(left, area.top() + 1, max(right - left, 1.5), light.bottom() - area.top())
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(place, shade)
+        painter.fillRect(rect, shade)
         self._hatch(painter, light, window)
         painter.setPen(QPen(accent, 2))
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawRect(place)
-        self._label_window(painter, place, SECOND.format(scene.camera.exposure_time, 4))
+        painter.drawRect(rect)
+        self._label_window(painter, rect, SECOND.format(scene.camera.exposure_time, 4))
 
     def _hatch(self, painter: QPainter, light: QRectF, window: tuple[float, float]) -> None:
         most = round(light.width() / _LEAST_CHIP)
@@ -272,12 +275,12 @@ class LightRow(StoryRow):
                 cell = QRectF(left, light.top(), right - left, light.height())
                 painter.drawRect(self._fill_up(cell, level))
 
-    def _label_window(self, painter: QPainter, place: QRectF, text: str) -> None:
+    def _label_window(self, painter: QPainter, rect: QRectF, text: str) -> None:
         width = painter.fontMetrics().horizontalAdvance(text) + 8
         area = self.plot_area()
-        label = QRectF(place.center().x() - width / 2, area.top(), width, self._label_height())
+        label = QRectF(rect.center().x() - width / 2, area.top(), width, self._label_height())
         label.moveLeft(min(max(label.left(), area.left()), area.right() - width))
-        if not area.left() - width < place.center().x() < area.right() + width:
+        if not area.left() - width < rect.center().x() < area.right() + width:
             return
         painter.fillRect(label, self.colour(QPalette.ColorRole.Highlight))
         painter.setPen(self.colour(QPalette.ColorRole.HighlightedText))
@@ -285,18 +288,18 @@ class LightRow(StoryRow):
 
     # Dragging the window.
 
-    def _is_on_window(self, place: QPointF) -> bool:
+    def _is_on_window(self, position: QPointF) -> bool:
         window = self.exposure_window()
-        if window is None or not self.plot_area().contains(place):
+        if window is None or not self.plot_area().contains(position):
             return False
         left, right = (self.x_of(column) for column in window)
-        return left - _GRIP <= place.x() <= right + _GRIP
+        return left - _GRIP <= position.x() <= right + _GRIP
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mousePressEvent(event)
-        place, column = event.position(), self.crosshair.column
-        if event.button() == Qt.MouseButton.LeftButton and self._is_on_window(place):
-            self._grab_offset = None if column is None else self.column_at(place.x()) - column
+        position, column = event.position(), self.crosshair.column
+        if event.button() == Qt.MouseButton.LeftButton and self._is_on_window(position):
+            self._grab_offset = None if column is None else self.column_at(position.x()) - column
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mouseMoveEvent(event)
@@ -306,18 +309,18 @@ class LightRow(StoryRow):
             else:
                 self.unsetCursor()
 
-    def drag_to(self, place: QPointF) -> None:
-        """Move the window to another column; pan where it was not grabbed."""
+    def drag_to(self, position: QPointF) -> None:
+        """Move the window to another column; pan if it was not grabbed."""
         if self._grab_offset is None:
-            super().drag_to(place)
-        elif self.is_drag(place):
-            self.crosshair.choose(self.column_at(place.x()) - self._grab_offset)
+            super().drag_to(position)
+        elif self.is_drag(position):
+            self.crosshair.choose(self.column_at(position.x()) - self._grab_offset)
             self.window_dragged.emit()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mouseReleaseEvent(event)
         self._grab_offset = None
 
-    def click(self, place: QPointF) -> None:
+    def click(self, position: QPointF) -> None:
         if self._grab_offset is None:
-            super().click(place)
+            super().click(position)

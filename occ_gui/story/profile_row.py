@@ -18,10 +18,10 @@ from occ_gui.widgets.guarded_paint import are_equal
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
 
-_Level = TypeVar("_Level", float, FloatArray)  # one, or one for each column
+_Level = TypeVar("_Level", float, FloatArray)  # one level, or one for each column
 
 _LEAST_HEIGHT = 56
-_STEPS = (10.0, 20.0, 50.0, 100.0)
+_STEPS = (10.0, 20.0, 50.0, 100.0)  # grey levels between two numbers on the axis
 _LEAST_SPACING = 26  # fewest pixels between two numbers on the axis
 
 _TOP_STEP = 20.0
@@ -31,12 +31,12 @@ _GRID_ALPHA = 38
 _SHADE = 22 / 255
 """Fraction of the text's colour in the shade over columns that the decoder does not read."""
 
-_WIDTH, _THIN = 2.0, 1.2
+_WIDTH, _THIN = 2.0, 1.2  # pen widths in pixels
 _CROWDED_COLUMNS = 2  # columns per screen pixel above which a curve is thinner
 
 
 class ProfileRow(StoryRow):
-    """The simulated columns, the band model's dashed, a photo's, and the decoder's threshold."""
+    """The profiles of simulation, band model (dashed) and photo, and the decoder's threshold."""
 
     def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
         super().__init__("Profile", axis, crosshair)
@@ -91,7 +91,7 @@ class ProfileRow(StoryRow):
         return self._photo is not None and self._photo.comparison is not None
 
     def _find_threshold(self) -> tuple[float, float] | None:
-        """Place the decoder's threshold among the levels that are shown."""
+        """Return the decoder's threshold on the scale of the levels that are shown."""
         levels, result = self.levels, self._result
         if levels is None or result is None or result.threshold is None:
             return None
@@ -110,7 +110,7 @@ class ProfileRow(StoryRow):
         self._top = max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP)
         region = None if self._result is None else self._result.region
         inputs = (*curves, self.threshold, region, self._photo)
-        # The results from the picture mostly equal the early ones.
+        # Results from the picture are mostly equal to the earlier ones.
         if not are_equal(inputs, self._drawn_inputs):
             self._drawn_inputs = inputs
             self.redraw()
@@ -162,16 +162,16 @@ class ProfileRow(StoryRow):
         if region is None:
             return
         ink, paper = self.colour(QPalette.ColorRole.Text), self.colour(QPalette.ColorRole.Base)
-        shade = mix_colours(ink, paper, _SHADE)  # opaque, which is filled many times faster
+        shade = mix_colours(ink, paper, _SHADE)  # an opaque colour fills many times faster
         left, right = self.x_of(region.first_column - 0.5), self.x_of(region.last_column - 0.5)
         for low, high in ((area.left(), left), (right, area.right())):
             if low < high:
                 painter.fillRect(QRectF(low, area.top(), high - low, area.height()), shade)
 
     def _ticks(self, area: QRectF) -> list[float]:
-        fitting = (area.height() - 16) / _LEAST_SPACING
-        step = next((s for s in _STEPS if self._top / s <= fitting), _STEPS[-1])
-        return [step * place for place in range(int(self._top / step) + 1)]
+        most_ticks = (area.height() - 16) / _LEAST_SPACING
+        step = next((step for step in _STEPS if self._top / step <= most_ticks), _STEPS[-1])
+        return [step * multiple for multiple in range(int(self._top / step) + 1)]
 
     def _draw_grid(self, painter: QPainter, area: QRectF) -> None:
         faint = QColor(self.colour(QPalette.ColorRole.Text))
@@ -197,15 +197,15 @@ class ProfileRow(StoryRow):
         left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
         painter.drawText(unit, left, "grey\nlevel")
         for level in self._ticks(area):
-            place = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
-            painter.drawText(place, RIGHT, f"{level:g}")
+            rect = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
+            painter.drawText(rect, RIGHT, f"{level:g}")
 
     def draw_value_mark(self, painter: QPainter, column: int, area: QRectF) -> None:
         levels = self.levels
         if levels is None or not 0 <= column < len(levels):
             return
-        place = QPointF(self.x_of(column), self.y_of(float(levels[column]), area))
+        point = QPointF(self.x_of(column), self.y_of(float(levels[column]), area))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(QPen(self.colour(QPalette.ColorRole.Base), 1.5))
         painter.setBrush(lighten_for(self.palette(), SIMULATION))
-        painter.drawEllipse(place, 4.5, 4.5)
+        painter.drawEllipse(point, 4.5, 4.5)

@@ -24,15 +24,15 @@ from occ_model.arrays import FloatArray
 
 _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 
-_NOTCH = 120  # of Qt's units of a wheel's angle
-_ZOOM_A_NOTCH = 0.85
+_NOTCH = 120  # angle of a wheel's notch, in Qt's units
+_ZOOM_PER_NOTCH = 0.85
 
 _GRIP = 6  # pixels from a measuring cursor within which the mouse grabs it
 
-_MOST_FITS = 4
-"""Most reductions of a font: widths are rounded to pixels, so that one may not suffice."""
+_MOST_REDUCTIONS = 4
+"""Most reductions of a font; widths are rounded to pixels, so that one may not suffice."""
 
-_CLICK = 4  # most pixels between press and release of a click
+_CLICK_DISTANCE = 4  # most pixels between press and release of a click
 
 
 class StoryRow(QWidget):
@@ -46,9 +46,9 @@ class StoryRow(QWidget):
         self.name = name
         self.axis, self.crosshair = axis, crosshair
         self._pixmap: QPixmap | None = None
-        self._is_drawn = False
-        self._press: QPointF | None = None
-        self._last: QPointF | None = None
+        self._is_pixmap_valid = False
+        self._press_position: QPointF | None = None
+        self._last_position: QPointF | None = None
         self._grabbed_cursor: int | None = None
         self.setAccessibleName(name)
         self.setMouseTracking(True)
@@ -60,7 +60,7 @@ class StoryRow(QWidget):
         crosshair.cursors.changed.connect(self.update)
 
     def redraw(self) -> None:
-        self._is_drawn = False
+        self._is_pixmap_valid = False
         self.update()
 
     def plot_area(self) -> QRectF:
@@ -92,7 +92,7 @@ class StoryRow(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._is_drawn = False
+        self._is_pixmap_valid = False
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -102,8 +102,12 @@ class StoryRow(QWidget):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         ratio = self.devicePixelRatioF()
-        if self._pixmap is None or not self._is_drawn or self._pixmap.devicePixelRatioF() != ratio:
-            self._pixmap, self._is_drawn = self._draw_pixmap(ratio), True
+        if (
+            self._pixmap is None
+            or not self._is_pixmap_valid
+            or self._pixmap.devicePixelRatioF() != ratio
+        ):
+            self._pixmap, self._is_pixmap_valid = self._draw_pixmap(ratio), True
         painter = QPainter(self)
         painter.drawPixmap(QPoint(0, 0), self._pixmap)
         area = self.plot_area()
@@ -123,12 +127,12 @@ class StoryRow(QWidget):
             painter.drawRect(area.adjusted(1, 1, -1, -1))
 
     def _draw_pixmap(self, ratio: float) -> QPixmap:
-        size, picture = self.size() * ratio, self._pixmap
-        if picture is None or picture.size() != size:  # reused memory needs no allocation
-            picture = QPixmap(size)
-        picture.setDevicePixelRatio(ratio)
-        picture.fill(self.colour(QPalette.ColorRole.Window))
-        painter = QPainter(picture)
+        size, pixmap = self.size() * ratio, self._pixmap
+        if pixmap is None or pixmap.size() != size:  # reused memory needs no allocation
+            pixmap = QPixmap(size)
+        pixmap.setDevicePixelRatio(ratio)
+        pixmap.fill(self.colour(QPalette.ColorRole.Window))
+        painter = QPainter(pixmap)
         painter.setFont(self.font())
         area = self.plot_area()
         painter.fillRect(area, self.colour(QPalette.ColorRole.Base))
@@ -136,20 +140,20 @@ class StoryRow(QWidget):
         painter.setClipRect(area)
         self.draw(painter, area)
         painter.restore()
-        painter.setFont(self._gutter_font())
+        painter.setFont(self._find_gutter_font())
         self._draw_name(painter)
         self.draw_gutter(painter, area)
         painter.end()
-        return picture
+        return pixmap
 
-    def _gutter_font(self) -> QFont:
-        """Return the row's font, smaller where its name would touch its levels."""
-        font, room = QFont(self.font()), self.axis.gutter - GAPS
-        for _ in range(_MOST_FITS):
+    def _find_gutter_font(self) -> QFont:
+        """Return the row's font, reduced if its name would touch its levels."""
+        font, available_width = QFont(self.font()), self.axis.gutter - GAPS
+        for _ in range(_MOST_REDUCTIONS):
             needed = measure_name(self.name, font)
-            if needed <= room or font.pointSizeF() <= 0.0:
+            if needed <= available_width or font.pointSizeF() <= 0.0:
                 break
-            font.setPointSizeF(font.pointSizeF() * room / needed)
+            font.setPointSizeF(font.pointSizeF() * available_width / needed)
         return font
 
     def _draw_name(self, painter: QPainter) -> None:
@@ -158,9 +162,9 @@ class StoryRow(QWidget):
         font.setBold(True)
         painter.setFont(font)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
-        place = QRectF(4, 3, self.axis.gutter - 8, self.height())
+        rect = QRectF(4, 3, self.axis.gutter - 8, self.height())
         flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
-        painter.drawText(place, flags, self.name)
+        painter.drawText(rect, flags, self.name)
         painter.setFont(regular)
 
     def _draw_line(
@@ -203,47 +207,50 @@ class StoryRow(QWidget):
         if delta.x() or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             self.axis.pan(-sideways / _NOTCH * self.axis.span / 10)
         else:
-            at = self.column_at(event.position().x())
-            self.axis.zoom(_ZOOM_A_NOTCH ** (delta.y() / _NOTCH), at)
+            column = self.column_at(event.position().x())
+            self.axis.zoom(_ZOOM_PER_NOTCH ** (delta.y() / _NOTCH), column)
         event.accept()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         if event.button() == Qt.MouseButton.LeftButton:
             self._grabbed_cursor = self._cursor_at(event.position().x())
-            self._press = self._last = event.position()
+            self._press_position = self._last_position = event.position()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        place = event.position()
+        position = event.position()
         if self._grabbed_cursor is not None:
-            column = self.column_at(place.x())
+            column = self.column_at(position.x())
             self.crosshair.cursors.move(self._grabbed_cursor, column, self.crosshair.columns)
-        elif self._last is not None:
-            self.drag_to(place)
-            self._last = place
-        inside = self.plot_area().contains(place)
-        self.crosshair.point_at(self.column_at(place.x()) if inside else None)
+        elif self._last_position is not None:
+            self.drag_to(position)
+            self._last_position = position
+        inside = self.plot_area().contains(position)
+        self.crosshair.point_at(self.column_at(position.x()) if inside else None)
 
-    def drag_to(self, place: QPointF) -> None:
-        if self._last is not None and self.is_drag(place):
-            columns = self.column_at(self._last.x()) - self.column_at(place.x())
+    def drag_to(self, position: QPointF) -> None:
+        if self._last_position is not None and self.is_drag(position):
+            columns = self.column_at(self._last_position.x()) - self.column_at(position.x())
             self.axis.pan(columns)
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
 
-    def is_drag(self, place: QPointF) -> bool:
-        return self._press is not None and (place - self._press).manhattanLength() > _CLICK
+    def is_drag(self, position: QPointF) -> bool:
+        return (
+            self._press_position is not None
+            and (position - self._press_position).manhattanLength() > _CLICK_DISTANCE
+        )
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        if event.button() != Qt.MouseButton.LeftButton or self._press is None:
+        if event.button() != Qt.MouseButton.LeftButton or self._press_position is None:
             return
-        place = event.position()
-        is_click = self._grabbed_cursor is None and not self.is_drag(place)
-        if is_click and self.plot_area().contains(place):
-            self.click(place)
-        self._press = self._last = self._grabbed_cursor = None
+        position = event.position()
+        is_click = self._grabbed_cursor is None and not self.is_drag(position)
+        if is_click and self.plot_area().contains(position):
+            self.click(position)
+        self._press_position = self._last_position = self._grabbed_cursor = None
         self.unsetCursor()
 
-    def click(self, place: QPointF) -> None:
-        self.crosshair.choose(self.column_at(place.x()))
+    def click(self, position: QPointF) -> None:
+        self.crosshair.choose(self.column_at(position.x()))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         if event.button() == Qt.MouseButton.LeftButton:
@@ -262,8 +269,8 @@ class StoryRow(QWidget):
             chosen = float(self.crosshair.column or 0)
             self.axis.reveal(chosen, chosen)
         elif key in _ZOOMS:
-            at = column if column is not None else (self.axis.first + self.axis.last) / 2
-            self.axis.zoom(_ZOOMS[key], float(at))
+            fixed = column if column is not None else (self.axis.first + self.axis.last) / 2
+            self.axis.zoom(_ZOOMS[key], float(fixed))
         elif key == Qt.Key.Key_Home:
             self.axis.fit()
         else:

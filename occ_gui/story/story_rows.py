@@ -60,7 +60,7 @@ class StoryRows(QWidget):
                 "Show all columns of the panel, and follow it.",
                 lambda _=False, name=name: self.choose_range(name),
             )
-            button.setParent(self)  # owned until laid out: else it would outlive the rows
+            button.setParent(self)  # its owner until it is laid out
             button.setCheckable(True)
         self._mark_range()
         self._label_range(Transmitter())
@@ -77,7 +77,7 @@ class StoryRows(QWidget):
         ):  # fmt: skip
             layout.addWidget(part, stretch)
         for signal in (self.crosshair.pointed_at, self.crosshair.chosen):
-            signal.connect(self._read_out)
+            signal.connect(self._report_values)
         self.axis.changed.connect(self._mark_range)
         self.crosshair.cursors.changed.connect(self._measure)
 
@@ -114,7 +114,7 @@ class StoryRows(QWidget):
 
     def _show_legend(self) -> None:
         profile = self.profile
-        curves = {  # the band model last: the remark is on it
+        curves = {  # the band model last, because the remark is about it
             "simulation": profile.levels,
             "fitted" if profile.is_photo_fitted else "photo": profile.photo,
             "threshold": profile.threshold, "band": profile.band,
@@ -125,20 +125,20 @@ class StoryRows(QWidget):
         note = "no band model here" if undefined else drift
         keys = tuple(key for key, curve in curves.items() if curve is not None)
         if undefined or profile.band is None:
-            why = undefined
+            explanation = undefined
         else:
-            why = explain_drift(reading) if reading and drift else explain_comparison()
-        self.legend.show_lines(keys, note, why)
+            explanation = explain_drift(reading) if reading and drift else explain_comparison()
+        self.legend.show_lines(keys, note, explanation)
 
     def show_picture(self, picture: Picture | PictureView) -> None:
         self._picture = picture
         self.stripes.show_picture(picture.view_as(self._picture_kind))
 
     def show_reading(self, reading: ColumnView) -> None:
-        was_visible = self._is_choice_visible()
+        was_visible = self._is_chosen_column_visible()
         self._reading = reading
         scene = reading.scene
-        self._count_time(reading)
+        self._set_time_unit(reading)
         self.light.show_reading(reading)
         self._show_result()
         self._set_range()
@@ -146,14 +146,14 @@ class StoryRows(QWidget):
         self.code.setVisible(has_chips(scene.transmitter))
         first = int(reading.panel_origin[0] + reading.period_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
-        if was_visible and not self._is_choice_visible():
-            # The panel has left it: its values would be shown without it.
+        if was_visible and not self._is_chosen_column_visible():
+            # The panel has moved away from the chosen column.
             self.crosshair.choose(first)
         self._measure()
-        self._read_out()
+        self._report_values()
 
-    def _count_time(self, reading: ColumnView) -> None:
-        """Count microseconds where chips are sent, and periods of other lights."""
+    def _set_time_unit(self, reading: ColumnView) -> None:
+        """Show time in microseconds if chips are sent, otherwise in periods of the light."""
         unit, name = 1.0 / _MICRO, _TIME
         if not has_chips(reading.scene.transmitter):
             unit, name = reading.light_period, "time / period"
@@ -167,7 +167,7 @@ class StoryRows(QWidget):
     def choose_decoder(self, name: str) -> None:
         self._decoder = name
         self._show_result()
-        self._read_out()
+        self._report_values()
 
     def choose_picture(self, picture_kind: str) -> None:
         self._picture_kind = picture_kind
@@ -175,7 +175,7 @@ class StoryRows(QWidget):
         if self._picture is not None:
             self.stripes.show_picture(self._picture.view_as(picture_kind))
         self._show_legend()
-        self._read_out()
+        self._report_values()
 
     def choose_range(self, name: str) -> None:
         """Show the first packets or the whole panel, one of RANGES, and follow it."""
@@ -201,7 +201,7 @@ class StoryRows(QWidget):
         text, tip = first_periods(sent)
         if self._span is not None:
             text = f"{self._span:.0f} columns"
-            tip = "Show this many columns from the panel's first, whatever is sent."
+            tip = "Show this many columns from the panel's first, whatever the light."
         self.ranges[RANGES[0]].setText(text)
         self.ranges[RANGES[0]].setToolTip(tip)
 
@@ -226,7 +226,7 @@ class StoryRows(QWidget):
             self.code.show_reading(self._reading, self.result)
             self._show_legend()
 
-    def _is_choice_visible(self) -> bool:
+    def _is_chosen_column_visible(self) -> bool:
         """Return whether the chosen column is in the followed range, else on the panel."""
         column, reading = self.crosshair.column, self._reading
         if column is None or reading is None:
@@ -245,15 +245,15 @@ class StoryRows(QWidget):
             packets_end = min(last, first + PACKETS_IN_VIEW * reading.period_columns)
             last = packets_end if self._span is None else min(first + self._span, last_column)
         last = max(last, first + 4.0)
-        beside = _MARGIN_FRACTION * (last - first)
-        self.axis.set_home(first - beside, last + beside, last_column + 1)
+        margin = _MARGIN_FRACTION * (last - first)
+        self.axis.set_home(first - margin, last + margin, last_column + 1)
 
     def _mark_range(self) -> None:
-        """Mark the followed range; none while the user looks elsewhere."""
+        """Mark the range that is followed; none after the user has moved the columns."""
         for name, button in self.ranges.items():
             button.setChecked(self.axis.is_following and name == self.range)
 
-    def _read_out(self) -> None:
+    def _report_values(self) -> None:
         values = self.values()
         if values is not None and self._reading is not None:
             self.values_changed.emit(describe_values(values, self._reading.scene))
@@ -264,5 +264,7 @@ class StoryRows(QWidget):
     def _measure(self) -> None:
         reading = self._reading
         if reading is not None:
-            measured = measure(self.crosshair.cursors, reading, self.profile.levels)
-            self.measured_changed.emit("" if measured is None else describe_difference(measured))
+            difference = measure(self.crosshair.cursors, reading, self.profile.levels)
+            self.measured_changed.emit(
+                "" if difference is None else describe_difference(difference)
+            )

@@ -57,14 +57,14 @@ class StoryView(QWidget):
         for page in (self.rows, picture):
             self._pages.addWidget(page)
         self._size_by_page()
-        line = fill(
+        row = fill(
             QHBoxLayout(), 4, (_LayoutBarrier(self.readout), 1), self.decoder,
-            (self.whole, 0, Qt.AlignmentFlag.AlignRight), margins=0,
+            (self.whole_picture, 0, Qt.AlignmentFlag.AlignRight), margins=0,
         )  # fmt: skip
         for control in (self.picture_kind, *self.rows.ranges.values()):
             self.rows.controls.addWidget(control)
         self._layout = fill(
-            QVBoxLayout(self), self.verdict, line, self.measured, (self._pages, 1),
+            QVBoxLayout(self), self.verdict, row, self.measured, (self._pages, 1),
             margins=4, spacing=4,
         )  # fmt: skip
 
@@ -85,10 +85,11 @@ class StoryView(QWidget):
             {"camera": "Camera", "receiver": "Receiver"},
             is_fixed=True,
         )
-        self.whole = push_button(_WHOLE, _WHOLE_TIP, self.show_whole_picture)
-        self.whole.setCheckable(True)
-        self.whole.setObjectName("way")  # its text tells its state: it need not look pressed
-        self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.whole_picture = push_button(_WHOLE, _WHOLE_TIP, self.show_whole_picture)
+        self.whole_picture.setCheckable(True)
+        # A style without a pressed look, because the text shows the state.
+        self.whole_picture.setObjectName("way")
+        self.whole_picture.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
 
     def _size_by_page(self) -> None:
         """Let only the visible page determine the size."""
@@ -96,7 +97,7 @@ class StoryView(QWidget):
         for page in (self.rows, self._picture):
             policy = policies.Expanding if page is self._pages.currentWidget() else policies.Ignored
             page.setSizePolicy(policy, policy)
-        # At once: the next pane beside it would else be laid out with the old page's width.
+        # At once, or the pane beside it would be laid out with the old page's width.
         self._pages.updateGeometry()
         self.updateGeometry()
 
@@ -104,13 +105,13 @@ class StoryView(QWidget):
     def shows_whole_picture(self) -> bool:
         return self._pages.currentWidget() is self._picture
 
-    def show_whole_picture(self, shown: bool) -> None:
-        self.whole.setChecked(shown)
-        self._pages.setCurrentWidget(self._picture if shown else self.rows)
+    def show_whole_picture(self, is_whole: bool) -> None:
+        self.whole_picture.setChecked(is_whole)
+        self._pages.setCurrentWidget(self._picture if is_whole else self.rows)
         self._size_by_page()
-        self.whole.setText("Back to the rows" if shown else _WHOLE)
-        self.whole.setToolTip("Show the four rows again." if shown else _WHOLE_TIP)
-        self.readout.setVisible(not shown)
+        self.whole_picture.setText("Back to the rows" if is_whole else _WHOLE)
+        self.whole_picture.setToolTip("Show the four rows again." if is_whole else _WHOLE_TIP)
+        self.readout.setVisible(not is_whole)
         self._show_verdicts()
 
     def add_photo_verdict(self, bar: QWidget) -> None:

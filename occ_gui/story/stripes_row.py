@@ -17,7 +17,7 @@ from occ_model.arrays import ByteArray, FloatArray
 
 _LEAST_HEIGHT = 40
 _NAME = 22  # pixels of the row's name above the thumbnail
-_LEAST_THUMBNAIL = 32  # pixels of height of a thumbnail in which a frame can still be made out
+_LEAST_THUMBNAIL = 32  # smallest height in pixels of a thumbnail in which a frame can be recognized
 
 
 class StripesRow(StoryRow):
@@ -50,9 +50,9 @@ class StripesRow(StoryRow):
         return self._find_panel_rows(self._rows)
 
     def _find_panel_rows(self, rows: range) -> tuple[int, int]:
-        """Return the places of the first of ``rows`` that the panel spans and after the last.
+        """Return the index in ``rows`` of the panel's first row, and that after its last.
 
-        All of them where the panel is outside the picture.
+        If the panel is outside the picture, they include all rows.
         """
         if self._corners is None:
             return 0, 0
@@ -72,7 +72,7 @@ class StripesRow(StoryRow):
         right = min(self.x_of(columns - 0.5), area.right())
         if right <= left:
             return
-        # On the screen's own pixels, so that nothing is scaled a second time.
+        # Aligned to the pixels of the screen, so that nothing is scaled a second time.
         pixels = np.arange(np.floor(left * ratio), np.ceil(right * ratio) + 1.0) / ratio
         edges = np.array([self.column_at(x) for x in (pixels[0], pixels[-1])]) + 0.5
         edges = np.linspace(edges[0], edges[1], len(pixels))
@@ -117,9 +117,9 @@ class FrameThumbnail(QAbstractButton):
         self._pixels, self._image = pixels, None
         self.update()
 
-    def _scale_image(self, pixels: ByteArray, place: QRectF) -> QImage:
+    def _scale_image(self, pixels: ByteArray, rect: QRectF) -> QImage:
         ratio = self.devicePixelRatioF()
-        width, height = max(1, round(place.width() * ratio)), max(1, round(place.height() * ratio))
+        width, height = max(1, round(rect.width() * ratio)), max(1, round(rect.height() * ratio))
         small = shrink(pixels, height, width)
         image = QImage(small.data, width, height, width, QImage.Format.Format_Grayscale8).copy()
         image.setDevicePixelRatio(ratio)
@@ -136,7 +136,7 @@ class FrameThumbnail(QAbstractButton):
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(GUTTER - 12, _LEAST_HEIGHT)
 
-    def place(self) -> QRectF:
+    def image_rect(self) -> QRectF:
         rows, columns = self._size
         if not rows or not columns:
             return QRectF()
@@ -146,51 +146,50 @@ class FrameThumbnail(QAbstractButton):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
-        place = self.place()
-        if self._pixels is None or place.width() < 4:
+        rect = self.image_rect()
+        if self._pixels is None or rect.width() < 4:
             return
         if self._image is None or self._image.devicePixelRatioF() != self.devicePixelRatioF():
-            self._image = self._scale_image(self._pixels, place)
-        painter.drawImage(place.topLeft(), self._image)
-        scale = place.width() / self._size[1]
-        left = place.left() + (self.view.left() + 0.5) * scale
-        top = place.top() + self.view.top() * scale
+            self._image = self._scale_image(self._pixels, rect)
+        painter.drawImage(rect.topLeft(), self._image)
+        scale = rect.width() / self._size[1]
+        left = rect.left() + (self.view.left() + 0.5) * scale
+        top = rect.top() + self.view.top() * scale
         view = QRectF(left, top, self.view.width() * scale, self.view.height() * scale)
-        view = view.intersected(place)
+        view = view.intersected(rect)
         painter.setPen(QPen(REGION, 1.5))
         painter.drawRect(view)
         is_highlighted = self.hasFocus() or self.underMouse()
         role = QPalette.ColorRole.Highlight if is_highlighted else QPalette.ColorRole.Mid
         painter.setPen(QPen(self.palette().color(role), 2 if is_highlighted else 1))
-        painter.drawRect(place)
+        painter.drawRect(rect)
 
 
 def resample(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
-    """Average a picture over cells of the screen, exactly, whatever their size: (rows, cells).
+    """Return the exact means of a picture over cells of the screen, of shape (rows, cells).
 
-    ``edges``: where each cell begins and the last one ends, in columns from the left edge of the
-    first; beyond the picture, this goes on with its last column.
-    ``rows``: where the picture has fewer, its rows are repeated.
+    ``edges``: the edges of the cells, in columns from the left edge of the picture, whose outermost
+    columns continue beyond it. ``rows``: if the picture has fewer, its rows are repeated.
     """
     height = min(rows, pixels.shape[0])
     reduced = cv2.resize(pixels, (pixels.shape[1], height), interpolation=cv2.INTER_AREA)
     columns = reduced.shape[1]
-    # The running sum along each row: a cell's mean is the difference of two of its values. They
-    # are whole numbers below 2^24 for as many columns as a picture can show at once, so exact.
+    # A cell's mean is the difference of two values of the running sum along a row, which single
+    # precision holds exactly if all sums are below 2^24.
     dtype = np.float32 if 255 * columns < 2**24 else np.float64
     sums = np.zeros((height, columns + 1), dtype=dtype)
     np.cumsum(reduced, axis=1, dtype=dtype, out=sums[:, 1:])
-    places = np.clip(edges, 0.0, columns)
-    whole = np.minimum(places.astype(np.int64), columns - 1)
-    integral = sums.take(whole, axis=1)
-    integral += reduced.take(whole, axis=1) * (places - whole).astype(dtype)
+    positions = np.clip(edges, 0.0, columns)
+    full_columns = np.minimum(positions.astype(np.int64), columns - 1)
+    integral = sums.take(full_columns, axis=1)
+    integral += reduced.take(full_columns, axis=1) * (positions - full_columns).astype(dtype)
     means = integral[:, 1:] - integral[:, :-1]
-    widths = np.diff(places)
-    empty = widths <= 0.0
-    means *= (1.0 / np.where(empty, 1.0, widths)).astype(dtype)
-    if empty.any():  # beyond the picture
-        nearest = np.clip(np.floor(edges[:-1][empty]).astype(np.int64), 0, columns - 1)
-        means[:, empty] = reduced[:, nearest]
+    widths = np.diff(positions)
+    is_empty = widths <= 0.0
+    means *= (1.0 / np.where(is_empty, 1.0, widths)).astype(dtype)
+    if is_empty.any():  # beyond the picture
+        nearest = np.clip(np.floor(edges[:-1][is_empty]).astype(np.int64), 0, columns - 1)
+        means[:, is_empty] = reduced[:, nearest]
     means += 0.5
     cells = means.astype(np.uint8)
     if height < rows:
@@ -201,12 +200,15 @@ def resample(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
 def shrink(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
     """Average a picture over the cells of a much coarser grid.
 
-    First over whole pixels, which OpenCV does many times faster than over parts of them; what is
-    left over at the lower and right edge, less than half a cell, is left out.
+    First over blocks of whole pixels, which OpenCV averages many times faster than fractions of
+    pixels; a remainder of less than half a cell at the lower and right edge is left out.
     """
-    high, wide = max(1, pixels.shape[0] // (2 * rows)), max(1, pixels.shape[1] // (2 * columns))
-    height, width = pixels.shape[0] // high, pixels.shape[1] // wide
-    even = pixels[: height * high, : width * wide]
-    small = cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA)
+    block_height, block_width = (
+        max(1, pixels.shape[0] // (2 * rows)),
+        max(1, pixels.shape[1] // (2 * columns)),
+    )
+    height, width = pixels.shape[0] // block_height, pixels.shape[1] // block_width
+    blocks = pixels[: height * block_height, : width * block_width]
+    small = cv2.resize(blocks, (width, height), interpolation=cv2.INTER_AREA)
     small = cv2.resize(small, (columns, rows), interpolation=cv2.INTER_AREA)
     return np.asarray(small, dtype=np.uint8)

@@ -53,7 +53,7 @@ def _make_ratio_badge(reading: Reading) -> Badge:
         ratio = exposure / sent.switching_period
         return Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
     meaning = (
-        "Exposure time over the period of the light. Where it is a whole number k, at the light's "
+        "Exposure time over the period of the light. If it is an integer k, at the light's "
         "nulls k / t, there are no bars."
     )
     return Badge("ratio", f"t / period = {exposure / reading.light_period:.3g}", meaning)
@@ -77,9 +77,9 @@ def make_rate_badge(rate: SceneRate) -> Badge:
 
 
 def add_picture_value(badges: tuple[Badge, ...], picture_value: str) -> tuple[Badge, ...]:
-    """Add the value of the picture, where a running slider is ahead of it.
+    """Add a badge with the picture's value of a running slider.
 
-    ``picture_value``: that value; empty where it is that of the results.
+    ``picture_value``: that value; empty if the results have the same one.
     """
     rest = tuple(badge for badge in badges if badge.key != _COMPUTING)
     if not picture_value:
@@ -89,7 +89,7 @@ def add_picture_value(badges: tuple[Badge, ...], picture_value: str) -> tuple[Ba
 
 
 def _list_other_decoders(reading: Reading, decoder: str) -> list[Badge]:
-    # Other decoders have read it only where they were chosen before.
+    # Other decoders have read the picture only if they were chosen before.
     tried = [name for name in (*READ_BY_ALL, decoder) if name in reading.results]
     right = [name for name in tried if is_right(reading.results[name], reading.sent)]
     others = [name for name in right if name != decoder]
@@ -116,12 +116,12 @@ class VerdictBar(StateBar):
 
     def __init__(self) -> None:
         super().__init__()
-        self._step: Remedy | None = None
+        self._remedy: Remedy | None = None
         self._lesson = ""
-        self.step_taken.connect(self._take_step)
+        self.step_taken.connect(self._take_remedy)
         self._reading: Reading | None = None
         self._decoder = PAPER_DECODER
-        self._run = self._picture_value = ""
+        self._running_value = self._picture_value = ""
         self._is_outdated = self._names_simulation = False
         self._failure = ""
         self._rate: SceneRate | None = None
@@ -145,8 +145,8 @@ class VerdictBar(StateBar):
 
     def show_run(self, value: str, picture_value: str) -> None:
         """Show which value of a running slider the verdict is for; empty while none runs."""
-        if (value, picture_value) != (self._run, self._picture_value):
-            self._run, self._picture_value = value, picture_value
+        if (value, picture_value) != (self._running_value, self._picture_value):
+            self._running_value, self._picture_value = value, picture_value
             self._write()
 
     def show_failure(self, sentence: str) -> None:
@@ -181,7 +181,7 @@ class VerdictBar(StateBar):
         result = result_of(reading, self._decoder)
         verdict = verdict_on(result, reading.sent)
         badges = tuple(make_badges(reading, result.decoder))
-        if self._run:
+        if self._running_value:
             badges = add_picture_value(badges, self._picture_value)
         state = verdict.state
         if self._is_outdated:
@@ -190,30 +190,34 @@ class VerdictBar(StateBar):
             badges = (make_rate_badge(self._rate), *badges)
         cause = cause_in(reading, result)
         if not has_chips(reading.scene.transmitter):
-            title, *why = describe_bars(reading)
+            title, *sentences = describe_bars(reading)
             heading = self._make_heading(title)
         elif cause is None:
-            # While the cause is searched for, no symptom is the title.
+            # While the cause is being searched for, the title names no symptom.
             title = verdict.title if reading.causes is None else verdict.heading
             title += _describe_error(verdict, reading)
-            heading, why = self._make_heading(title), self._explain(verdict, reading)
-            if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):
+            heading, sentences = self._make_heading(title), self._explain(verdict, reading)
+            if _is_averaged(verdict, reading) and not (self._is_outdated or self._running_value):
                 self._offer_lesson(AVERAGES_LESSON)
         else:
-            unread = "No code" if result.code is None else verdict.title
-            heading = self._make_heading(f"{unread}: {cause.what}")
-            why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why, symptom(cause.why)]
+            beginning = "No code" if result.code is None else verdict.title
+            heading = self._make_heading(f"{beginning}: {cause.what}")
+            sentences = [
+                f"{cause.why} {symptom(verdict.reason)}".strip(),
+                cause.why,
+                symptom(cause.why),
+            ]
             self._offer(None if self._is_outdated else cause.remedy)
-        self.show_state(state, heading, *why, badges=badges)
+        self.show_state(state, heading, *sentences, badges=badges)
 
-    def _take_step(self) -> None:
-        if self._step is not None:
-            self.step_chosen.emit(self._step)
+    def _take_remedy(self) -> None:
+        if self._remedy is not None:
+            self.step_chosen.emit(self._remedy)
         elif self._lesson:
             self.lesson_wanted.emit(self._lesson)
 
     def _offer(self, step: Remedy | None) -> None:
-        self._step, self._lesson = step, ""
+        self._remedy, self._lesson = step, ""
         self.offer_step(step.label if step else "")
         self.step.setToolTip("Changes the scene or the decoder in one step.")
 
@@ -223,9 +227,9 @@ class VerdictBar(StateBar):
         self.step.setToolTip("Opens the lesson on exposures longer than a chip.")
 
     def _make_heading(self, verdict: str) -> str:
-        """Return the heading, which names the source of the verdict where several are visible."""
-        if self._run:
-            verdict = f"{self._run}: {verdict[:1].lower()}{verdict[1:]}"
+        """Return the heading, which names the verdict's source if several verdicts are visible."""
+        if self._running_value:
+            verdict = f"{self._running_value}: {verdict[:1].lower()}{verdict[1:]}"
         if not self._names_simulation:
             return f"Earlier scene: {verdict}" if self._is_outdated else verdict
         subject = "Simulation of the earlier scene" if self._is_outdated else "Simulation"
@@ -242,8 +246,8 @@ class VerdictBar(StateBar):
         scene = reading.scene
         exposure = SECOND.format(scene.camera.exposure_time, 4)
         period = SECOND.format(scene.transmitter.switching_period, 4)
-        fewest = chips_in_exposure(scene)
-        chips = f"{fewest} or {fewest + 1} chips"
+        chip_count = chips_in_exposure(scene)
+        chips = f"{chip_count} or {chip_count + 1} chips"
         texts = [
             f"A column gathers light for {exposure}, a chip lasts {period}: each column sees "
             f"{chips}.",
@@ -254,7 +258,7 @@ class VerdictBar(StateBar):
             return texts
         averages = f"averages {chips}, and the averages of different codes differ; so it is read"
         return [
-            f"Exposed for {exposure}, a chip lasts {period}: each column {averages}, though the "
+            f"Exposure {exposure}, chip {period}: each column {averages}, though the "
             "band model ends.",
             f"Each column {averages}.",
             "No column sees one chip alone: the band model ends.",
@@ -263,13 +267,13 @@ class VerdictBar(StateBar):
 
 
 def _describe_error(verdict: CodeVerdict, reading: Reading) -> str:
-    """Qualify a good verdict where more is left out than by default; else empty."""
+    """Qualify a good verdict if more is left out than by default; otherwise empty."""
     if verdict.state is not State.GOOD or reading.error <= TOLERANCE.default:
         return ""
     observable = reading.request.settings.observable
     # The error of single columns and decisions may slightly exceed its estimate.
-    most = "up to" if observable == "image" else "about"
-    amount = f"{most} {reading.error:.2g} {unit_of(observable)}"
+    prefix = "up to" if observable == "image" else "about"
+    amount = f"{prefix} {reading.error:.2g} {unit_of(observable)}"
     return f" ({amount if math.isfinite(reading.error) else 'an unknown part'} left out)"
 
 

@@ -86,7 +86,7 @@ def test_the_whole_picture_opens_by_thumbnail_or_comparison_and_closes_again(
     assert not story.rows.isVisible()
     assert story.shows_whole_picture
     assert story.verdict.isVisible()
-    qtbot.mouseClick(story.whole, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(story.whole_picture, Qt.MouseButton.LeftButton)
     assert story.rows.isVisible()
     assert not application.view("picture").isVisible()
     story, before = application.story, application.view("picture").before.checkbox

@@ -132,7 +132,7 @@ def test_the_values_at_the_crosshair_are_the_models(
         assert (values.column, values.time) == (column, time)
         exact = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
         assert values.light == chips[floor(exact * Fraction(frequency)) % len(chips)]
-        assert values.fraction == pytest.approx(lit[column], abs=1e-9)
+        assert values.mean_light == pytest.approx(lit[column], abs=1e-9)
         assert values.level == frame.profile[column]
         words = describe_values(values, scene)
         assert f"column {column}" in words
@@ -265,10 +265,10 @@ def test_wrong_bits_are_marked_those_without_columns_listed_and_refused_ones_not
     assert decoded.failure is None
     assert decoded.bits.size
     rows.code.show_reading(snapshot, decoded)
-    assert rows.code.list_label() == "from all packets together:"
+    assert rows.code.make_list_label() == "from all packets together:"
     assert rows.code.state_of(0) is State.GOOD
     rows.code.show_reading(snapshot, replace(decoded, failure="Too noisy.", code=None))
-    assert rows.code.list_label() == "not accepted:"
+    assert rows.code.make_list_label() == "not accepted:"
     assert {rows.code.state_of(bit) for bit in range(decoded.bits.size)} == {State.NEUTRAL}
     for received in (4, 400):  # fewer than were sent, and more
         bits = np.ones(received, dtype=np.uint8)

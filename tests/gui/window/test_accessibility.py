@@ -93,7 +93,7 @@ def frequent_controls(application: Application) -> set[QWidget]:
     buttons = application.window.toolbar.buttons.values()
     return {
         *(row.slider for row in rows), *(row.field for row in rows), application.controls.preset,
-        application.story.decoder, application.story.whole,
+        application.story.decoder, application.story.whole_picture,
         *(button for button in buttons if button.isEnabled() and button.isVisible()),
     }  # fmt: skip
 

@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_
 
 import numpy as np
 
-from occ_model.errors import OccError, ParameterError, shown
+from occ_model.errors import OccError, ParameterError, quote
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -81,7 +81,7 @@ def _refuse_wrong(
         hint = hints.get(name, Any)
         is_left = value is form.parameters[name].default or (at_once and not _is_of_objects(hint))
         if not is_left and not _fits(value, hint):
-            raise ParameterError.of(name, shown(value), _allowed(hint))
+            raise ParameterError.of(name, quote(value), _allowed(hint))
 
 
 def _parts(hint: Any) -> tuple[Any, ...]:

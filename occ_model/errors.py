@@ -155,7 +155,7 @@ class _ShortRepr(reprlib.Repr):
         return super().repr_int(value, level)
 
 
-def shown(value: object) -> str:
+def quote(value: object) -> str:
     """Format any value for a sentence: as ``repr`` would, but short and in one line."""
     lines = _ShortRepr().repr(value).split("\n")  # an array's has several
     return one_line(" ".join(line.strip() for line in lines), _LONGEST_VALUE)
@@ -166,7 +166,7 @@ def printable(text: str) -> str:
     return one_line(" ".join(text.split()), _LONGEST_TEXT)
 
 
-def counted(number: float, noun: str) -> str:
+def inflect(number: float, noun: str) -> str:
     """Write a number with its noun: 1 frame, 2 frames, 0.5 frames."""
     text = str(number) if isinstance(number, int) else f"{number:g}"
     return f"{text} {noun}{'s' * (text != '1')}"

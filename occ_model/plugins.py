@@ -11,7 +11,7 @@ from threading import get_ident
 from traceback import walk_tb
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from occ_model.errors import ParameterError, PluginError, one_line, shown
+from occ_model.errors import ParameterError, PluginError, one_line, quote
 
 if TYPE_CHECKING:  # its import is slow, and most scenes ask for no plug-in
     from importlib.metadata import EntryPoint
@@ -83,7 +83,7 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
             raise PluginError(f"{who} is a {type(offered).__name__}, not a {kind.__name__}.")
         name_of_object = getattr(offered, "name", None)
         if not isinstance(name_of_object, str) or name_of_object != name:
-            raise PluginError(f"{who} calls itself {shown(name_of_object)}.")
+            raise PluginError(f"{who} calls itself {quote(name_of_object)}.")
         return offered
 
     return call(who, "be imported", check, entry.load)

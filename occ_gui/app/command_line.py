@@ -26,7 +26,7 @@ from occ_model.commands.options import (
     scene_of,
     simulation_settings_of,
 )
-from occ_model.errors import one_line, shown
+from occ_model.errors import one_line, quote
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.plugins import name_running_plugins
 from occ_model.program import EXIT_MISUSE, run_program, say
@@ -128,7 +128,7 @@ def _size(text: str) -> tuple[int, int]:
     width, height = (int(match[1]), int(match[2])) if match else (0, 0)
     if not 0 < max(width, height) <= _LARGEST_SIDE:
         raise argparse.ArgumentTypeError(
-            f"{shown(text)} is no size; write it as 1280x800, each up to {_LARGEST_SIDE}"
+            f"{quote(text)} is no size; write it as 1280x800, each up to {_LARGEST_SIDE}"
         )
     return width, height
 
@@ -182,7 +182,7 @@ def _check_pane(name: str | None, application: "Application") -> None:
     docks = application.window.docks
     if name is not None and name not in docks:
         application.stop()
-        raise occ.OccError(f"--dock: there is no pane {shown(name)}; allowed: {', '.join(docks)}.")
+        raise occ.OccError(f"--dock: there is no pane {quote(name)}; allowed: {', '.join(docks)}.")
 
 
 def leave_plugins(code: int, preferences: "QSettings | None") -> None:

@@ -14,7 +14,7 @@ from occ_gui.widgets.colours import thin_pen
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.plot import LineLegend, marker
 from occ_gui.widgets.work_bar import WorkBar
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.results.bit_errors import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE
 
@@ -152,7 +152,7 @@ class BenchView(QWidget):
     def show_begun(self, request: BenchRequest) -> None:
         self._points, self._bounds, self._ended = [], None, ""
         self._setting = (
-            f"{', '.join(request.schemes)}, {counted(request.payload_bits, 'bit')}, "
+            f"{', '.join(request.schemes)}, {inflect(request.payload_bits, 'bit')}, "
             f"{request.rows_a_symbol:.3g} rows a symbol (the row rate needs 1 or more)"
         )
         self._show_page()

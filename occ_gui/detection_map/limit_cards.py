@@ -15,7 +15,7 @@ from occ_gui.widgets.building import (
     paragraph,
     push_button,
 )
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.limits import (
     Advice,
@@ -207,7 +207,7 @@ class LimitCard(QFrame):
             end, after = frequencies.gaps[0]
             more = len(frequencies.gaps) - 1
             gap = f"gap {_format_frequency(end.value)} to {_format_frequency(after.value)}"
-            texts.insert(0, f"{gap} and {counted(more, 'gap')} more" if more else gap)
+            texts.insert(0, f"{gap} and {inflect(more, 'gap')} more" if more else gap)
         if frequencies.lowest is not None:
             texts.insert(0, f"from {_format_frequency(frequencies.lowest.value)}")
         self.range.set_full_text("; ".join(texts))
@@ -268,7 +268,7 @@ class MostBitsCard(QFrame):
         self._show()
 
     def show_progress(self, decoder: str, pictures: int) -> None:
-        self._state = f"searching with {decoder}, {counted(pictures, 'picture')} tried"
+        self._state = f"searching with {decoder}, {inflect(pictures, 'picture')} tried"
         self._show()
 
     def show_result(self, result: MostBits) -> None:

@@ -19,7 +19,7 @@ from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.modes import PICTURE
-from occ_model.errors import counted, one_line
+from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_replaceable, make_folder
 from occ_model.scene.provenance import ENDINGS, Provenance
 from occ_model.scene.scene import Scene, SimulationSettings
@@ -233,7 +233,7 @@ class ExportController(Service):
         if job.folder is not None:
             self._preferences.visit_export(job.folder / "figure")
             message = (
-                f"Exported {counted(len(done.files), 'file')} into {one_line(job.folder.name)}."
+                f"Exported {inflect(len(done.files), 'file')} into {one_line(job.folder.name)}."
             )
             left_out = f"Left out: {self._left_out}"
             self.status_message.emit(f"{message} {left_out}" if self._left_out else message)

@@ -13,7 +13,7 @@ from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.session_record import KeptSession, make_record, read_session
-from occ_model.errors import OccError, OutputError, SceneFileError, one_line, shown
+from occ_model.errors import OccError, OutputError, SceneFileError, one_line, quote
 from occ_model.files.reading import read_text
 from occ_model.files.writing import make_folder, make_private, write_whole
 
@@ -136,7 +136,7 @@ def _read_record(path: Path) -> dict[str, Any]:
     written = record.get("format") if isinstance(record, dict) else None
     if type(written) is not int or written != _FORMAT:
         raise SceneFileError(
-            f"{name} cannot be read: its format is {shown(written)}; allowed: {_FORMAT}."
+            f"{name} cannot be read: its format is {quote(written)}; allowed: {_FORMAT}."
         )
     return dict(record)
 

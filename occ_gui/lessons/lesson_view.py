@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 from occ_gui.lessons.step_page import LEAST_SIZE, StepPage, heading, paragraph
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, push_button
 from occ_gui.widgets.plain_text import in_menu
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.results.teaching import CheckedAnswer, Lesson
 
 _LONGEST_NAME = 120  # characters
@@ -127,7 +127,7 @@ class LessonList(QWidget):
     def _add(self, lesson: Lesson, done_steps: int | None) -> None:
         count = len(lesson.steps)
         title = in_menu(lesson.title)
-        texts = {None: f"{title}  ({counted(count, 'step')})", count: f"✓  {title}"}
+        texts = {None: f"{title}  ({inflect(count, 'step')})", count: f"✓  {title}"}
         text = texts.get(done_steps, f"{title}  (step {(done_steps or 0) + 1} of {count})")
         choice = push_button(text, "Set the scene of its step and show its question.")
         choice.setAccessibleDescription(lesson.summary)

@@ -10,7 +10,7 @@ from occ_gui.photo.match_result import STATES
 from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import Badge, State
-from occ_model.errors import counted, one_line
+from occ_model.errors import inflect, one_line
 from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
@@ -225,4 +225,4 @@ class PhotoVerdictBar(StateBar):
 
 def _shorten_reasons(reasons: Sequence[str]) -> str:
     more = len(reasons) - 1
-    return reasons[0] + (f" And {counted(more, 'more reason')}." if more else "")
+    return reasons[0] + (f" And {inflect(more, 'more reason')}." if more else "")

@@ -14,7 +14,7 @@ from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, pen_on, thin_pen
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
@@ -94,7 +94,7 @@ class PlanPlot(QWidget):
             self.plot.setXRange(float(low[0]), float(high[0]), padding=0)
             self.plot.setYRange(float(low[1]), float(high[1]), padding=0)
         self.plot.setAccessibleDescription(
-            f"{counted(len(plan.outlines), 'lamp')}; "
+            f"{inflect(len(plan.outlines), 'lamp')}; "
             f"the camera is at x {place.x:.2f} m, y {place.y:.2f} m"
         )
 

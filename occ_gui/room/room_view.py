@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayou
 from occ_gui.room.jobs import PLACES_PER_SIDE, FloorMap, RoomPicture, RoomPlan
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
 from occ_gui.widgets.building import fill, heading_font, paragraph, push_button
-from occ_model.errors import counted, one_line
+from occ_model.errors import inflect, one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Room
 from occ_model.scene.parameters import quantity
@@ -174,7 +174,7 @@ def _describe_map(floor_map: FloorMap) -> str:
     )
     text = (
         f"Map of the floor: {len(sure)} of {len(points)} places determined (blue, else orange), "
-        f"{named} of {shown} whole lamps named, {counted(wrong, 'lamp')} named wrongly."
+        f"{named} of {shown} whole lamps named, {inflect(wrong, 'lamp')} named wrongly."
     )
     if sure:
         text += f" Median error: {METRE.format(float(np.median([p.error for p in sure])), 2)}."

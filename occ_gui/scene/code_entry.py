@@ -10,7 +10,7 @@ from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.event_filters import leave_undo_to_window
-from occ_model.errors import ParameterError, counted, one_line, shown
+from occ_model.errors import ParameterError, inflect, one_line, quote
 from occ_model.scene.light_words import describe_light
 from occ_model.scene.parameters import count, payload_parameter
 from occ_model.scene.payload import form_of
@@ -83,7 +83,7 @@ class CodeEntry(QWidget):
         elif scene is not None and scene.transmitter.payload:
             form = form_of(scene.transmitter.payload)
             form = "bytes" if form == "hex" else form
-            text = f"Sent as {form}: {counted(scene.transmitter.payload_length, 'bit')}"
+            text = f"Sent as {form}: {inflect(scene.transmitter.payload_length, 'bit')}"
         else:
             text = "Code, as a number and as bits"
         if text != self.title.text():
@@ -134,7 +134,7 @@ class CodeEntry(QWidget):
     def _read_digits(self, text: str) -> None:
         if not re.fullmatch(f"[01]{{{self._bits}}}", text):
             sentence = (
-                f"The bits cannot be {shown(text)}; allowed: {self._bits} characters 0 and 1. As a "
+                f"The bits cannot be {quote(text)}; allowed: {self._bits} characters 0 and 1. As a "
                 f"text: text:{one_line(text, _MOST_DIGITS)}."
             )
             self._refuse(sentence)

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.state_look import Badge, State
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.scene.scene import SimulationSettings, unit_of
 
 _MOST_NAMED = 1  # effects switched by hand that a badge names
@@ -50,7 +50,7 @@ def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> B
     count = len(settings.force)
     forced = forced_text(settings.force, labels)
     if count > _MOST_NAMED:
-        forced = f"{counted(count, 'effect')} by hand"
+        forced = f"{inflect(count, 'effect')} by hand"
     parts = (_tolerance_text(settings), forced, "reused noise" if is_reused else "")
     text = " · ".join(part for part in parts if part)
     if not text:

@@ -13,7 +13,7 @@ from occ_gui.story.curve_lines import make_lines
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
-from occ_model.errors import counted, one_line
+from occ_model.errors import inflect, one_line
 from occ_model.results.teaching import LightCurve
 from occ_model.scene.light_words import blinking_lamp, describe_light, has_chips
 from occ_model.scene.payload import PayloadPiece, compare_payload
@@ -221,7 +221,7 @@ class LightRow(StoryRow):
         subject = f"code {sent.code}"
         if sent.payload:
             subject = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
-        return f"{subject}, {counted(len(self._sent_bits), 'bit')}"
+        return f"{subject}, {inflect(len(self._sent_bits), 'bit')}"
 
     def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         if self._scene is None:

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.video.film_reading import FilmReading, Marks, MarkState
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
@@ -171,8 +171,8 @@ def _explain_losses(progress: FilmProgress, reading: VideoReading) -> str:
     """Explain which packets were lost; their bits do not count as wrong."""
     where = "sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := progress.frames - progress.placed:
-        where += f", or in {counted(unplaced, 'frame')} without a known place"
-    lost = f"{reading.cut_off} of {counted(reading.lost, 'lost packet')}"
+        where += f", or in {inflect(unplaced, 'frame')} without a known place"
+    lost = f"{reading.cut_off} of {inflect(reading.lost, 'lost packet')}"
     text = f"{lost} {'is' if reading.cut_off == 1 else 'are'} not complete in any frame: {where}."
     if misread := reading.lost - reading.cut_off:
         text += f" {misread} {'was' if misread == 1 else 'were'} in view and misread."

@@ -19,7 +19,7 @@ from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
 from occ_gui.video.reading_controller import FilmReader
 from occ_gui.video.video_view import VideoView
-from occ_model.errors import OccError, counted, one_line
+from occ_model.errors import OccError, inflect, one_line
 from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.scene import Scene
 
@@ -231,7 +231,7 @@ class VideoWiring(Pane[FilmChoice]):
         film, form = self.films.film, self.view.form
         if film is None:
             title = (
-                f"Simulated film: {counted(form.frames, 'frame')}, "
+                f"Simulated film: {inflect(form.frames, 'frame')}, "
                 f"{form.recording.frame_rate:g} a second"
             )
         elif self.films.is_live:
@@ -301,7 +301,7 @@ def _title_of(film: Video) -> str:
     rows, columns = film.shape
     parts = [one_line(film.title), f"{columns} x {rows}"]
     if film.frame_count:
-        parts.append(counted(film.frame_count, "frame"))
+        parts.append(inflect(film.frame_count, "frame"))
     if film.frame_rate:
         parts.append(f"{film.frame_rate:.4g} a second")
     return ", ".join(parts)

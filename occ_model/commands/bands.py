@@ -5,7 +5,7 @@ import math
 import re
 
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, format_depth
 from occ_model.results.bars_answer import ROWS
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -75,7 +75,7 @@ def _lamp_of(text: str) -> tuple[dict[str, ParameterValue], int]:
         mains = quantity("mains_frequency").parse(frequency)
         return {"light": "mains", "mains_frequency": mains}, 0
     if "mains" in kinds or len(others) != 1:
-        raise ParameterError(f"lamp is {shown(text)}; allowed: {_LAMPS}.")
+        raise ParameterError(f"lamp is {quote(text)}; allowed: {_LAMPS}.")
     lamp = quantity("lamp_frequency").parse(frequency)
     if not kinds:
         duty = quantity("duty").parse(others[0])

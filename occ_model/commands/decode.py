@@ -14,7 +14,7 @@ from occ_model.commands.options import (
     progress_bar,
     scene_of,
 )
-from occ_model.errors import ParameterError, counted
+from occ_model.errors import ParameterError, inflect
 from occ_model.files.reading import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
@@ -185,7 +185,7 @@ def _film_channel(name: str) -> str:
 def _format_progress(known: FilmProgress) -> str:
     """Describe what is known after a frame in one line."""
     frame = known.frame
-    chips = counted(len(frame.chips), "chip")
+    chips = inflect(len(frame.chips), "chip")
     what = frame.failure or f"{chips}, starting with chip {frame.place} of the packet"
     payload = f"  {known.payload}" if known.payload else ""
     return (
@@ -205,7 +205,7 @@ def _film_lines(reading: VideoReading, video: Video) -> list[str]:
             f"certainty         {reading.certainty:.4f}",
         ]
     lines.append(
-        f"frames            {len(reading.frames)} of {columns} columns, {counted(rows, 'row')}; "
+        f"frames            {len(reading.frames)} of {columns} columns, {inflect(rows, 'row')}; "
         f"{placed} of them placed in the packet"
     )
     facts = [*packet_facts(reading), *(() if reading.clock is None else clock_facts(reading.clock))]

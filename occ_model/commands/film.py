@@ -15,7 +15,7 @@ from occ_model.commands.options import (
     simulation_settings_of,
 )
 from occ_model.commands.vary import SYNTAX, axes_of
-from occ_model.errors import ParameterError, counted, one_line, shown
+from occ_model.errors import ParameterError, inflect, one_line, quote
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.video import Video
@@ -78,8 +78,8 @@ def _run(options: argparse.Namespace) -> int:
     gap = recording.gap(film.scene)
     name = one_line(str(options.out))
     print(
-        f"{name}: {counted(count, 'frame')} of {counted(columns, 'column')}, "
-        f"{counted(rows, 'row')}; "
+        f"{name}: {inflect(count, 'frame')} of {inflect(columns, 'column')}, "
+        f"{inflect(rows, 'row')}; "
         f"gap {SECOND.format(gap, 4)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
     )
     if options.out.suffix.lower() not in LOSSLESS:
@@ -103,7 +103,7 @@ def _parse_waypoint(text: str) -> Waypoint:
     if time is None or not rest:
         raise ParameterError.of(
             "waypoint",
-            shown(text),
+            quote(text),
             "a time and changes, such as 1s:offset_x=20cm,roll=5deg",
         )
     changes: dict[str, float] = {}
@@ -111,12 +111,12 @@ def _parse_waypoint(text: str) -> Waypoint:
         name, _, value = part.partition("=")
         name = name.strip()
         if name not in MOTIONS:
-            raise ParameterError(f"waypoint changes {shown(name)}; allowed: {', '.join(MOTIONS)}.")
+            raise ParameterError(f"waypoint changes {quote(name)}; allowed: {', '.join(MOTIONS)}.")
         unit = quantity(name).unit
         number = unit.parse(value)
         if number is None:
             raise ParameterError.of(
-                f"waypoint's {name}", shown(value), f"a number in {unit.display(1.0)[0]}"
+                f"waypoint's {name}", quote(value), f"a number in {unit.display(1.0)[0]}"
             )
         changes[name] = number
     return Waypoint(time, **changes)
@@ -167,5 +167,5 @@ def _animate(options: argparse.Namespace) -> int:
             options.out, scene, name, run, settings=simulation_settings_of(options),
             rate=options.rate, decoder=options.decoder, progress=lambda _done: bar.update(),
         )  # fmt: skip
-    print(f"{one_line(str(options.out))}: {counted(len(run), 'frame')}")
+    print(f"{one_line(str(options.out))}: {inflect(len(run), 'frame')}")
     return 0

@@ -16,7 +16,7 @@ from occ_model.commands.options import (
     scene_of,
     whole_number,
 )
-from occ_model.errors import ParameterError, one_line, shown
+from occ_model.errors import ParameterError, one_line, quote
 from occ_model.files.writing import make_folder
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.parameters import quantity
@@ -113,7 +113,7 @@ def _parse_numbers(name: str, text: str, kind: type[Number], what: str) -> tuple
         try:
             numbers.append(kind(part))
         except ValueError:
-            raise ParameterError(f"{name} has {shown(part)}; allowed: {what}.") from None
+            raise ParameterError(f"{name} has {quote(part)}; allowed: {what}.") from None
     return tuple(numbers)
 
 

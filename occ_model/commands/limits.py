@@ -12,7 +12,7 @@ from occ_model.commands.options import (
     progress_bar,
     scene_of,
 )
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
@@ -207,7 +207,7 @@ def _search_most_bits(options: argparse.Namespace) -> int:
     exposure = SECOND.format(scene.camera.exposure_time)
     distance = quantity("distance").format(scene.pose.distance)
     print(
-        f"At an exposure of {exposure} and {distance}, {counted(options.fps, 'picture')} a second:"
+        f"At an exposure of {exposure} and {distance}, {inflect(options.fps, 'picture')} a second:"
     )
     for one in found:
         print(f"  {_describe_best(one)} {one.faults}".rstrip())
@@ -232,6 +232,6 @@ def _describe_best(found: MostBits) -> str:
     )
     return (
         f"{found.decoder}: {found.bits_a_second:,.0f} bits a second, "
-        f"{counted(sent.payload_length, 'bit')} a picture in {sent.line_code} at {frequency}; "
-        f"every bit of {counted(found.pictures, 'picture')} was read, and {rest}."
+        f"{inflect(sent.payload_length, 'bit')} a picture in {sent.line_code} at {frequency}; "
+        f"every bit of {inflect(found.pictures, 'picture')} was read, and {rest}."
     )

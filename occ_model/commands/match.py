@@ -14,7 +14,7 @@ from occ_model.commands.options import (
     progress_bar,
     scene_of,
 )
-from occ_model.errors import MatchError, ParameterError, one_line, shown
+from occ_model.errors import MatchError, ParameterError, one_line, quote
 from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
@@ -177,7 +177,7 @@ def parse_region(text: str) -> Region:
     if found is None:
         raise ParameterError.of(
             "--region",
-            shown(text),
+            quote(text),
             "R0:R1,C0:C1, such as 100:800,0:1920: the first row, the row after the last, and the "
             "same for columns",
         )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE, TABLE, OutputFiles
 from occ_model.commands.options import is_stated, progress_bar, whole_number
-from occ_model.errors import ParameterError, counted, one_line
+from occ_model.errors import ParameterError, inflect, one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
@@ -68,7 +68,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     for line in [*_report_lines(table, known), *paste]:
         print(line)
     if options.out:
-        print(f"{one_line(str(options.out))}: {counted(len(table.rows), 'photo')}")
+        print(f"{one_line(str(options.out))}: {inflect(len(table.rows), 'photo')}")
     return EXIT_FAILURE if table.estimated is None else 0
 
 

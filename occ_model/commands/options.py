@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from occ_model.effects.registry import NAMES
-from occ_model.errors import ParameterError, one_line, shown
+from occ_model.errors import ParameterError, one_line, quote
 from occ_model.program import discard
 from occ_model.receiver.decode import DECODERS, decoders
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
@@ -51,27 +51,27 @@ def number(text: str) -> float:
     if len(meanings) > 1:
         comma, thousands = (NONE.format(value) for value in meanings)
         raise argparse.ArgumentTypeError(
-            f"{shown(text)} means {comma} with a decimal comma and {thousands} with a comma "
+            f"{quote(text)} means {comma} with a decimal comma and {thousands} with a comma "
             "between thousands; write it without that comma"
         )
     try:
         return meanings[0] if meanings else float(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a number") from None
+        raise argparse.ArgumentTypeError(f"{quote(text)} is not a number") from None
 
 
 def whole_number(text: str) -> int:
     try:
         return int(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a whole number") from None
+        raise argparse.ArgumentTypeError(f"{quote(text)} is not a whole number") from None
 
 
 def decoder_name(text: str) -> str:
     """Check the name of a decoder, without importing a plug-in."""
     if text not in DECODERS and text not in decoders():
         raise argparse.ArgumentTypeError(
-            f"there is no decoder {shown(text)}; known: {', '.join(decoders())}"
+            f"there is no decoder {quote(text)}; known: {', '.join(decoders())}"
         )
     return text
 
@@ -171,7 +171,7 @@ def forced_effects(options: argparse.Namespace) -> dict[str, bool]:
     """Return the effects that a command line switches on or off."""
     for name in set(options.on) & set(options.off):
         raise ParameterError(
-            f"effect {shown(name)} is switched both on and off; allowed: one of them."
+            f"effect {quote(name)} is switched both on and off; allowed: one of them."
         )
     return {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)}
 

@@ -14,7 +14,7 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.effects.plan import plan_with
-from occ_model.errors import counted, one_line
+from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
@@ -60,10 +60,10 @@ def _run(options: argparse.Namespace) -> int:
     milliseconds = 1e3 * sum(frame.timings.values())
     name = one_line(str(options.out))
     what = f"{title[:1].lower()}{title[1:]}"
-    lines = counted(rows, "row")
+    lines = inflect(rows, "row")
     if frame.rows_step > 1:
-        lines = f"{rows} of {counted(scene.camera.rows, 'row')}"
-    size = f"{counted(columns, 'column')}, {lines}"
+        lines = f"{rows} of {inflect(scene.camera.rows, 'row')}"
+    size = f"{inflect(columns, 'column')}, {lines}"
     print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {what}")
     lost = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
     if lost:

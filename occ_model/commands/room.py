@@ -19,7 +19,7 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.commands.sweep import add_work_options, add_worker_options, run_with_bar
-from occ_model.errors import counted, one_line
+from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
@@ -179,9 +179,9 @@ def _run_map(options: argparse.Namespace) -> int:
     errors = [point.error for point in points if point.sure_places]
     median = f", median error {1e3 * float(np.median(errors)):.3g} mm" if errors else ""
     print(
-        f"{one_line(str(options.out))}: {counted(request.point_count, 'place')}, "
-        f"{counted(pictures, 'picture')}: {named} of {shown} whole lamps named, "
-        f"{counted(wrong, 'lamp')} named wrongly; {counted(sure, 'place')} sure{median}"
+        f"{one_line(str(options.out))}: {inflect(request.point_count, 'place')}, "
+        f"{inflect(pictures, 'picture')}: {named} of {shown} whole lamps named, "
+        f"{inflect(wrong, 'lamp')} named wrongly; {inflect(sure, 'place')} sure{median}"
     )
     return 0
 
@@ -208,7 +208,7 @@ def _run_codes(options: argparse.Namespace) -> int:
     gains = [one.named - one.expected_mix_ups(options.lamps) for one in found]
     best = found[gains.index(max(gains))]
     print(
-        f"Of these, {best.bits} bits serve {counted(options.lamps, 'lamp')} best: {best.named} of "
+        f"Of these, {best.bits} bits serve {inflect(options.lamps, 'lamp')} best: {best.named} of "
         f"{best.whole} whole lamps named correctly in these pictures."
     )
     alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]

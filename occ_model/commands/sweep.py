@@ -24,7 +24,7 @@ from occ_model.commands.options import (
     scene_of,
 )
 from occ_model.commands.vary import SYNTAX, axes_of
-from occ_model.errors import OccError, ParameterError, counted, one_line, shown
+from occ_model.errors import OccError, ParameterError, inflect, one_line, quote
 from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
@@ -142,8 +142,8 @@ def _run(options: argparse.Namespace) -> int:
     if options.out:
         name = one_line(str(options.out))
         print(
-            f"{name}: {counted(request.point_count, 'point')}, "
-            f"{counted(len(settings.decoders), 'rate')} each"
+            f"{name}: {inflect(request.point_count, 'point')}, "
+            f"{inflect(len(settings.decoders), 'rate')} each"
         )
     elif not options.plot:
         sys.stdout.writelines(table.csv())
@@ -240,7 +240,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     if not asyncio.run(_count_workers(address)):
         raise ClusterError(
-            f"The cluster at {shown(address)} has no workers; start one with "
+            f"The cluster at {quote(address)} has no workers; start one with "
             f"'dask worker {one_line(address)}'."
         )
     client: Any = Client(address, timeout=SECONDS, set_as_default=False)
@@ -267,6 +267,6 @@ async def _count_workers(address: str) -> int:
     except Exception as error:  # noqa: BLE001 - anything may listen and answer there
         reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     raise ClusterError(
-        f"No dask scheduler answers at {shown(address)}: {one_line(reason)}. Allowed: the address "
+        f"No dask scheduler answers at {quote(address)}: {one_line(reason)}. Allowed: the address "
         "of one, such as tcp://127.0.0.1:8786."
     )

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.results.sweep_request import MOST_POINTS
 from occ_model.scene.parameter_kinds import Count, Parameter, ParameterValue, Quantity
 from occ_model.scene.parameters import parameter_named
@@ -27,7 +27,7 @@ def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
         name, equals, text = setting.partition("=")
         name = name.strip()
         if not equals:
-            raise ParameterError(f"{shown(setting)} is not an axis; allowed: {SYNTAX}.")
+            raise ParameterError(f"{quote(setting)} is not an axis; allowed: {SYNTAX}.")
         parameter = parameter_named(name)
         if name in axes:
             raise parameter.refuse("is varied twice", "one axis a parameter")
@@ -43,11 +43,11 @@ def _parse_values(parameter: Parameter, text: str) -> list[ParameterValue]:
         return [parameter.parse(part) for part in text.split(",")]
     parts = text.split(":")
     if len(parts) != 3 or not isinstance(parameter, Quantity | Count):
-        raise parameter.refuse(f"varies over {shown(text)}", _allowed_forms(parameter))
+        raise parameter.refuse(f"varies over {quote(text)}", _allowed_forms(parameter))
     low, high = parameter.parse(parts[0]), parameter.parse(parts[1])
     if not low < high:
         raise parameter.refuse(
-            f"varies over {shown(text)}", "a range from a lower to a higher value"
+            f"varies over {quote(text)}", "a range from a lower to a higher value"
         )
     step = parts[2].strip()
     if step[:1] in ("x", "X"):
@@ -70,7 +70,7 @@ def _spread_values(
     is_whole = factor.isdecimal() and len(factor) <= len(str(MOST_POINTS))
     count = int(factor) if is_whole else 0
     if not 2 <= count <= MOST_POINTS:
-        raise parameter.refuse(f"varies in {shown(text)}", f"x2 to x{MOST_POINTS} values")
+        raise parameter.refuse(f"varies in {quote(text)}", f"x2 to x{MOST_POINTS} values")
     if isinstance(parameter, Count):
         return list(dict.fromkeys(np.rint(np.linspace(low, high, count)).astype(int).tolist()))
     is_log = parameter.scale == "log" and low > 0.0
@@ -86,11 +86,11 @@ def _step_values(
         parameter.unit.parse(text) if isinstance(parameter, Quantity) else _parse_whole_number(text)
     )
     if step is None or not step > 0.0 or math.isinf(step):
-        raise parameter.refuse(f"varies in steps of {shown(text)}", "a step above 0")
+        raise parameter.refuse(f"varies in steps of {quote(text)}", "a step above 0")
     steps = (high - low) / step * (1 + 1e-9)
     if steps < 1.0:  # there would be only the first value
         raise parameter.refuse(
-            f"varies in steps of {shown(text)}", "a step above 0, no larger than the range"
+            f"varies in steps of {quote(text)}", "a step above 0, no larger than the range"
         )
     if steps >= MOST_POINTS:  # possibly infinitely many
         count = f"{math.floor(steps) + 1} values" if steps < 1e15 else "too many values"

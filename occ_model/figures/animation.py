@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import level_values
-from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, shown
+from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, quote
 from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import break_lines
 from occ_model.files.writing import check_replaceable
@@ -83,7 +83,7 @@ def write_animation(  # noqa: PLR0913 - settings, most of them optional
     if not 1 <= len(values) <= MOST_FRAMES:
         raise ParameterError.of("frames", f"{len(values)}", f"1 to {MOST_FRAMES}")
     if isinstance(rate, bool) or not 0.0 < rate <= _MAX_GIF_RATE:
-        raise ParameterError.of("rate", f"{shown(rate)} a second", f"above 0 to {_MAX_GIF_RATE:g}")
+        raise ParameterError.of("rate", f"{quote(rate)} a second", f"above 0 to {_MAX_GIF_RATE:g}")
     check_film_path(path, rate)
     check_replaceable(path)
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from occ_model import colours
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.figures.drawing import Drawing
 from occ_model.results.bit_errors import HEADER, BenchBounds, BenchPoint, BenchRequest, table_rows
 from occ_model.scene.provenance import Provenance
@@ -63,13 +63,13 @@ def bench_drawing(
 
 def _notes(request: BenchRequest, frames_a_second: float) -> tuple[str, ...]:
     return (
-        f"{counted(request.rows_a_symbol, 'row')} a symbol (the row rate allows 1 or more), "
-        f"{counted(request.rows, 'row')} a picture, payloads of "
-        f"{counted(request.payload_bits, 'bit')}, at least "
-        f"{counted(request.bits, 'bit')} a point",
+        f"{inflect(request.rows_a_symbol, 'row')} a symbol (the row rate allows 1 or more), "
+        f"{inflect(request.rows, 'row')} a picture, payloads of "
+        f"{inflect(request.payload_bits, 'bit')}, at least "
+        f"{inflect(request.bits, 'bit')} a point",
         f"over the exposure at {request.at_decibels:g} dB, over the noise at an exposure of "
-        f"{counted(request.at_exposure, 'symbol')}",
-        f"{counted(frames_a_second, 'picture')} a second, one payload each",
+        f"{inflect(request.at_exposure, 'symbol')}",
+        f"{inflect(frames_a_second, 'picture')} a second, one payload each",
     )
 
 
@@ -113,7 +113,7 @@ def _name_axes(figure: Figure, panels: Sequence[Sequence[Axes]], request: BenchR
     bits.set_xlabel("exposure (symbols)")
     bits_by_noise.set_xlabel("signal-to-noise ratio (dB)")
     rates.set_title(f"{request.at_decibels:g} dB", fontsize=9)
-    rates_by_noise.set_title(f"exposure of {counted(request.at_exposure, 'symbol')}", fontsize=9)
+    rates_by_noise.set_title(f"exposure of {inflect(request.at_exposure, 'symbol')}", fontsize=9)
     curves = dict(zip(*reversed(rates.get_legend_handles_labels()), strict=True))
     curves |= dict(zip(*reversed(rates_by_noise.get_legend_handles_labels()), strict=True))
     lines = {

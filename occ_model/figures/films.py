@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from occ_model import colours
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.figures.drawing import Drawing, write_all
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.units import HERTZ
@@ -32,7 +32,7 @@ def write_films_figure(folder: Path, request: FilmRequest, points: Sequence[Film
         {"scene": request.scene},
         request.seed,
         (
-            f"{counted(request.frames, 'frame')} a film, {request.frame_rate:g} a second",
+            f"{inflect(request.frames, 'frame')} a film, {request.frame_rate:g} a second",
             request.decoder,
         ),
     )
@@ -62,7 +62,7 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
             "marker": _MARKERS[number // len(_COLOURS) % len(_MARKERS)],
         }
         gaps = [100.0 * point.gap for point in line]
-        label = f"{HERTZ.format(frequency)}, {counted(bits, 'bit')}"
+        label = f"{HERTZ.format(frequency)}, {inflect(bits, 'bit')}"
         receptions = [100.0 * point.reception for point in line]
         reception_axes.plot(gaps, receptions, linestyle="", markersize=4, label=label, **style)
         counted_receptions = [

@@ -12,7 +12,7 @@ from matplotlib.patches import Polygon
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import row_spans
-from occ_model.errors import BandModelUndefined, counted, one_line
+from occ_model.errors import BandModelUndefined, inflect, one_line
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure, write_table
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import Frame
@@ -141,7 +141,7 @@ def write_rate_figure(
 ) -> None:
     """Write figure 5 or 6: success rate against frequency and distance, for both exposures."""
     settings = next(iter(tables.values())).request.settings
-    title = f"Figure {number}: success rate, {device}, {counted(settings.images, 'image')} a point"
+    title = f"Figure {number}: success rate, {device}, {inflect(settings.images, 'image')} a point"
     scenes = {preset: table.request.scene for preset, table in tables.items()}
     provenance = Provenance(title, scenes, settings.seed)
     save_figure(rate_maps(tables), folder, f"figure-{number}", provenance)

@@ -15,7 +15,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from occ_model import colours
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError, counted
+from occ_model.errors import ParameterError, inflect
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
 from occ_model.results.sweep import SweepTable, column_title, format_value
 from occ_model.results.sweep_request import ShownQuantity, SweepPoint
@@ -77,7 +77,7 @@ def sweep_drawing(table: SweepTable, quantity: ShownQuantity = "rate") -> Drawin
     )  # fmt: skip
     title = (
         f"{_TITLES[quantity]} over {' and '.join(names)}, "
-        f"{counted(table.request.settings.images, 'image')}"
+        f"{inflect(table.request.settings.images, 'image')}"
     )
     draw = _draw_curves if len(names) == 1 else _draw_maps
     return Drawing("map", title, lambda: draw(table, quantity), header, rows)
@@ -87,8 +87,8 @@ def _provenance(table: SweepTable, quantity: ShownQuantity) -> Provenance:
     settings = table.request.settings
     title = f"{_TITLES[quantity]} over {' and '.join(table.axes)}"
     notes = (
-        f"{counted(settings.images, 'image')} a point",
-        f"{counted(settings.frames_a_second, 'image')} a second, or as many as can be read out",
+        f"{inflect(settings.images, 'image')} a point",
+        f"{inflect(settings.frames_a_second, 'image')} a second, or as many as can be read out",
         *(f"{name}: {', '.join(map(format_value, values))}" for name, values in table.axes.items()),
     )
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)

@@ -6,7 +6,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
-from occ_model.errors import MatchError, ParameterError, counted
+from occ_model.errors import MatchError, ParameterError, inflect
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of, weighted_correlation
 from occ_model.results.match import Comparison
 
@@ -78,7 +78,7 @@ def compare(
     if last <= first:
         raise MatchError(
             f"The photo lies from column {low:.4g} to {high:.4g} of the simulated picture, which "
-            f"has {counted(len(simulated), 'column')}: it covers fewer than two; move or scale it."
+            f"has {inflect(len(simulated), 'column')}: it covers fewer than two; move or scale it."
         )
     place = (np.arange(first, last + 1) - first_column) / scale
     columns = np.arange(len(flattened))

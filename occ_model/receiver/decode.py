@@ -14,7 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_arrays import bytes_of, check_pixels
 from occ_model.camera.projection import MAX_PIXELS
-from occ_model.errors import DecodeInputError, ParameterError, PluginError, shown
+from occ_model.errors import DecodeInputError, ParameterError, PluginError, quote
 from occ_model.plugins import of_kind
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.equalizer import DECODER as EQUALIZER
@@ -59,14 +59,14 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
         code_of_result: object = result.code
         if not isinstance(code_of_result, Integral) or code_of_result != code:
             raise PluginError(
-                f"{who} gives code = {shown(code_of_result)} with bits that are {shown(code)}."
+                f"{who} gives code = {quote(code_of_result)} with bits that are {quote(code)}."
             )
     sent = scene.transmitter.payload
     payload = payload_of_bits(bits.tolist(), form_of(sent)) if sent else ""
     payload_of_result: object = result.payload
     if not isinstance(payload_of_result, str) or payload_of_result not in ("", payload):
         raise PluginError(
-            f"{who} gives payload = {shown(payload_of_result)} with bits that are {shown(payload)}."
+            f"{who} gives payload = {quote(payload_of_result)} with bits that are {quote(payload)}."
         )
 
     def number(name: str, low: float = -math.inf, high: float = math.inf) -> float | None:
@@ -178,7 +178,7 @@ def decoder_named(name: str) -> Decoder:
             return DECODERS[name]
         if name in decoders():
             return _load_plugin(name)
-    raise ParameterError.of("decoder", shown(name), ", ".join(decoders()))
+    raise ParameterError.of("decoder", quote(name), ", ".join(decoders()))
 
 
 def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from occ_model.errors import counted, one_line, printable
+from occ_model.errors import inflect, one_line, printable
 from occ_model.results.match import Match, known_parameter
 from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
@@ -173,7 +173,7 @@ def csv_text(table: PhotoTable, extra_notes: Sequence[str] = (), condition: str 
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
     )
     lines = [
-        f"# Match of {counted(len(table.rows), 'photo')}: {counts}",
+        f"# Match of {inflect(len(table.rows), 'photo')}: {counts}",
         f"# occ_model {__version__}",
         f"# measured: {table.estimate}",
         *_mean_lines(table.estimate, table.estimated, condition),
@@ -220,15 +220,15 @@ def _mean_lines(name: str, estimate: CombinedEstimate | None, condition: str) ->
     if estimate is None:
         return [f"# no mean of {name}"]
     value = quantity(name).unit.round_estimate(estimate.value, estimate.uncertainty)
-    photos, outliers = counted(estimate.count, f"{SURE} photo"), len(estimate.outliers)
+    photos, outliers = inflect(estimate.count, f"{SURE} photo"), len(estimate.outliers)
     lines = [
         f"# mean of {name}: {condition}{value!r} +- {_format_error(estimate.uncertainty)}, from "
-        f"{photos}, {counted(outliers, 'outlier')}"
+        f"{photos}, {inflect(outliers, 'outlier')}"
     ]
     if estimate.count > 1:
         lines.append(
             f"# chi-square of {name}: {estimate.chi_square:.4g} of "
-            f"{counted(estimate.degrees_of_freedom, 'degree')} of freedom, probability "
+            f"{inflect(estimate.degrees_of_freedom, 'degree')} of freedom, probability "
             f"{estimate.probability:.3g}, error widened {estimate.scale:.3g} times"
         )
     return lines

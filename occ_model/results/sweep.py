@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.errors import ParameterError, counted, shown
+from occ_model.errors import ParameterError, inflect, quote
 from occ_model.files.writing import write_whole
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
@@ -152,14 +152,14 @@ class SweepTable:
         """A sentence on the points at which a plug-in has failed; empty if none has."""
         sent = self.sent.ravel()
         fault_notes = [note for index, note in self.notes.items() if sent[index]]
-        return f"At {counted(len(fault_notes), 'point')}: {fault_notes[0]}" if fault_notes else ""
+        return f"At {inflect(len(fault_notes), 'point')}: {fault_notes[0]}" if fault_notes else ""
 
     def _decoder_index(self, decoder: str | None) -> int:
         if decoder is None:
             return 0
         if decoder not in self.decoders:
             raise ParameterError.of(
-                "decoder", shown(decoder), ", ".join(self.decoders), condition="in this table"
+                "decoder", quote(decoder), ", ".join(self.decoders), condition="in this table"
             )
         return self.decoders.index(decoder)
 
@@ -305,7 +305,7 @@ def read_count(name: str, text: str, least: int, most: int, line: int) -> int:
     if is_count and least <= int(text) <= most:
         return int(text)
     allowed = str(most) if least == most else f"{least} to {most}"
-    raise ParameterError.of(name, shown(text), allowed).within(f"line {line}")
+    raise ParameterError.of(name, quote(text), allowed).within(f"line {line}")
 
 
 def join_lines(sentence: str) -> str:

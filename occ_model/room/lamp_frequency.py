@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of
 from occ_model.photo.stripes.period import refine_period, unrepeated_fraction
@@ -67,7 +67,7 @@ def measure_frequency(signal: FloatArray, readout_time: float) -> MeasuredFreque
     """Measure how often the light of a lamp's columns repeats, or say why that is not known."""
     count, scale = len(signal), float(signal.std())
     if count < _LEAST_COLUMNS:
-        return f"only {counted(count, 'column')} show its whole height."
+        return f"only {inflect(count, 'column')} show its whole height."
     if not scale:
         return "its light shows no stripes."
     column = np.arange(count)
@@ -83,7 +83,7 @@ def measure_frequency(signal: FloatArray, readout_time: float) -> MeasuredFreque
         return "its light shows no stripes that repeat."
     if count < _LEAST_CYCLES * period:
         return (
-            f"its {counted(count, 'column')} show {count / period:.1f} cycles of its light; at "
+            f"its {inflect(count, 'column')} show {count / period:.1f} cycles of its light; at "
             f"least {_LEAST_CYCLES:g} are needed."
         )
     cycles = 1.0 / period

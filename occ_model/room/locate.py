@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.projection import check_size, image_rays
 from occ_model.effects.distortion import undistort
-from occ_model.errors import ParameterError, counted
+from occ_model.errors import ParameterError, inflect
 from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.room.edge_lines import Edge
@@ -145,7 +145,7 @@ def _locate(
     edges = sum(len(one.edges) for one in measured)
     if edges < _MIN_EDGES:
         return [], (
-            f"Only {counted(edges, 'edge')} of the named lamps can be measured, because the others "
+            f"Only {inflect(edges, 'edge')} of the named lamps can be measured, because the others "
             f"are too faint; at least {_MIN_EDGES} are needed.",
         )
     table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
-from occ_model.errors import ParameterError, SceneFileError, one_line, shown
+from occ_model.errors import ParameterError, SceneFileError, one_line, quote
 from occ_model.scene import toml_format
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.from_text import DEFAULT_PRESET
@@ -120,7 +120,7 @@ class RoomLamp:
         is_text = isinstance(self.name, str) and self.name.isprintable()
         if not is_text or not 0 < len(self.name) <= 60:
             raise ParameterError(
-                f"A lamp's name is {shown(self.name)}; allowed: 1 to 60 characters in a line."
+                f"A lamp's name is {quote(self.name)}; allowed: 1 to 60 characters in a line."
             )
         try:
             check_choice("shape", self.shape, SHAPES)
@@ -162,10 +162,10 @@ class Room:
         # Rooms must not differ by an unused pose.
         object.__setattr__(self, "scene", dataclasses.replace(self.scene, pose=Pose()))
         if not isinstance(self.camera, Place):
-            raise ParameterError.of("camera", shown(self.camera), "a Place")
+            raise ParameterError.of("camera", quote(self.camera), "a Place")
         lamps = tuple(self.lamps) if isinstance(self.lamps, Iterable) else (self.lamps,)
         if not all(isinstance(lamp, RoomLamp) for lamp in lamps):
-            raise ParameterError.of("lamps", shown(self.lamps), "a sequence of RoomLamps")
+            raise ParameterError.of("lamps", quote(self.lamps), "a sequence of RoomLamps")
         object.__setattr__(self, "lamps", lamps)
         if not 1 <= len(self.lamps) <= MOST_LAMPS:
             raise ParameterError(f"A room has {len(self.lamps)} lamps; allowed: 1 to {MOST_LAMPS}.")
@@ -300,5 +300,5 @@ def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) ->
     for name in table:
         if name not in known:
             raise SceneFileError(
-                f"{where} has no value {shown(name)}; known are {', '.join(known)}."
+                f"{where} has no value {quote(name)}; known are {', '.join(known)}."
             )

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from occ_model.errors import PresetError, SceneFileError, one_line, shown
+from occ_model.errors import PresetError, SceneFileError, one_line, quote
 from occ_model.files.reading import read_text
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.room.room import Room
@@ -30,7 +30,7 @@ def load_room(name: str | Path) -> Room:
     path = Path(name) if isinstance(name, str | Path) else None
     if path is None or path.suffix != _ENDING:
         raise PresetError(
-            f"There is no room {shown(name)}. Known are {', '.join(rooms())}, and files *{_ENDING}."
+            f"There is no room {quote(name)}. Known are {', '.join(rooms())}, and files *{_ENDING}."
         )
     text = read_text(path)
     try:

@@ -6,7 +6,7 @@ from typing import TypeGuard
 
 import numpy as np
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 
 
 def check_count(name: str, value: object, least: int, most: int | None = None) -> None:
@@ -14,7 +14,7 @@ def check_count(name: str, value: object, least: int, most: int | None = None) -
     whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):  # type: ignore[operator]
         top = "" if most is None else f" to {most:,}"
-        raise ParameterError.of(name, shown(value), f"a whole number from {least}{top}")
+        raise ParameterError.of(name, quote(value), f"a whole number from {least}{top}")
 
 
 def is_number(value: object) -> TypeGuard[float]:
@@ -24,7 +24,7 @@ def is_number(value: object) -> TypeGuard[float]:
 
 def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
     if not isinstance(value, str) or value not in choices:
-        raise ParameterError.of(name, shown(value), ", ".join(choices))
+        raise ParameterError.of(name, quote(value), ", ".join(choices))
 
 
 def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
@@ -32,11 +32,11 @@ def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
     if switches is None:
         return {}
     if not isinstance(switches, Mapping):
-        raise ParameterError.of("force", shown(switches), "effects by name, True or False each")
+        raise ParameterError.of("force", quote(switches), "effects by name, True or False each")
     for name, on in switches.items():
         check_choice("effect", name, names)
         if not isinstance(on, bool | np.bool_):
-            raise ParameterError.of(f"effect {shown(name)}", f"switched {shown(on)}", "True, False")
+            raise ParameterError.of(f"effect {quote(name)}", f"switched {quote(on)}", "True, False")
     return {name: bool(on) for name, on in switches.items()}
 
 

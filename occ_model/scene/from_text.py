@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from occ_model.errors import OutputError, ParameterError, SceneFileError, one_line, shown
+from occ_model.errors import OutputError, ParameterError, SceneFileError, one_line, quote
 from occ_model.files.reading import read_text
 from occ_model.files.writing import write_whole
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -46,6 +46,6 @@ def change_scene(scene: Scene, settings: Iterable[str]) -> Scene:
     for setting in settings:
         name, equals, text = setting.partition("=")
         if not equals:
-            raise ParameterError(f"{shown(setting)} is not a setting; write NAME=VALUE.")
+            raise ParameterError(f"{quote(setting)} is not a setting; write NAME=VALUE.")
         changes[name.strip()] = parameter_named(name.strip()).parse(text)
     return scene.replace(**changes)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from occ_model.errors import SceneFileError, shown
+from occ_model.errors import SceneFileError, quote
 from occ_model.scene.declaration import Declaration
 from occ_model.scene.light_samples import canonical_samples, read_samples
 
@@ -20,14 +20,14 @@ class LightText(Declaration):
 
     def check(self, value: object) -> str:
         if not isinstance(value, str):
-            raise self.refuse(f"is {shown(value)}", self.allowed)
+            raise self.refuse(f"is {quote(value)}", self.allowed)
         try:
             return self.canonical(value)
         except SceneFileError as error:
             reason = str(error).rpartition(": ")[2].rstrip(".")
-            raise self.refuse(f"is {shown(value)}, a file: {reason}", self.allowed) from None
+            raise self.refuse(f"is {quote(value)}, a file: {reason}", self.allowed) from None
         except ValueError as problem:
-            raise self.refuse(f"is {shown(value)}, which {problem}", self.allowed) from None
+            raise self.refuse(f"is {quote(value)}, which {problem}", self.allowed) from None
 
     def parse(self, text: str) -> str:
         return self.check(text.strip(" "))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
-from occ_model.errors import shown
+from occ_model.errors import quote
 from occ_model.plugins import plugin_names
 from occ_model.scene.declaration import Declaration
 from occ_model.scene.light_text import LightText
@@ -69,7 +69,7 @@ class Quantity(Declaration):
         if type(value) is float:  # the usual case, checked faster
             number = value
         elif isinstance(value, bool) or not isinstance(value, Real):
-            raise self.refuse(f"is {shown(value)}, which is not a number", self.allowed)
+            raise self.refuse(f"is {quote(value)}, which is not a number", self.allowed)
         else:
             try:
                 number = float(value)
@@ -99,13 +99,13 @@ class Quantity(Declaration):
         if len(meanings) > 1:
             comma, thousands = (self.unit.format(value) for value in meanings)
             raise self.refuse(
-                f"is {shown(text)}, which means {comma} with a decimal comma and {thousands} with "
+                f"is {quote(text)}, which means {comma} with a decimal comma and {thousands} with "
                 "a comma between thousands",
                 f"{self.allowed}, written without that comma",
             )
         if not meanings:
             unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
-            raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
+            raise self.refuse(f"is {quote(text)}, which is not a number{unit}", self.allowed)
         value = self.check(meanings[0])
         usual = self.unit.display(self.default)
         other = self.unit.parse(text, usual[1] if plain is None else 1.0)
@@ -121,7 +121,7 @@ class Quantity(Declaration):
                 else f"means {found[0]} in the unit shown and {found[1]} in {self.unit.symbol}"
             )
             raise self.refuse(
-                f"is {shown(text)} without a unit, which {both}",
+                f"is {quote(text)} without a unit, which {both}",
                 f"{self.allowed}, written with its unit",
             )
         return value
@@ -166,9 +166,9 @@ class Count(Declaration):
     def check(self, value: object) -> int:
         number = _as_whole_number(value)
         if number is None:
-            raise self.refuse(f"is {shown(value)}", self.allowed)
+            raise self.refuse(f"is {quote(value)}", self.allowed)
         if not self.low <= number <= self.high:
-            raise self.refuse(f"is {shown(number)}", self.allowed)
+            raise self.refuse(f"is {quote(number)}", self.allowed)
         return number
 
     def parse(self, text: str) -> int:
@@ -177,7 +177,7 @@ class Count(Declaration):
         try:
             number = _parse_whole_number(text)
         except ValueError:
-            raise self.refuse(f"is {shown(text)}", self.allowed) from None
+            raise self.refuse(f"is {quote(text)}", self.allowed) from None
         return self.check(number)
 
     def format(self, value: int) -> str:
@@ -197,7 +197,7 @@ class Choice(Declaration):
 
     def check(self, value: object) -> str:
         if not isinstance(value, str) or value not in self.choices:
-            raise self.refuse(f"is {shown(value)}", self.allowed)
+            raise self.refuse(f"is {quote(value)}", self.allowed)
         return value
 
     def parse(self, text: str) -> str:
@@ -224,7 +224,7 @@ class OpenChoice(Choice):
     def check(self, value: object) -> str:
         if isinstance(value, str) and (value in self.choices or value in self.all_choices()):
             return value
-        raise self.refuse(f"is {shown(value)}", ", ".join(self.all_choices()))
+        raise self.refuse(f"is {quote(value)}", ", ".join(self.all_choices()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,7 +265,7 @@ class ChipPattern(Declaration):
 
     def check(self, value: object) -> str:
         if not isinstance(value, str) or set(value) - {"0", "1"}:
-            raise self.refuse(f"is {shown(value)}", self.allowed)
+            raise self.refuse(f"is {quote(value)}", self.allowed)
         if len(value) > self.most:
             raise self.refuse(f"has {len(value)} chips", self.allowed)
         return value

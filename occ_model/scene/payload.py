@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from occ_model.errors import shown
+from occ_model.errors import quote
 
 MAX_PAYLOAD_BITS = 4096
 
@@ -30,7 +30,7 @@ _REPLACEMENT_LETTER = "?"  # stands for bytes that are not text
 def canonical_payload(value: object) -> str:
     """Return a payload in its canonical form; a ValueError ends a sentence: "has 0 bits"."""
     if not isinstance(value, str):
-        raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - one kind for all wrong values
+        raise ValueError(f"is {quote(value)}")  # noqa: TRY004 - one kind for all wrong values
     if len(value) > 4 * MAX_PAYLOAD_BITS:
         raise ValueError(f"is a text of {len(value):,} characters")
     if not value.strip():
@@ -39,7 +39,7 @@ def canonical_payload(value: object) -> str:
     if form != "text":
         content = "".join(content.split()).lower()
     if not _is_content(form, content):
-        raise ValueError(f"is {shown(value)}")
+        raise ValueError(f"is {quote(value)}")
     text = f"{form}:{content}"
     count = len(bits_of_payload(text))
     if not 1 <= count <= MAX_PAYLOAD_BITS:

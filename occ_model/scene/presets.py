@@ -20,7 +20,7 @@ from occ_model.errors import (
     PresetError,
     SceneFileError,
     one_line,
-    shown,
+    quote,
 )
 from occ_model.files import resources
 from occ_model.files.reading import read_text
@@ -82,7 +82,7 @@ def _parse_layers(text: str) -> tuple[dict[str, Any], ...]:
     bases = [named] if isinstance(named, str) else named
     if not isinstance(bases, list) or not all(_is_base(base) for base in bases):
         raise SceneFileError(
-            f"based_on is {shown(named)}; allowed: names of the program's presets."
+            f"based_on is {quote(named)}; allowed: names of the program's presets."
         )
     if len(bases) > _MAX_BASES:
         raise SceneFileError(f"based_on has {len(bases)} names; allowed: up to {_MAX_BASES}.")
@@ -98,7 +98,7 @@ def _add_layer(base: Preset, content: dict[str, Any]) -> Preset:
     tables = dict(content)
     title = tables.pop("title", base.title)
     if not isinstance(title, str):
-        raise SceneFileError(f"title is {shown(title)}; allowed: a text.")
+        raise SceneFileError(f"title is {quote(title)}; allowed: a text.")
     sources = check_notes(tables.pop("sources", {}))
     assumed = check_notes(tables.pop("assumed", {}))
     # A value that has a source here is no longer assumed as in the base, and vice versa.
@@ -122,7 +122,7 @@ def _combine_notes(
 def check_notes(table: object) -> dict[str, str]:
     if not isinstance(table, dict) or not all(isinstance(note, str) for note in table.values()):
         raise SceneFileError(
-            f"The notes on a preset are {shown(table)}; allowed: a text a parameter."
+            f"The notes on a preset are {quote(table)}; allowed: a text a parameter."
         )
     for name in table:
         parameter_named(name)
@@ -213,7 +213,7 @@ def save_preset(
     """
     _check_name(name)
     if not isinstance(title, str):
-        raise ParameterError.of("title", shown(title), "a text")
+        raise ParameterError.of("title", quote(title), "a text")
     notes = check_notes(dict(sources or {}))
     head = tomli_w.dumps({"title": title or name})
     tables: dict[str, Mapping[str, object]] = {**scene.tables()}
@@ -236,7 +236,7 @@ def delete_preset(name: str) -> None:
         It cannot be deleted.
     """
     if isinstance(name, str) and name in _package_names():
-        raise PresetError(f"The preset {shown(name)} comes with the program and cannot be deleted.")
+        raise PresetError(f"The preset {quote(name)} comes with the program and cannot be deleted.")
     own = _own_names()
     if not isinstance(name, str) or name not in own:
         raise _unknown_preset(name, own)
@@ -287,16 +287,16 @@ def _own_file(name: str) -> Path:
 def _name_problem(name: object) -> str | None:
     """Return why a preset cannot have a name, None if it can."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        return f"A preset cannot be named {shown(name)}; allowed: {_NAME_RULE}."
+        return f"A preset cannot be named {quote(name)}; allowed: {_NAME_RULE}."
     if name.lower() in {other.lower() for other in _package_names()}:
-        return f"{shown(name)} is a preset of the program; choose another name."
+        return f"{quote(name)} is a preset of the program; choose another name."
     return None
 
 
 def _check_name(name: str) -> None:
     problem = _name_problem(name)
     if problem is None and _WINDOWS_DEVICE.fullmatch(name):
-        problem = f"A preset cannot be named {shown(name)}; allowed: {_NAME_RULE}."
+        problem = f"A preset cannot be named {quote(name)}; allowed: {_NAME_RULE}."
     if problem is not None:
         raise PresetError(problem)
 
@@ -307,7 +307,7 @@ def _unknown_preset(name: object, known: tuple[str, ...]) -> PresetError:
     near = get_close_matches(name, known, n=1) if isinstance(name, str) else ()
     hint = f" Did you mean {near[0]}?" if near else ""
     names = ", ".join(known) or "none"
-    return PresetError(f"There is no preset {shown(name)}.{hint} Known are {names}.")
+    return PresetError(f"There is no preset {quote(name)}.{hint} Known are {names}.")
 
 
 def _load_own(name: str) -> Preset:

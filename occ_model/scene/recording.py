@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Literal, Self, TypeAlias
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -246,7 +246,7 @@ def _format_toml(value: object) -> str:
 
 def _check_path(path: object) -> tuple[Waypoint, ...]:
     if not isinstance(path, Sequence) or not all(isinstance(point, Waypoint) for point in path):
-        raise ParameterError.of("path", shown(path), "Waypoints, in the order of time")
+        raise ParameterError.of("path", quote(path), "Waypoints, in the order of time")
     points = tuple(_check_waypoint(point) for point in path)
     for before, after in pairwise(points):
         if after.time <= before.time:
@@ -265,13 +265,13 @@ def _check_waypoint(point: Waypoint) -> Waypoint:
         # This also refuses infinity and NaN.
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= 1e9:
             raise ParameterError.of(
-                f"A waypoint's {name}", shown(value), "numbers from -1e9 to 1e9"
+                f"A waypoint's {name}", quote(value), "numbers from -1e9 to 1e9"
             )
     return Waypoint(**{name: float(value) for name, value in values.items()})
 
 
 def _check_exposure_times(times: object) -> tuple[float, ...]:
     if isinstance(times, str) or not isinstance(times, Sequence):
-        raise ParameterError.of("exposure_times", shown(times), "times in seconds")
+        raise ParameterError.of("exposure_times", quote(times), "times in seconds")
     declared = PARAMETERS["exposure_time"]
     return tuple(float(declared.check(time)) for time in times)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self, TypeAlias
 
-from occ_model.errors import ParameterError, SceneFileError, one_line, shown
+from occ_model.errors import ParameterError, SceneFileError, one_line, quote
 from occ_model.scene import toml_format
 from occ_model.scene.argument_checks import check_choice, check_seed, check_switches
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
@@ -196,5 +196,5 @@ def group_of(name: str) -> str:
 def check_scene(value: object) -> None:
     if not isinstance(value, Scene):
         raise ParameterError.of(
-            "scene", shown(value), "a Scene, such as load_preset('phone-136us') gives"
+            "scene", quote(value), "a Scene, such as load_preset('phone-136us') gives"
         )

@@ -7,7 +7,7 @@ from typing import Any
 
 import tomli_w
 
-from occ_model.errors import SceneFileError, one_line, shown
+from occ_model.errors import SceneFileError, one_line, quote
 
 FORMAT = 1
 
@@ -36,7 +36,7 @@ def from_toml(text: str) -> dict[str, Any]:
         raise SceneFileError(f"This is not a scene file: it has no line 'format = {FORMAT}'.")
     if isinstance(version, bool) or version != FORMAT:
         raise SceneFileError(
-            f"The scene file has format {shown(version)}; this version reads format {FORMAT}."
+            f"The scene file has format {quote(version)}; this version reads format {FORMAT}."
         )
     return content
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
 from occ_model.results.bit_errors import BitErrors
@@ -156,7 +156,7 @@ def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
     if not is_number or not 0.0 < frames_a_second <= most:
         raise ParameterError.of(
             "frames_a_second",
-            shown(frames_a_second),
+            quote(frames_a_second),
             f"above 0 to {most:.4g}, where the readout of {scene.camera.columns} columns fills the "
             "time of a picture",
         )

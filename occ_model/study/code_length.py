@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.errors import ParameterError, ProjectionError, counted
+from occ_model.errors import ParameterError, ProjectionError, inflect
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.room.room import Room
 from occ_model.room.view import lamps_in_view
@@ -77,7 +77,7 @@ def code_lengths(
     for length in lengths:
         if 2**length < lamps:
             raise ParameterError.of("bits", f"{length}", f"from {(lamps - 1).bit_length()}",
-                                    condition=f"for {counted(lamps, 'lamp')}")  # fmt: skip
+                                    condition=f"for {inflect(lamps, 'lamp')}")  # fmt: skip
     results, median_columns = [], _median_columns(request)
     for number, length in enumerate(lengths):
         codes = _draw_codes(length, lamps, request.seed)

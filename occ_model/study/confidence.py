@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from statistics import NormalDist
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.results.limits import Trial
 from occ_model.scene.argument_checks import check_count, is_number
 
@@ -85,5 +85,5 @@ def _interval(successes: float, failures: float, z: float) -> tuple[float, float
 def _check_level(level: object) -> float:
     fraction = float(level) if is_number(level) and 0 < level < 1 else 0.0
     if not 0.0 < fraction < 1.0:
-        raise ParameterError.of("level", shown(level), "a number between 0 and 1")
+        raise ParameterError.of("level", quote(level), "a number between 0 and 1")
     return fraction

@@ -13,7 +13,7 @@ from functools import partial
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.limits import Advice, Limits, TheoryLimits
@@ -205,7 +205,7 @@ def _unwrap_result(result: JobResult) -> Any:
 
 def _check_wanted_rate(rate: object) -> float:
     if not is_number(rate) or not 0.0 < rate <= 100.0:
-        raise ParameterError.of("rate", f"{shown(rate)} %", "above 0 % to 100 %")
+        raise ParameterError.of("rate", f"{quote(rate)} %", "above 0 % to 100 %")
     return float(rate)
 
 

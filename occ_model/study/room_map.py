@@ -10,7 +10,7 @@ from time import perf_counter
 
 import numpy as np
 
-from occ_model.errors import OccError, ParameterError, shown
+from occ_model.errors import OccError, ParameterError, quote
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
 from occ_model.results.sweep import csv_row, join_lines, read_count
@@ -234,7 +234,7 @@ def _read_distance(name: str, text: str, is_known: bool, line: int) -> float:
     if math.isnan(distance) if not is_known else 0.0 <= distance < math.inf:
         return distance
     allowed = "numbers from 0 m" if is_known else "nothing, without a sure place"
-    raise ParameterError.of(name, shown(text), allowed).within(f"line {line}")
+    raise ParameterError.of(name, quote(text), allowed).within(f"line {line}")
 
 
 def room_map(

@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from occ_model.errors import OccError, SceneFileError, one_line, printable, shown
+from occ_model.errors import OccError, SceneFileError, one_line, printable, quote
 from occ_model.files.reading import read_text
 from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
@@ -131,7 +131,7 @@ def _find_line(text: str, step: int | None, key: str) -> int:
 
 def _parse_step(content: object) -> LessonStep:
     if not isinstance(content, Mapping):
-        raise MistakeError(f"a step is {shown(content)}; begin each with [[step]].", "step")
+        raise MistakeError(f"a step is {quote(content)}; begin each with [[step]].", "step")
     _check_keys(content, _STEP_KEYS, "step")
     preset = _get_text(content, "preset")
     try:
@@ -163,7 +163,7 @@ def _parse_check(content: Mapping[str, Any], scene: Scene) -> Check | None:
         return None
     try:
         if not isinstance(check, Mapping):
-            raise MistakeError(f"check is {shown(check)}, not a table with a quantity.")
+            raise MistakeError(f"check is {quote(check)}, not a table with a quantity.")
         _check_keys(check, _CHECK_KEYS, "check")
         quantity = _get_choice(check, "quantity", tuple(QUANTITIES))
         if not quantity:
@@ -172,7 +172,7 @@ def _parse_check(content: Mapping[str, Any], scene: Scene) -> Check | None:
         is_a_number = isinstance(percent, int | float) and not isinstance(percent, bool)
         if not is_a_number or not 0.0 <= percent <= _MAX_TOLERANCE:
             raise MistakeError(
-                f"tolerance is {shown(percent)}; allowed: 0 to {_MAX_TOLERANCE:g}, in percent."
+                f"tolerance is {quote(percent)}; allowed: 0 to {_MAX_TOLERANCE:g}, in percent."
             )
         unit, scene_asked = QUANTITIES[quantity].asked_in, _apply_settings(scene, check)
         return Check(quantity, unit, percent / 100.0, scene_asked, tuple(check.get("set", ())))
@@ -183,21 +183,21 @@ def _parse_check(content: Mapping[str, Any], scene: Scene) -> Check | None:
 def _apply_settings(scene: Scene, content: Mapping[str, Any]) -> Scene:
     values = content.get("set", {})
     if not isinstance(values, Mapping):
-        raise MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")
+        raise MistakeError(f"set is {quote(values)}, not a table of parameters.", "set")
     settings = [f"{name}={_format_setting(value)}" for name, value in values.items()]
     return change_scene(scene, settings)
 
 
 def _format_setting(value: object) -> str:
     """Format a value as for an option of the command line."""
-    return value if isinstance(value, str) else shown(value)
+    return value if isinstance(value, str) else quote(value)
 
 
 def _check_keys(content: Mapping[str, Any], known: tuple[str, ...], kind: str) -> None:
     for key in content:
         if key not in known:
             raise MistakeError(
-                f"a {kind} has no key {shown(key)}; known are {', '.join(known)}.", one_line(key)
+                f"a {kind} has no key {quote(key)}; known are {', '.join(known)}.", one_line(key)
             )
 
 
@@ -206,7 +206,7 @@ def _get_text(content: Mapping[str, Any], key: str, default: str | None = None) 
     if value is None:
         raise MistakeError(f"{key} is missing.")
     if not isinstance(value, str):
-        raise MistakeError(f"{key} is {shown(value)}; allowed: a text.", key)
+        raise MistakeError(f"{key} is {quote(value)}; allowed: a text.", key)
     if default is None and not value.strip():
         raise MistakeError(f"{key} is empty; allowed: a text.", key)
     return value
@@ -219,12 +219,12 @@ def _get_paragraph(content: Mapping[str, Any], key: str, default: str | None = N
 def _get_choice(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
     value = _get_text(content, key, "")
     if value and value not in known:
-        raise MistakeError(f"{key} is {shown(value)}; known are {', '.join(known)}.", key)
+        raise MistakeError(f"{key} is {quote(value)}; known are {', '.join(known)}.", key)
     return value
 
 
 def _get_switch(content: Mapping[str, Any], key: str) -> bool:
     value = content.get(key, False)
     if not isinstance(value, bool):
-        raise MistakeError(f"{key} is {shown(value)}; allowed: true and false.", key)
+        raise MistakeError(f"{key} is {quote(value)}; allowed: true and false.", key)
     return value

@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import on_time
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import Light, PiecewiseLight, light_of, light_period
 from occ_model.light.waveform import Waveform
@@ -98,7 +98,7 @@ def light_over_columns(
     scene's edge time, from the start of a piece.
     """
     if not first < last:
-        raise ParameterError.of("last", shown(last), f"above {shown(first)}, the first column")
+        raise ParameterError.of("last", quote(last), f"above {quote(first)}, the first column")
     readout = scene.camera.readout_time
     begin = Fraction(scene.model.start_time) + Fraction(first) * Fraction(readout)
     span = (last - first) * readout
@@ -151,7 +151,7 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     camera = scene.camera
     if column >= camera.columns:
         raise ParameterError.of(
-            "column", shown(int(column)), f"0 to {camera.columns - 1}, as the picture has"
+            "column", quote(int(column)), f"0 to {camera.columns - 1}, as the picture has"
         )
     begin = Fraction(scene.model.start_time) + column * Fraction(camera.readout_time)
     exposure = camera.exposure_time

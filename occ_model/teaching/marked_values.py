@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 from occ_model.camera.photometry import luminance_levels
-from occ_model.errors import OccError, counted
+from occ_model.errors import OccError, inflect
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of, light_period
 from occ_model.results.teaching import MarkedValue
@@ -126,7 +126,7 @@ def _mark_nulls(scene: Scene, parameter: str) -> Iterable[MarkedValue]:
         return
     lowest = max(math.ceil(quantity_declaration.slider[0] / first), 1)
     for k in range(lowest, lowest + _MOST_NULLS):
-        length = counted(k, "period")
+        length = inflect(k, "period")
         meaning = f"The exposure is {length} of the light: a null k / t, where it makes no bars."
         yield MarkedValue(k * first, length, meaning)
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.errors import PluginError, one_line, shown
+from occ_model.errors import PluginError, one_line, quote
 
 _ROUNDING = 1e-9  # by which a number may miss its range: a correlation may be 1.000000000000001
 
@@ -29,7 +29,7 @@ def checked_number(
     except OverflowError:
         number = math.inf
     if not math.isfinite(number) or not low - _ROUNDING <= number <= high + _ROUNDING:
-        raise PluginError(f"{who} gives {what} = {shown(value)}; allowed: {_range(low, high)}.")
+        raise PluginError(f"{who} gives {what} = {quote(value)}; allowed: {_range(low, high)}.")
     return min(max(number, low), high)
 
 
@@ -39,7 +39,7 @@ def checked_count(who: str, what: str, value: object, low: int, high: int) -> in
         raise _other_type(who, what, value)
     count = int(value)
     if not low <= count <= high:
-        raise PluginError(f"{who} gives {what} = {shown(count)}; allowed: {low} to {high:,}.")
+        raise PluginError(f"{who} gives {what} = {quote(count)}; allowed: {low} to {high:,}.")
     return count
 
 
@@ -107,7 +107,7 @@ def _array(who: str, what: str, values: object, most: int) -> NDArray[Any]:
 
 
 def _other_type(who: str, what: str, value: object) -> PluginError:
-    return PluginError(f"{who} gives {what} = {shown(value)} of the type {type(value).__name__}.")
+    return PluginError(f"{who} gives {what} = {quote(value)} of the type {type(value).__name__}.")
 
 
 def _range(low: float, high: float) -> str:

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError, shown
+from occ_model.errors import PluginError, quote
 from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
@@ -64,7 +64,7 @@ def _guard_line_code(offered: LineCode) -> LineCode:
     def declared(code: LineCode) -> LineCode:
         preamble = checked_text(who, "preamble", code.preamble)
         if set(preamble) - {"0", "1"}:
-            raise PluginError(f"{who} gives preamble = {shown(preamble)}; allowed: zeros and ones.")
+            raise PluginError(f"{who} gives preamble = {quote(preamble)}; allowed: zeros and ones.")
         run, disparity = code.longest_run, code.disparity
         return LineCode(
             code.name,

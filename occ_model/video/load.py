@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, SceneFileError, VideoError, counted, one_line, shown
+from occ_model.errors import ParameterError, SceneFileError, VideoError, inflect, one_line, quote
 from occ_model.files.reading import FIRST_BYTES, container_of, read_start
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import roughness_along
@@ -65,7 +65,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
         file = Path(path)
     except TypeError:
         raise VideoError(
-            f"{shown(path)} is not the path of a film; allowed: str or Path."
+            f"{quote(path)} is not the path of a film; allowed: str or Path."
         ) from None
     return VideoFile(file, scan_axis, channel)
 
@@ -181,7 +181,7 @@ class VideoFile(Video):
             self._note_end(index)
             if self._problem is not None and decoder.is_full:
                 self._problem = (
-                    f"{self._shown} ends early, after {counted(index, 'frame')}: {NO_MEMORY}"
+                    f"{self._shown} ends early, after {inflect(index, 'frame')}: {NO_MEMORY}"
                 )
             return None
         if stored.pixels.shape != self._stored_shape:

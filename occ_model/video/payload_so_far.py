@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, IndexArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
@@ -106,14 +106,14 @@ def explain_unplaced(frames: Sequence[TimedFrame]) -> str:
     read = [frame for frame in frames if frame.is_read]
     if not read:
         why = frames[0].reading.failure
-        return f"None of {counted(len(frames), 'frame')} shows chips. The first one: {why}"
+        return f"None of {inflect(len(frames), 'frame')} shows chips. The first one: {why}"
     why = read[0].problem
     rest = (
         "No header shows it, and the chips fit no place."
         if why is None
         else f"The first one: {why}"
     )
-    frames_read = counted(len(read), "frame")
+    frames_read = inflect(len(read), "frame")
     return f"The place in the packet is not known for any of {frames_read} with chips. {rest}"
 
 

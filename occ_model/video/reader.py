@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.pixel_arrays import bytes_of, white_of
-from occ_model.errors import DecodeInputError, ParameterError, shown
+from occ_model.errors import DecodeInputError, ParameterError, quote
 from occ_model.plugins import Faults
 from occ_model.receiver.decode import decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame, read_frame as read_soft_frame
@@ -125,7 +125,7 @@ class VideoReader:
         most = MOST_READOUT_TOLERANCE
         if not is_number(readout_tolerance) or not 0.0 < readout_tolerance <= most:
             raise ParameterError.of(
-                "readout_tolerance", shown(readout_tolerance), f"above 0 up to {most:g}"
+                "readout_tolerance", quote(readout_tolerance), f"above 0 up to {most:g}"
             )
         self._scene, self._reads = scene, FrameReader(scene, decoder)
         self._period = SentPeriod(scene.transmitter)
@@ -234,12 +234,12 @@ class VideoReader:
     def _check_frame(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
         """Return a frame in bytes, and the value of white; refuse one unlike the earlier ones."""
         if not isinstance(frame, VideoFrame):
-            raise ParameterError.of("frame", shown(frame), "a VideoFrame")
+            raise ParameterError.of("frame", quote(frame), "a VideoFrame")
         check_count("index of a frame", frame.index, 0)
         image: object = frame.image
         what = f"image of frame {frame.index}"
         if not isinstance(image, np.ndarray) or image.ndim != 2:
-            kind = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else shown(image)
+            kind = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else quote(image)
             raise ParameterError.of(what, kind, "pixels (rows, columns)")
         if self._shape not in (None, image.shape):
             raise ParameterError(
@@ -255,7 +255,7 @@ class VideoReader:
         if not isinstance(time, int | float | np.number) or not abs(float(time)) <= LATEST_TIME:
             raise ParameterError.of(
                 f"time of frame {frame.index}",
-                f"{shown(time)} s",
+                f"{quote(time)} s",
                 f"{-LATEST_TIME:g} to {LATEST_TIME:g} s",
             )
         return replace(frame, image=pixels), white

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_fraction
 from occ_model.receiver.signal import column_means
@@ -129,7 +129,7 @@ class WithoutPackets:
         lasts = self._looks[-1].time - self._looks[0].time
         return (
             f"Whole frames are bright or dark: {int(bright.sum())} of {len(levels)} are bright, "
-            f"and that changes {counted(changes, 'time')} in {SECOND.format(lasts, 3)}. No frame "
+            f"and that changes {inflect(changes, 'time')} in {SECOND.format(lasts, 3)}. No frame "
             "shows stripes that repeat."
         )
 

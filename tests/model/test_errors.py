@@ -5,7 +5,7 @@ import pickle
 import pytest
 from each_case import each_case
 
-from occ_model.errors import OccError, ParameterError, counted, one_line, shown
+from occ_model.errors import OccError, ParameterError, inflect, one_line, quote
 from occ_model.scene.parameter_kinds import Parameter
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import refusal_of, sentence_with_label
@@ -32,12 +32,12 @@ def nested(levels: int) -> object:
     ids=["large", "small", "text", "nested", "table", "wide table", "bytes"],
 )
 def test_a_value_is_quoted_in_few_characters(value: object) -> None:
-    assert 0 < len(shown(value)) <= 100
+    assert 0 < len(quote(value)) <= 100
 
 
 @pytest.mark.parametrize("value", [718, 1.5, "10 kHz", None, True, [1, 2], {"a": 1}])
 def test_a_short_value_is_quoted_as_repr_does(value: object) -> None:
-    assert shown(value) == repr(value)
+    assert quote(value) == repr(value)
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_a_short_value_is_quoted_as_repr_does(value: object) -> None:
     ],
 )
 def test_a_number_agrees_with_its_noun(number: float, text: str) -> None:
-    assert counted(number, "frame") == text
+    assert inflect(number, "frame") == text
 
 
 def test_an_object_that_cannot_be_written_is_quoted_all_the_same() -> None:
@@ -59,7 +59,7 @@ def test_an_object_that_cannot_be_written_is_quoted_all_the_same() -> None:
         def __repr__(self) -> str:
             raise RuntimeError
 
-    assert "Broken" in shown(Broken())
+    assert "Broken" in quote(Broken())
 
 
 def test_control_characters_are_shown_escaped() -> None:

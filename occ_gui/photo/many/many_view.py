@@ -17,7 +17,7 @@ from occ_gui.photo.match_figures import (
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.work_bar import WorkBar
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
 from occ_model.photo.match_facts import LABELS, estimate_text
 from occ_model.results.match import known_parameter, known_value
@@ -182,7 +182,7 @@ class ManyPhotosView(QWidget):
         self.work.show_progress(done / count)
 
     def _show_title(self) -> None:
-        text = counted(len(self.rows.paths), "photo")
+        text = inflect(len(self.rows.paths), "photo")
         if not self.rows.paths:
             text = "Open several photos together, or drop them, to match them all."
         elif self._request is None:

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.errors import MatchError, counted, distinct_texts
+from occ_model.errors import MatchError, distinct_texts, inflect
 from occ_model.photo.chips.edges import (
     LEAST_EDGES,
     LEAST_PAIR,
@@ -91,7 +91,7 @@ def _explain_failure(edges: Edges) -> str:
     together = edges.shortest_pair
     if edges.count < LEAST_EDGES:
         return (
-            f"{counted(edges.count, 'edge')} of stripes are in view; at least {LEAST_EDGES} are "
+            f"{inflect(edges.count, 'edge')} of stripes are in view; at least {LEAST_EDGES} are "
             "needed; come closer, or raise the frequency."
         )
     if together <= LEAST_PAIR:

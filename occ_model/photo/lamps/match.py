@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from occ_model.errors import MatchError, counted
+from occ_model.errors import MatchError, inflect
 from occ_model.photo.lamps.find import find_lamps
 from occ_model.photo.match import match_photo
 from occ_model.photo.reading.load import Photo
@@ -82,6 +82,6 @@ def _why_no_stripes(photo: Photo, lamp: Lamp) -> str:
     """Say what is known of a lamp without stripes: its light may be a single pulse."""
     columns, span = lamp.region.columns, float(np.ptp(lamp_profile(photo, lamp)))
     return (
-        f"No stripes were found in it: its {counted(columns, 'column')} differ by {span:.2g} grey "
+        f"No stripes were found in it: its {inflect(columns, 'column')} differ by {span:.2g} grey "
         "levels."
     )

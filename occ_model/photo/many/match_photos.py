@@ -11,7 +11,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TypeAlias
 
-from occ_model.errors import ParameterError, PhotoError, shown
+from occ_model.errors import ParameterError, PhotoError, quote
 from occ_model.parallel.job import Heartbeat, Job, Workers, WorkersLostError
 from occ_model.parallel.scheduler import results_of
 from occ_model.photo.many.row import MatchSettings, row_of
@@ -123,7 +123,7 @@ def check_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
     for photo in items:
         if not isinstance(photo, str | Path | Photo):
             raise PhotoError(
-                f"{shown(photo)} is not the path of a photo; allowed: str, Path or Photo."
+                f"{quote(photo)} is not the path of a photo; allowed: str, Path or Photo."
             )
         sources.append(Path(photo) if isinstance(photo, str) else photo)
     if not sources:

@@ -13,7 +13,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_arrays import Samples, samples_of, white_of
 from occ_model.camera.projection import MAX_PIXELS
-from occ_model.errors import ParameterError, PhotoError, shown
+from occ_model.errors import ParameterError, PhotoError, quote
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.reading.file import open_file, picture_opener
@@ -167,7 +167,7 @@ def _check_path(path: str | Path) -> Path:
         return Path(path)
     except TypeError:
         raise PhotoError(
-            f"{shown(path)} is not the path of a photo; allowed: str or Path."
+            f"{quote(path)} is not the path of a photo; allowed: str or Path."
         ) from None
 
 
@@ -253,7 +253,7 @@ def region_within(photo: Photo, corners: Corners) -> Region:
             return region
     raise ParameterError.of(
         "region",
-        shown(astuple(corners) if isinstance(corners, Region) else corners),
+        quote(astuple(corners) if isinstance(corners, Region) else corners),
         "first row, row after the last, first column, column after the last, of at least one row "
         f"and column, up to {rows} and {columns}",
     )

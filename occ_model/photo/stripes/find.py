@@ -11,7 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.errors import MatchError, ParameterError, counted, distinct_texts
+from occ_model.errors import MatchError, ParameterError, distinct_texts, inflect
 from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.period import repeat_period
@@ -104,7 +104,7 @@ def _stripes_of(photo: Photo) -> Stripes:
     columns = photo.samples.shape[1]
     if columns < _LEAST_COLUMNS:
         raise MatchError(
-            f"No stripes: the photo has {counted(columns, 'column')}; "
+            f"No stripes: the photo has {inflect(columns, 'column')}; "
             f"at least {_LEAST_COLUMNS} are needed."
         )
     first_row, last_row = _find_striped_rows(photo)
@@ -229,7 +229,7 @@ def _find_striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     count = max(separate_edges, _count_reversals(profile, edges))
     if count < _LEAST_EDGES:
         raise MatchError(
-            f"No stripes: {counted(count, 'steep edge')} between bright and dark columns; at least "
+            f"No stripes: {inflect(count, 'steep edge')} between bright and dark columns; at least "
             f"{_LEAST_EDGES} are needed; come closer to the panel, or raise its frequency."
         )
     gap = int(np.diff(edges).max())
@@ -285,7 +285,7 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
         raise ParameterError(
             f"The lamp lies at rows up to {region.last_row - 1} and columns up to "
             f"{region.last_column - 1}; allowed: a lamp of this photo, which has "
-            f"{counted(rows, 'row')} and {counted(columns, 'column')}."
+            f"{inflect(rows, 'row')} and {inflect(columns, 'column')}."
         )
     sums, counts = np.zeros(region.columns), np.zeros(region.columns)
     spans = lamp.spans[1:-1] if len(lamp.spans) > _LEAST_STRIPS else lamp.spans

@@ -7,7 +7,7 @@ the manual's table are all made from these declarations. Values are in SI units.
 from collections.abc import Iterable
 from typing import TypeVar
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Payload, Quantity
 from occ_model.scene.parameters.camera import Camera, Lens, Sensor
 from occ_model.scene.parameters.group import Group
@@ -40,7 +40,7 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
 
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
-    raise ParameterError(f"There is no parameter {shown(name)}; {hint}")
+    raise ParameterError(f"There is no parameter {quote(name)}; {hint}")
 
 
 def _declared_as(name: str, kind: type[_Kind]) -> _Kind:

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from occ_model import plugins
-from occ_model.errors import ParameterError, counted
+from occ_model.errors import ParameterError, inflect
 from occ_model.scene.light_samples import LEVELS, SAMPLES, canonical_levels
 from occ_model.scene.light_text import canonical_file
 from occ_model.scene.parameters.group import (
@@ -156,7 +156,7 @@ class Transmitter(Group):
                 "code",
                 f"{self.code}",
                 f"0 to {2**self.bits - 1}",
-                condition=f"with {counted(self.bits, 'bit')}",
+                condition=f"with {inflect(self.bits, 'bit')}",
                 parameters=("code", "bits"),
             )
 

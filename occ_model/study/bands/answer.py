@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.results.bands import NO_BARS_DEPTH, SpeedDepth
 from occ_model.results.bars_answer import ROWS, BarsAnswer, Beat, FrameRateBeats, UnlitRows
 from occ_model.scene.light_words import describe_light, has_chips
@@ -140,7 +140,7 @@ def unlit_rows(rows: int, frequency: float, exposure: float) -> UnlitRows:
     ROWS.check(rows)
     for name, value in (("frequency", frequency), ("exposure", exposure)):
         if not 0.0 < value < math.inf:
-            raise ParameterError.of(name, shown(value), "above 0")
+            raise ParameterError.of(name, quote(value), "above 0")
     cycles = Fraction(frequency) * Fraction(exposure)
     lit = (cycles % 1) * rows  # rows long
     dark, fully_lit = max(Fraction(0), rows - 1 - lit) / rows, max(Fraction(0), lit - 1) / rows

@@ -19,7 +19,7 @@ from occ_model.camera.photometry import (
 from occ_model.effects.effect import LightEffect
 from occ_model.effects.light_effects import depth_in_exposure
 from occ_model.effects.registry import NAMES, effects_named
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import PiecewiseLight, flicker_of, light_of
 from occ_model.results.bands import ROUNDING_DEPTH, BandDepth, Depth
@@ -271,9 +271,9 @@ def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
         An argument is out of range.
     """
     if not 0.0 < duty <= 1.0:
-        raise ParameterError.of("duty", shown(duty), "above 0, up to 1")
+        raise ParameterError.of("duty", quote(duty), "above 0, up to 1")
     if not 0.0 < periods < math.inf:
-        raise ParameterError.of("periods", shown(periods), "above 0")
+        raise ParameterError.of("periods", quote(periods), "above 0")
     exact, lit = Fraction(periods), Fraction(duty)
     rest = exact % 1
     height, longer = sorted([min(rest, 1 - rest), min(lit, 1 - lit)])

@@ -23,7 +23,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.errors import ParameterError, PhotoError, one_line, shown
+from occ_model.errors import ParameterError, PhotoError, one_line, quote
 from occ_model.files.reading import read_text
 from occ_model.parallel.job import Heartbeat
 from occ_model.photo.reading.load import load_photo
@@ -109,9 +109,9 @@ def _parse_path(text: str | None, folder: Path, where: str) -> Path:
         path = (folder / text).resolve()
         is_inside = path.is_relative_to(folder.resolve())
     except (OSError, ValueError, RuntimeError):  # an impossible name, or a link to itself
-        raise PhotoError(f"{where}: {shown(text)} cannot be the name of a file.") from None
+        raise PhotoError(f"{where}: {quote(text)} cannot be the name of a file.") from None
     if not is_inside:
-        raise PhotoError(f"{where}: {shown(text)} is outside the folder of the data set.")
+        raise PhotoError(f"{where}: {quote(text)} is outside the folder of the data set.")
     return path
 
 
@@ -122,7 +122,7 @@ def _parse_positive(row: dict[str, str | None], name: str, where: str) -> float:
     except ValueError:
         value = 0.0
     if not 0.0 < value < np.inf:
-        raise PhotoError(f"{where}: {name} is {shown(text)}; allowed: numbers above 0.")
+        raise PhotoError(f"{where}: {name} is {quote(text)}; allowed: numbers above 0.")
     return value
 
 
@@ -270,7 +270,7 @@ def _period(scene: Scene) -> float:
 
 def _check_range(name: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
-        raise ParameterError.of(name, shown(value), f"{low:g} to {high:g}")
+        raise ParameterError.of(name, quote(value), f"{low:g} to {high:g}")
 
 
 _CURVE_POINTS = 31

@@ -4,7 +4,7 @@ import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, quote
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.sweep_request import (
     JOBS_A_CORE,
@@ -27,7 +27,7 @@ def build_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRe
     FRAME_RATE.check(settings.frames_a_second)
     if not isinstance(axes, Mapping) or not axes:
         raise ParameterError.of(
-            "axes", shown(axes), "one parameter or more by name, a list of values each"
+            "axes", quote(axes), "one parameter or more by name, a list of values each"
         )
     if len(axes) > MOST_AXES:
         raise ParameterError(f"{len(axes)} parameters are varied; allowed: at most {MOST_AXES}.")
@@ -62,11 +62,11 @@ def decoders_of(decoder: object) -> tuple[str, ...]:
     if isinstance(decoder, str):
         return (decoder,)
     if not isinstance(decoder, Sequence) or not decoder:
-        raise ParameterError.of("decoder", shown(decoder), f"one of {known}, or several")
+        raise ParameterError.of("decoder", quote(decoder), f"one of {known}, or several")
     for name in decoder:
         if list(decoder).count(name) > 1:
             raise ParameterError.of(
-                f"decoder {shown(name)}", "given twice", f"each of {known} once"
+                f"decoder {quote(name)}", "given twice", f"each of {known} once"
             )
     return tuple(decoder)
 
@@ -83,7 +83,7 @@ def _check_axis(name: str, values: object) -> tuple[ParameterValue, ...]:
         )
     if isinstance(values, str | bytes) or not isinstance(values, Iterable):
         raise parameter.refuse(
-            f"varies over {shown(values)}", f"a list of values, {parameter.allowed}"
+            f"varies over {quote(values)}", f"a list of values, {parameter.allowed}"
         )
     distinct_values: dict[ParameterValue, None] = {}
     for value in values:

@@ -13,7 +13,7 @@ from time import monotonic
 from types import TracebackType
 from typing import BinaryIO, Generic, Protocol, Self, TypeVar
 
-from occ_model.errors import OutputError, ParameterError, one_line, shown
+from occ_model.errors import OutputError, ParameterError, one_line, quote
 from occ_model.files.writing import check_replaceable, lock, write_whole
 
 _LONGEST_LINE = 100_000  # bytes of a line; usual ones have some hundred
@@ -129,7 +129,7 @@ class ResultsFile(Generic[Point]):
             if own_line != line and not (index == last and own_line.startswith(line)):
                 raise OutputError(
                     f"{self._name} contains the results of another {self._study_name}: it says "
-                    f"{shown(_shorten(line))} where this one has {shown(_shorten(own_line))}; name "
+                    f"{quote(_shorten(line))} where this one has {quote(_shorten(own_line))}; name "
                     "another file."
                 )
         raise OutputError(f"{self._name} was changed by another program; name another file.")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.framings.preamble import read_after, read_repeated
 from occ_model.transmitter.line_codes.line_code import LineCode
@@ -43,13 +43,13 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     headers = find_headers(chips)
     if len(headers) < 2:
         found = "One header" if headers else "No header"
-        among = counted(len(chips), "chip")
+        among = inflect(len(chips), "chip")
         return Framed.nothing(f"{found} found among {among}, two needed.", headers)
     first, second = headers[:2]
     if second - first != length:
         return Framed.nothing(
-            f"The first two headers are {counted(second - first, 'chip')} apart, a packet of "
-            f"{counted(form.bits, 'bit')} has {length}: some chips were misread, or packets of "
+            f"The first two headers are {inflect(second - first, 'chip')} apart, a packet of "
+            f"{inflect(form.bits, 'bit')} has {length}: some chips were misread, or packets of "
             "another length are sent.",
             headers,
         )

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
@@ -69,7 +69,7 @@ def read_repeated(
     unique = is_unique(preamble, form.line_code)
     if len(chips) < length:
         return Framed.nothing(
-            f"Less than one packet: {counted(len(chips), 'chip')} of its {length}.", headers
+            f"Less than one packet: {inflect(len(chips), 'chip')} of its {length}.", headers
         )
     failed: list[Framed] = []
     found: dict[bytes, Framed] = {}
@@ -89,7 +89,7 @@ def read_repeated(
     if failed:
         return Framed(headers, failed[0].bits, failed[0].failure)
     return Framed.nothing(
-        f"No preamble found among {counted(len(chips), 'chip')}, of which a frame has {length}.",
+        f"No preamble found among {inflect(len(chips), 'chip')}, of which a frame has {length}.",
         headers,
     )
 

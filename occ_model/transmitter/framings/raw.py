@@ -9,7 +9,7 @@ of the others. A receiver needs to know only the preamble and the line code.
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import counted
+from occ_model.errors import inflect
 from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
@@ -75,7 +75,7 @@ def _read_frame(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     whole = start + count + _CRC_BITS
     if code.chips_for(whole) > len(data):
         return Framed.nothing(
-            f"The frame states a length of {counted(count, 'bit')}, for which {len(data)} chips "
+            f"The frame states a length of {inflect(count, 'bit')}, for which {len(data)} chips "
             "are too few: some chips were misread, or a longer frame is sent."
         )
     read = code.decode(data[: code.chips_for(whole)], level).bits

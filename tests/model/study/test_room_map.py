@@ -11,7 +11,7 @@ from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.errors import shown
+from occ_model.errors import quote
 from occ_model.room.room import Place
 from occ_model.study import room_map as study
 from occ_model.study.code_length import (
@@ -101,7 +101,7 @@ def test_a_killed_map_is_continued_with_the_same_result(tmp_path: Path) -> None:
     ("cell", "value", "said"),
     [
         (3, "-1", "whole lamps is '-1'; allowed: 0 to 2."),
-        (3, "9" * 400, f"whole lamps is {shown('9' * 400)}; allowed: 0 to 2."),
+        (3, "9" * 400, f"whole lamps is {quote('9' * 400)}; allowed: 0 to 2."),
         (4, "3", "named correctly is '3'; allowed: 0 to 2."),
         (5, "nan", f"misread is 'nan'; allowed: 0 to {2 * 240 * 320}."),
         (6, "5", "named wrongly is '5'; allowed: 0 to 2."),

@@ -10,7 +10,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
-from occ_model.errors import shown
+from occ_model.errors import quote
 from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import sweep
@@ -213,7 +213,7 @@ HUGE = "9" * 5000
         ({RIGHT: "nan"}, "right bits is 'nan'; allowed: 10."),
         ({RIGHT: "1e1"}, "right bits is '1e1'; allowed: 10."),
         ({RIGHT: "\u0661"}, "right bits is '\u0661'; allowed: 10."),
-        ({RIGHT: HUGE}, f"right bits is {shown(HUGE)}; allowed: 10."),
+        ({RIGHT: HUGE}, f"right bits is {quote(HUGE)}; allowed: 10."),
         ({RIGHT: "12", READ: "0"}, "right bits is '12'; allowed: 0 to 9."),
         ({RIGHT: "10", READ: "0"}, "right bits is '10'; allowed: 0 to 9."),
         ({SENT: "20"}, "sent bits is '20'; allowed: 10."),

@@ -13,7 +13,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _command(arguments: Sequence[str] | None) -> Callable[[], int]:
-    # Only here, where Ctrl-C is answered: the commands import all of the model.
+    # Imported here, where Ctrl-C is handled, because the commands import the whole model.
     from occ_model.commands.command_line import read_command_line, run_command
 
     return partial(run_command, read_command_line(arguments))

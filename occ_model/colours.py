@@ -1,6 +1,6 @@
 """Colours of curves, on screen and in print, distinct with any colour vision (Okabe and Ito).
 
-Thresholds and noise, which no figure shows together, have the same.
+Thresholds and noise, which no figure shows together, have the same colour.
 """
 
 SIMULATION = "#0072B2"

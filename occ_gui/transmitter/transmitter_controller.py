@@ -137,7 +137,7 @@ class TransmitterController(Service):
             self.dialog.show_refusal(str(error))
             return
         facts = " ".join(frequency_lines(self._transmission))
-        self.dialog.show_transmission(facts, is_rounded=not self._transmission.is_as_asked)
+        self.dialog.show_transmission(facts, is_rounded=not self._transmission.is_exact)
         self.drawing.ask(self._transmission)
 
     def _show_wiring(self, drawing: WiringDrawing) -> None:

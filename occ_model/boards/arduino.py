@@ -72,7 +72,7 @@ const uint8_t PACKET[] PROGMEM = {
 $table
 };
 
-// Timer 1 counts $counted.
+// Timer 1 counts $ticks.
 // It counts from 0 to TOP and then starts again: a chip lasts TOP + 1 counts.
 const uint8_t CLOCK_SELECT = $clock_select;
 const uint16_t TOP = $count - 1;
@@ -118,7 +118,7 @@ $head
 #include <avr/interrupt.h>
 #include <avr/io.h>
 
-// Timer 1 counts $counted.
+// Timer 1 counts $ticks.
 // It counts from 0 to TOP and then starts again: a period lasts TOP + 1 counts. Its output OC1A,
 // $pin, is lit from 0 on until it has counted COMPARE + 1 of them ("fast PWM", mode 14).
 const uint8_t CLOCK_SELECT = $clock_select;
@@ -144,17 +144,19 @@ void loop() {}
 """)
 
 
-def arduino_sketch(sent: Transmission) -> str:
+def arduino_sketch(transmission: Transmission) -> str:
     """Write the sketch in C++ for the Arduino IDE, or for avr-g++ with a ``main`` added."""
-    timing = sent.timing
+    timing = transmission.timing
     clock = f"the cycles of the {HERTZ.format(timing.clock)} clock"
     words: dict[str, object] = {
-        "head": head_comment(sent, "//"),
-        "counted": clock if timing.prescaler == 1 else f"every {timing.prescaler}th of {clock}",
+        "head": head_comment(transmission, "//"),
+        "ticks": clock if timing.prescaler == 1 else f"every {timing.prescaler}th of {clock}",
         "clock_select": _CLOCK_SELECT[timing.prescaler],
         "count": timing.count,
-        "pin": sent.board.pin,
+        "pin": transmission.board.pin,
     }
-    if isinstance(sent, LampTransmission):
-        return _LAMP_SKETCH.substitute(words, lit=sent.timing.lit_count)
-    return _SKETCH.substitute(words, chips=len(sent.chips), table=c_table(sent.chips))
+    if isinstance(transmission, LampTransmission):
+        return _LAMP_SKETCH.substitute(words, lit=transmission.timing.lit_count)
+    return _SKETCH.substitute(
+        words, chips=len(transmission.chips), table=c_table(transmission.chips)
+    )

@@ -38,26 +38,26 @@ def _split_lines(octets: Sequence[str]) -> list[Sequence[str]]:
     return [octets[start : start + _BYTES_A_LINE] for start in starts]
 
 
-def head_comment(sent: Transmission, mark: str) -> str:
+def head_comment(transmission: Transmission, mark: str) -> str:
     """Write what a sketch sends as comment lines that begin with ``mark``.
 
     No line ends with the user's text, since a backslash at its end would continue the comment.
     """
-    if isinstance(sent, LampTransmission):
+    if isinstance(transmission, LampTransmission):
         purpose = "shows stripes"
-        content = [f"Blinks as a {describe_light(sent.sent_scene.transmitter)}."]
+        content = [f"Blinks as a {describe_light(transmission.sent_scene.transmitter)}."]
     else:
         purpose = "can read it"
         content = [
-            *_content_lines(sent.scene.transmitter),
-            f"Packet: {len(sent.chips):,} chips, sent repeatedly.",
-            *_chip_lines(sent.chips),
+            *_content_lines(transmission.scene.transmitter),
+            f"Packet: {len(transmission.chips):,} chips, sent repeatedly.",
+            *_chip_lines(transmission.chips),
         ]
     lines = [
-        f"Blinks an LED so that a rolling-shutter camera {purpose}: {sent.board.title}.",
+        f"Blinks an LED so that a rolling-shutter camera {purpose}: {transmission.board.title}.",
         "",
         *content,
-        *frequency_lines(sent),
+        *frequency_lines(transmission),
         "",
         f"Written by occ_model {__version__}.",
     ]
@@ -67,11 +67,11 @@ def head_comment(sent: Transmission, mark: str) -> str:
 def _content_lines(transmitter: Transmitter) -> list[str]:
     if transmitter.pattern:
         return ["Sends a raw chip pattern."]
-    what = f"the code {transmitter.code} of {transmitter.bits} bits"
+    content = f"the code {transmitter.code} of {transmitter.bits} bits"
     if transmitter.payload:
-        what = f'the payload "{one_line(transmitter.payload, _SHOWN_CHIPS)}"'
+        content = f'the payload "{one_line(transmitter.payload, _SHOWN_CHIPS)}"'
     return [
-        f"Sends {what}.",
+        f"Sends {content}.",
         f"Line code {transmitter.line_code}, framing {transmitter.framing}, error correction "
         f"{transmitter.error_correction}.",
     ]
@@ -84,29 +84,34 @@ def _chip_lines(chips: ByteArray) -> list[str]:
     return [" ".join(text[start : start + 8] for start in range(0, len(text), 8))]
 
 
-def frequency_lines(sent: Transmission) -> list[str]:
+def frequency_lines(transmission: Transmission) -> list[str]:
     """State the sent frequency, its error by rounding, and the possible error of the clock."""
-    timing = sent.timing
-    asked = "as asked"
-    if float(timing.frequency) != float(timing.asked):
-        error, wanted = float(timing.error_ppm), HERTZ.format(float(timing.asked), 9)
-        asked = f"{error:+.3g} ppm from the {wanted} asked"
+    timing = transmission.timing
+    comparison = "as asked"
+    if float(timing.frequency) != float(timing.requested_frequency):
+        error, requested = (
+            float(timing.error_ppm),
+            HERTZ.format(float(timing.requested_frequency), 9),
+        )
+        comparison = f"{error:+.3g} ppm from the {requested} asked"
     return [
-        f"{sent.frequency.capitalize()}: {HERTZ.format(float(timing.frequency), 9)}, {asked}:",
-        f"a {sent.unit} lasts {timing.cycles:,} cycles of the {HERTZ.format(timing.clock)} clock, "
-        f"which may be off by up to {sent.board.clock_error:,.0f} ppm.",
-        *(_lit_lines(sent) if isinstance(sent, LampTransmission) else ()),
+        f"{transmission.frequency.capitalize()}: {HERTZ.format(float(timing.frequency), 9)}, "
+        f"{comparison}:",
+        f"a {transmission.unit} lasts {timing.cycles:,} cycles of the "
+        f"{HERTZ.format(timing.clock)} clock, which may be off by up to "
+        f"{transmission.board.clock_error:,.0f} ppm.",
+        *(_lit_lines(transmission) if isinstance(transmission, LampTransmission) else ()),
     ]
 
 
-def _lit_lines(sent: LampTransmission) -> list[str]:
-    timing, lamp = sent.timing, sent.scene.transmitter
-    name, value = list(sent.sent_values.items())[1]
+def _lit_lines(transmission: LampTransmission) -> list[str]:
+    timing, lamp = transmission.timing, transmission.scene.transmitter
+    name, value = list(transmission.sent_values.items())[1]
     unit = quantity(name).unit
-    asked = "as asked"
+    comparison = "as asked"
     if value != getattr(lamp, name):
-        asked = f"for the {unit.format(getattr(lamp, name), 9)} asked"
+        comparison = f"for the {unit.format(getattr(lamp, name), 9)} asked"
     return [
         f"It is lit for {timing.lit_cycles:,} of them: {quantity(name).label.lower()} "
-        f"{unit.format(value, 9)}, {asked}."
+        f"{unit.format(value, 9)}, {comparison}."
     ]

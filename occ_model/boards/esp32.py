@@ -2,8 +2,8 @@
 
 The transmission is endless: a function fills one half of the peripheral's memory while the other
 half is sent. It uses ``driver/rmt_tx.h`` and ``driver/rmt_encoder.h`` of ESP-IDF 5.3, which are in
-the Arduino core 3.1 for the ESP32. Lamps are sent so, too: the chip's LED controller divides the
-clock by fractions, which move single edges, and a period has a power of two of its counts.
+the Arduino core 3.1 for the ESP32. Lamps are sent in the same way, because the ESP32's LED
+controller divides the clock by fractions, which moves single edges, and counts to powers of two.
 """
 
 from string import Template
@@ -29,7 +29,7 @@ ESP32 = TransmitterBoard(
         "the 64 chips that are refilled at a time would then last less than 64 µs (an estimate, "
         "not measured)"
     ),
-    # A period of 32 bits takes as many symbols as it needs. Its parts last longer than 8 cycles,
+    # A period of 32 bits takes several symbols if necessary. Its parts last longer than 8 cycles,
     # below which the peripheral of newer chips does not work (their manuals: 3 + 5 cycles).
     lamp_timer=LampTimer(
         prescalers=(1,),
@@ -74,7 +74,7 @@ const uint8_t PACKET[] = {
 $table
 };
 
-// The peripheral RMT counts ticks of its clock, and a chip lasts so many of them.
+// The RMT peripheral counts ticks of its clock; a chip lasts TICKS_PER_CHIP of them.
 const uint32_t TICKS_PER_SECOND = $resolution;  // 80 MHz / $prescaler
 const uint16_t TICKS_PER_CHIP = $count;
 
@@ -99,7 +99,7 @@ static size_t nextSymbols(const void *, size_t, size_t, size_t room, rmt_symbol_
 """
 
 _LAMP_SYMBOLS = """\
-// The lamp is lit, then dark, for so many cycles of the peripheral's clock.
+// The lamp is lit, then dark, for these numbers of ticks of the peripheral's clock.
 const uint32_t TICKS_PER_SECOND = $resolution;
 const uint32_t PARTS[] = {$lit, $dark};
 
@@ -154,21 +154,21 @@ void loop() {}
 """
 
 
-def esp32_sketch(sent: Transmission) -> str:
+def esp32_sketch(transmission: Transmission) -> str:
     """Write the sketch in C++ for the Arduino IDE with the core for the ESP32."""
-    timing = sent.timing
+    timing = transmission.timing
     words: dict[str, object] = {
-        "head": head_comment(sent, "//"),
+        "head": head_comment(transmission, "//"),
         "resolution": timing.clock // timing.prescaler,
     }
-    if isinstance(sent, LampTransmission):
-        lit = sent.timing.lit_count
+    if isinstance(transmission, LampTransmission):
+        lit = transmission.timing.lit_count
         words |= {"lit": lit, "dark": timing.count - lit, "data": "PARTS"}
         return Template(_INCLUDES + _LAMP_SYMBOLS + _SETUP).substitute(words)
     return Template(_INCLUDES + _CHIP_SYMBOLS + _SETUP).substitute(
         words,
-        chips=len(sent.chips),
-        table=c_table(sent.chips),
+        chips=len(transmission.chips),
+        table=c_table(transmission.chips),
         prescaler=timing.prescaler,
         count=timing.count,
         data="PACKET",

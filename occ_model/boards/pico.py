@@ -2,8 +2,8 @@
 
 The state machine's program is one instruction. The clock's divider is a whole number, so that all
 chips last equally long (RP2040 data sheet, 3.5.5). A queue of 256 chips bridges the gaps between
-turns of the loop. For a lamp it counts cycles by itself: the chip's pulse-width modulation (PWM)
-comes no nearer to a frequency with whole dividers, and with fractions it moves single edges.
+turns of the loop. For a lamp it counts cycles by itself: the RP2040's pulse-width modulation (PWM)
+reaches no closer frequencies with whole dividers, and with fractions it moves single edges.
 """
 
 from string import Template
@@ -15,7 +15,7 @@ from occ_model.boards.chip_table import head_comment, python_table
 from occ_model.boards.transmission import LampTransmission, Transmission, count_repeats
 
 _MAX_CYCLES = 32  # an instruction takes one cycle and up to 31 more
-_LAMP_CYCLES = 3  # of a part of a lamp's period, if its loop runs once
+_LAMP_CYCLES = 3  # cycles of a part of a lamp's period whose loop runs once
 
 PICO = TransmitterBoard(
     name="raspberry-pi-pico",
@@ -69,7 +69,7 @@ PACKET = (
 $table
 )
 
-# The state machine takes words of 32 chips: so many packets fill whole words.
+# The state machine takes words of 32 chips, which this number of packets fills without a rest.
 PACKETS = $packets
 
 # The state machine's clock is the processor's, divided by a whole number.
@@ -118,8 +118,8 @@ $head
 import machine
 import rp2
 
-# The lamp is lit, then dark, for so many cycles of the processor's clock, which is also that of the
-# state machine.
+# The lamp is lit, then dark, for these numbers of cycles of the processor's clock, which is also
+# the state machine's.
 PROCESSOR_HZ = $clock
 LIT = $lit
 DARK = $dark
@@ -152,24 +152,24 @@ sender.active(True)
 """)
 
 
-def pico_sketch(sent: Transmission) -> str:
-    if isinstance(sent, LampTransmission):
-        lit = sent.timing.lit_count
+def pico_sketch(transmission: Transmission) -> str:
+    if isinstance(transmission, LampTransmission):
+        lit = transmission.timing.lit_count
         return _LAMP_SKETCH.substitute(
-            head=head_comment(sent, "#"), clock=sent.timing.clock, lit=lit,
-            dark=sent.timing.count - lit, cycles=_LAMP_CYCLES,
-            pin=sent.board.pin.removeprefix("GP"),
+            head=head_comment(transmission, "#"), clock=transmission.timing.clock, lit=lit,
+            dark=transmission.timing.count - lit, cycles=_LAMP_CYCLES,
+            pin=transmission.board.pin.removeprefix("GP"),
         )  # fmt: skip
-    timing, packets = sent.timing, count_repeats(len(sent.chips))
+    timing, packets = transmission.timing, count_repeats(len(transmission.chips))
     waits = timing.prescaler - 1
     return _SKETCH.substitute(
-        head=head_comment(sent, "#"),
-        chips=len(sent.chips),
-        table=python_table(np.resize(sent.chips, len(sent.chips) + 40)),
+        head=head_comment(transmission, "#"),
+        chips=len(transmission.chips),
+        table=python_table(np.resize(transmission.chips, len(transmission.chips) + 40)),
         packets=packets,
         clock=timing.clock,
         count=timing.count,
         delay=f" and wait {waits} cycles more" if waits else "",
         cycles=f" [{waits}]" if waits else "",
-        pin=sent.board.pin.removeprefix("GP"),
+        pin=transmission.board.pin.removeprefix("GP"),
     )

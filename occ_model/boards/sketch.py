@@ -29,8 +29,8 @@ def board_named(name: str) -> TransmitterBoard:
     return BOARDS[name]
 
 
-def write_sketch(sent: Transmission) -> str:
-    return _SKETCHES[sent.board.name](sent)
+def write_sketch(transmission: Transmission) -> str:
+    return _SKETCHES[transmission.board.name](transmission)
 
 
 def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
@@ -38,7 +38,7 @@ def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
 
     The pin repeats :func:`occ_model.packet` without gaps, or blinks as a lamp or in flashes. A
     chip, or a lamp's period and its lit part, last whole numbers of cycles of the board's clock, so
-    that what is sent may differ from the scene's; the comment at the head states it and its error.
+    the sent frequency may differ from the scene's; the comment at the head states it and its error.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How long a board lets a chip, or a lamp's period and its lit part, last: whole timer counts."""
+"""Durations on a board in whole timer counts: of a chip, or of a lamp's period and lit part."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ class BoardTiming:
     clock: int  # Frequency of the board's clock in Hz
     prescaler: int
     count: int  # Divided cycles for a chip
-    asked: Fraction  # The requested switching frequency, in Hz
+    requested_frequency: Fraction  # The requested switching frequency, in Hz
 
     @property
     def cycles(self) -> int:
@@ -33,15 +33,15 @@ class BoardTiming:
     @property
     def error_ppm(self) -> Fraction:
         """Relative error of the frequency in parts per million, positive if it is too high."""
-        return (self.frequency / self.asked - 1) * 10**6
+        return (self.frequency / self.requested_frequency - 1) * 10**6
 
 
 @dataclass(frozen=True, slots=True)
 class LampTiming(BoardTiming):
-    """The same of a lamp: divided cycles for a period, and those of them in which it is lit."""
+    """Timing of a lamp: divided cycles of its period, and of its lit part."""
 
     lit_count: int
-    lit_asked: Fraction  # The requested time in s for which it is lit in each such period
+    requested_lit_time: Fraction  # The requested time in s for which it is lit in each such period
 
     @property
     def duty(self) -> Fraction:
@@ -58,17 +58,17 @@ class LampTiming(BoardTiming):
 
 
 def choose_timing(board: TransmitterBoard, frequency: float) -> BoardTiming:
-    """Choose the timer's setting with the nearest frequency; among equals the finest timer."""
-    asked = Fraction(frequency)
-    if not board.lowest_frequency <= asked <= board.highest_frequency:
+    """Choose the timer's setting with the nearest frequency; among equals the finest counts."""
+    requested = Fraction(frequency)
+    if not board.lowest_frequency <= requested <= board.highest_frequency:
         raise _refuse_frequency(
             "switching_frequency", board, frequency, board.lowest_frequency,
             board.highest_frequency, board.limit_reason,
         )  # fmt: skip
     settings = (
-        BoardTiming(board.clock, prescaler, count, asked)
+        BoardTiming(board.clock, prescaler, count, requested)
         for prescaler in board.prescalers
-        for count in _list_counts(board.clock, prescaler, asked)
+        for count in _list_counts(board.clock, prescaler, requested)
         if count <= board.largest_count and prescaler * count >= board.least_cycles
     )
     return min(settings, key=lambda timing: (abs(timing.error_ppm), timing.prescaler))
@@ -82,37 +82,43 @@ def choose_lamp_timing(
 ) -> LampTiming:
     """Choose the timer's setting with a lamp's nearest frequency, and then the nearest lit time.
 
-    ``name`` is that of the frequency's parameter; ``lit_time`` gives the time asked for in s in a
-    period in s.
+    ``name`` is that of the frequency's parameter; ``lit_time`` returns the requested
+    lit time in s for a period in s.
     """
-    asked, timer = Fraction(frequency), board.lamp_timer
+    requested, timer = Fraction(frequency), board.lamp_timer
     low, high = (
         Fraction(board.clock, cycles)
         for cycles in (
             timer.prescalers[-1] * timer.largest_count, timer.prescalers[0] * timer.least_count
         )
     )  # fmt: skip
-    if not low <= asked <= high:
+    if not low <= requested <= high:
         raise _refuse_frequency(name, board, frequency, low, high, timer.limit_reason)
-    found = []
+    timings = []
     for prescaler in timer.prescalers:
-        for count in _list_counts(board.clock, prescaler, asked):
+        for count in _list_counts(board.clock, prescaler, requested):
             if not timer.least_count <= count <= timer.largest_count:
                 continue
-            wanted = lit_time(Fraction(prescaler * count, board.clock))
-            exact = round(wanted * board.clock / prescaler)
-            lit = min(max(exact, timer.least_part), count - timer.least_part)
-            found.append(LampTiming(board.clock, prescaler, count, asked, lit, wanted))
+            requested_lit_time = lit_time(Fraction(prescaler * count, board.clock))
+            nearest = round(requested_lit_time * board.clock / prescaler)
+            lit = min(max(nearest, timer.least_part), count - timer.least_part)
+            timings.append(
+                LampTiming(board.clock, prescaler, count, requested, lit, requested_lit_time)
+            )
     return min(
-        found,
-        key=lambda one: (abs(one.error_ppm), abs(one.lit_time - one.lit_asked), one.prescaler),
+        timings,
+        key=lambda timing: (
+            abs(timing.error_ppm),
+            abs(timing.lit_time - timing.requested_lit_time),
+            timing.prescaler,
+        ),
     )
 
 
-def _list_counts(clock: int, prescaler: int, asked: Fraction) -> Iterator[int]:
+def _list_counts(clock: int, prescaler: int, requested: Fraction) -> Iterator[int]:
     """Yield the whole numbers next to the exact count, from 1 on."""
-    below = floor(clock / (prescaler * asked))
-    yield from (count for count in (below, below + 1) if count >= 1)
+    lower = floor(clock / (prescaler * requested))
+    yield from (count for count in (lower, lower + 1) if count >= 1)
 
 
 def _refuse_frequency(

@@ -32,10 +32,10 @@ class Transmission:
     chips: ByteArray  # Shape (chips,): one period in the order sent; 1 is lit
     timing: BoardTiming
 
-    unit: ClassVar = "chip"  # What lasts the timing's period, and its frequency
+    unit: ClassVar = "chip"  # Names of the timing's period and of its frequency
     frequency: ClassVar = "switching frequency"
     repeats: ClassVar = "packet"
-    part: ClassVar = "chip"  # What is lit or dark
+    part: ClassVar = "chip"  # Name of a part that is lit or dark
 
     @property
     def sent_values(self) -> dict[str, float]:
@@ -48,16 +48,16 @@ class Transmission:
         return self.scene.replace(**self.sent_values)
 
     @property
-    def is_as_asked(self) -> bool:
+    def is_exact(self) -> bool:
         """Whether the scene's values are those sent, to the precision of its numbers."""
         return self.sent_scene == self.scene
 
     def start_of(self, chip: int) -> int:
-        """Return the clock's cycles before a chip; those of a period for the one after the last."""
+        """Return the clock cycles before a chip, or before the end, whose index is the next."""
         return chip * self.timing.cycles
 
     def samples(self, count: int) -> ByteArray:
-        """Return one period in samples, so many in the timing's period; 1 is lit."""
+        """Return one period in samples, ``count`` for each unit of the timing; 1 is lit."""
         return np.repeat(self.chips, count)
 
     @cached_property
@@ -118,7 +118,7 @@ class LampTransmission(Transmission):
 
 
 def prepare_transmission(scene: Scene, board: TransmitterBoard) -> Transmission:
-    """Prepare what a board sends; ParameterError if it cannot send that."""
+    """Prepare the transmission of a scene; ParameterError if the board cannot send it."""
     if scene.transmitter.light != "code":
         return _prepare_lamp(scene, board)
     chips = packet(scene)
@@ -135,23 +135,31 @@ def prepare_transmission(scene: Scene, board: TransmitterBoard) -> Transmission:
 
 
 def _prepare_lamp(scene: Scene, board: TransmitterBoard) -> LampTransmission:
-    sent, duty, length = scene.transmitter, Fraction(scene.transmitter.duty), None
-    if sent.light == "pulses":
-        name, frequency, length = "pulse_frequency", sent.pulse_frequency, sent.pulse_length
+    transmitter, duty, length = scene.transmitter, Fraction(scene.transmitter.duty), None
+    if transmitter.light == "pulses":
+        name, frequency, length = (
+            "pulse_frequency",
+            transmitter.pulse_frequency,
+            transmitter.pulse_length,
+        )
         if Fraction(length) * Fraction(frequency) >= 1:
             longest = f"below {SECOND.format(1.0 / frequency)}: others are steady light"
             raise _refuse(board, "pulse_length", SECOND.format(length), longest)
-    elif sent.light == "lamp":
-        name, frequency = "lamp_frequency", sent.lamp_frequency
-        if sent.depth != 1.0:
-            raise _refuse(board, "depth", PERCENT.format(sent.depth), f"100 %, since {_ON_OR_OFF}")
+    elif transmitter.light == "lamp":
+        name, frequency = "lamp_frequency", transmitter.lamp_frequency
+        if transmitter.depth != 1.0:
+            raise _refuse(
+                board, "depth", PERCENT.format(transmitter.depth), f"100 %, since {_ON_OR_OFF}"
+            )
         if not 0 < duty < 1:
             raise _refuse(
-                board, "duty", PERCENT.format(sent.duty),
+                board, "duty", PERCENT.format(transmitter.duty),
                 "more than 0 % and less than 100 %: others are steady light",
             )  # fmt: skip
     else:
-        raise _refuse(board, "light", sent.light, f"code, lamp or pulses, since {_ON_OR_OFF}")
+        raise _refuse(
+            board, "light", transmitter.light, f"code, lamp or pulses, since {_ON_OR_OFF}"
+        )
     timing = choose_lamp_timing(
         board, name, frequency,
         lambda period: duty * period if length is None else Fraction(length),
@@ -191,22 +199,22 @@ SEIZURES = (
 )
 
 
-def flicker_sentence(sent: Transmission) -> str:
+def flicker_sentence(transmission: Transmission) -> str:
     """State the lowest frequency in the light, and whether it is visible."""
-    lowest, run = sent.lowest_frequency, sent.longest_run
+    lowest, run = transmission.lowest_frequency, transmission.longest_run
     if lowest is None or run is None:
         return "The light does not change: all chips are equal."
     limit = HERTZ.format(VISIBLE_LIMIT)
-    is_lamp = isinstance(sent, LampTransmission)
-    said = (
+    is_lamp = isinstance(transmission, LampTransmission)
+    facts = (
         f"The lowest frequency in the light is {HERTZ.format(float(lowest), 4)}, at which the "
         f"{'lamp blinks' if is_lamp else 'packet repeats'}; its longest time without an edge is "
         f"{SECOND.format(float(run), 4)}."
     )
-    if sent.is_visible:
-        raised = "its frequency" if is_lamp else "the switching frequency, or send fewer bits"
+    if transmission.is_visible:
+        remedy = "its frequency" if is_lamp else "the switching frequency, or send fewer bits"
         return (
-            f"{said} Below {limit} (IEEE 802.15.7) it may be seen as flicker: raise {raised}. "
+            f"{facts} Below {limit} (IEEE 802.15.7) it may be seen as flicker: raise {remedy}. "
             f"{SEIZURES}"
         )
-    return f"{said} It is above {limit}, below which flicker may be seen (IEEE 802.15.7)."
+    return f"{facts} It is above {limit}, below which flicker may be seen (IEEE 802.15.7)."

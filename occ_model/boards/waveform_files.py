@@ -13,7 +13,7 @@ from occ_model.boards.transmission import Transmission
 from occ_model.errors import OutputError
 from occ_model.scene.units import HERTZ
 
-COLUMNS = ("clock cycles", "time in s", "lit")  # of the table of edges, after their number
+COLUMNS = ("clock cycles", "time in s", "lit")  # of the table of edges, after the edge's number
 
 # For the VCD file: a cycle of any board's clock is a whole number of the finest ticks. The coarsest
 # tick is 1 s; the format allows longer ones, but sigrok takes these as 0 Hz.
@@ -30,14 +30,14 @@ _MAX_RATES = 2_000  # sample rates that are tried, from the highest down
 _LARGEST_WAV = 64_000_000  # samples in a file, of one byte each
 
 
-def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:
+def edge_rows(transmission: Transmission) -> Iterator[tuple[int, int, str, int]]:
     """Yield the chips at which the light changes, and the ends of the period, with exact times."""
-    count = len(sent.chips)
-    places = sorted({0, *sent.edges, count})
-    for chip in places:
-        cycles = sent.start_of(chip)
-        time = format_decimal(Fraction(cycles, sent.timing.clock))
-        yield chip, cycles, time, int(sent.chips[chip % count])
+    count = len(transmission.chips)
+    edges = sorted({0, *transmission.edges, count})
+    for chip in edges:
+        cycles = transmission.start_of(chip)
+        time = format_decimal(Fraction(cycles, transmission.timing.clock))
+        yield chip, cycles, time, int(transmission.chips[chip % count])
 
 
 def format_decimal(value: Fraction) -> str:
@@ -48,18 +48,18 @@ def format_decimal(value: Fraction) -> str:
     return f"{whole}.{part:0{digits}d}".rstrip("0").rstrip(".")
 
 
-def vcd_text(sent: Transmission) -> str:
+def vcd_text(transmission: Transmission) -> str:
     """Write one period as a value change dump (IEEE 1364-2005, 18) with exact edges.
 
     Its tick is the coarsest power of ten of which all edges are multiples, since viewers such as
     sigrok take a sample at each tick.
     """
-    rows = list(edge_rows(sent))
-    times = [cycles * (10**_DECIMALS // sent.timing.clock) for _, cycles, _, _ in rows]
+    rows = list(edge_rows(transmission))
+    times = [cycles * (10**_DECIMALS // transmission.timing.clock) for _, cycles, _, _ in rows]
     zeros = next(n for n in range(_DECIMALS, -1, -1) if gcd(*times) % 10**n == 0)
     thousands, tens = divmod(zeros - _DECIMALS, 3)
     lines = [
-        f"$comment one {sent.repeats}, sent repeatedly $end",
+        f"$comment one {transmission.repeats}, sent repeatedly $end",
         f"$timescale {10**tens} {_TICK_UNITS[-thousands]} $end",
         "$scope module transmitter $end",
         "$var wire 1 ! light $end",
@@ -67,7 +67,7 @@ def vcd_text(sent: Transmission) -> str:
         "$enddefinitions $end",
     ]
     for time, (chip, _, _, lit) in zip(times, rows, strict=True):
-        change = [] if chip == len(sent.chips) else [f"{lit}!"]
+        change = [] if chip == len(transmission.chips) else [f"{lit}!"]
         lines += [f"#{time // 10**zeros}", *change]
     return "\n".join(lines) + "\n"
 
@@ -81,24 +81,24 @@ class WavTiming:
     error_ppm: Fraction
 
 
-def choose_wav_timing(sent: Transmission) -> WavTiming:
-    """Choose a WAV file's sample rate, such that each chip, or period, has equally many samples.
+def choose_wav_timing(transmission: Transmission) -> WavTiming:
+    """Choose a WAV file's sample rate so that each chip, or period, has equally many samples.
 
     It is the whole number of Hz that gives the nearest frequency; common rates are preferred.
     """
-    frequency = sent.timing.frequency
+    frequency = transmission.timing.frequency
     fewest = max(2, ceil(LOWEST_SAMPLE_RATE / frequency))
     most = int(HIGHEST_SAMPLE_RATE / frequency)
     if most < fewest:
         raise OutputError(
             f"A WAV file has up to {HERTZ.format(HIGHEST_SAMPLE_RATE)}, and at least two samples a "
-            f"{sent.unit}, for up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}; the {sent.frequency} "
-            f"is {HERTZ.format(float(frequency))}."
+            f"{transmission.unit}, for up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}; the "
+            f"{transmission.frequency} is {HERTZ.format(float(frequency))}."
         )
-    tried = range(max(fewest, most - _MAX_RATES), most + 1)
-    found = (_wav_timing(frequency, samples) for samples in tried)
+    sample_counts = range(max(fewest, most - _MAX_RATES), most + 1)
+    timings = (_wav_timing(frequency, samples) for samples in sample_counts)
     return min(
-        found,
+        timings,
         key=lambda timing: (
             abs(timing.error_ppm),
             timing.sample_rate not in _USUAL_RATES,
@@ -112,10 +112,10 @@ def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
     return WavTiming(rate, samples, (Fraction(rate, samples) / frequency - 1) * 10**6)
 
 
-def wav_bytes(sent: Transmission) -> bytes:
+def wav_bytes(transmission: Transmission) -> bytes:
     """Write whole periods of at least one second as a WAV file of 8 bits; 255 is lit, 0 is dark."""
-    timing = choose_wav_timing(sent)
-    samples = sent.samples(timing.samples) * np.uint8(255)
+    timing = choose_wav_timing(transmission)
+    samples = transmission.samples(timing.samples) * np.uint8(255)
     periods = ceil(timing.sample_rate / len(samples))
     if periods * len(samples) > _LARGEST_WAV:
         raise OutputError(

@@ -14,9 +14,9 @@ from occ_model.camera.row_memory import MEMORY
 
 _BLUR_REACH = 4.0  # standard deviations at which a blurred edge is cut off; 3e-5 of it are beyond
 
-_FINE_CELLS_A_BLUR = 4.0  # standard deviations of the blur, in cells, that a coarser grid needs
-_SAMPLED_ROWS = 16  # rows of a cell that are sampled of a high outline, which is as good as all
-_MAX_EXACT_ROWS = 4096  # most rows of an outline of which all are used
+_FINE_CELLS_A_BLUR = 4.0  # least standard deviation of the blur, in cells, for a coarser grid
+_SAMPLED_ROWS = 16  # rows per cell that are sampled of a high outline, as accurate as all
+_MAX_EXACT_ROWS = 4096  # largest height in rows of an outline of which all rows are used
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -43,8 +43,8 @@ def _join_parts(parts: list[CoveredPart]) -> list[CoveredPart]:
     joined: list[CoveredPart] = []
     for part in parts:
         before = joined[-1] if joined else part
-        alike = isinstance(part.fraction, float) and isinstance(before.fraction, float)
-        if joined and alike and part.fraction == before.fraction:
+        are_plain = isinstance(part.fraction, float) and isinstance(before.fraction, float)
+        if joined and are_plain and part.fraction == before.fraction:
             joined[-1] = CoveredPart(slice(before.columns.start, part.columns.stop), part.fraction)
         else:
             joined.append(part)
@@ -60,7 +60,7 @@ class Coverage:
 
     A pixel belongs to the panel if its centre is inside the outline, given as the (column, row) of
     each corner in order; the outline may be concave. The blur (standard deviation in pixels) also
-    brings in light from beyond the picture's rim, since the lens blurs before the sensor ends.
+    brings in light from beyond the picture's rim, since the lens blurs before the sensor crops.
     """
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
@@ -69,18 +69,18 @@ class Coverage:
         self._starts, self._ends = outline.T, np.roll(outline, -1, axis=0).T
         self._blur = blur
         self._margin = math.ceil(_BLUR_REACH * blur)
-        self._seen = seen = range(-self._margin, rows + self._margin)
+        self._blurred_rows = blurred_rows = range(-self._margin, rows + self._margin)
         cell = max(1, int(blur / _FINE_CELLS_A_BLUR))
         # A very wide blur needs no more sampled rows than a narrow one.
         self._stride = max(
-            1, min(cell // _SAMPLED_ROWS, _count_rows(outline, seen) // _MAX_EXACT_ROWS)
+            1, min(cell // _SAMPLED_ROWS, _count_rows(outline, blurred_rows) // _MAX_EXACT_ROWS)
         )
         self._cell = cell - cell % self._stride
         self._coarse = self._blur_whole(rows) if self._cell > 1 else None
 
     @cached_property
     def _crossings(self) -> tuple[IndexArray, FloatArray, FloatArray]:
-        return _crossings(self._starts.T, self._seen, self._stride)
+        return _crossings(self._starts.T, self._blurred_rows, self._stride)
 
     def rows(self, rows: range) -> Pixels:
         """Return some rows, shape (number of rows, columns), 0 to 1."""
@@ -117,8 +117,8 @@ class Coverage:
         (x0, y0), (x1, y1) = self._starts, self._ends
         reach = self._margin + self._cell
         low, high = rows[0] - reach, rows[-1] + reach
-        near = (np.minimum(y0, y1) <= high) & (np.maximum(y0, y1) >= low)
-        x0, y0, x1, y1 = x0[near], y0[near], x1[near], y1[near]
+        is_near = (np.minimum(y0, y1) <= high) & (np.maximum(y0, y1) >= low)
+        x0, y0, x1, y1 = x0[is_near], y0[is_near], x1[is_near], y1[is_near]
         ends = np.array([[0.0], [1.0]]) + np.zeros(len(x0))
         np.divide([[low], [high]] - y0, y1 - y0, out=ends, where=y0 != y1)
         x = x0 + np.clip(ends, 0.0, 1.0) * (x1 - x0)
@@ -127,8 +127,8 @@ class Coverage:
         order = np.argsort(start)
         order = order[stop[order] > start[order]]
         start, stop = start[order].astype(np.int64), np.maximum.accumulate(stop[order])
-        apart = np.append(True, start[1:] > stop[:-1])[: len(start)]
-        firsts = np.flatnonzero(apart)
+        is_separate = np.append(True, start[1:] > stop[:-1])[: len(start)]
+        firsts = np.flatnonzero(is_separate)
         lasts = np.append(firsts[1:], len(start))[: len(firsts)] - 1
         return list(zip(start[firsts].tolist(), stop[lasts].astype(int).tolist(), strict=True))
 
@@ -163,8 +163,8 @@ class Coverage:
         row, x, sign = self._crossings
         chosen = slice(*np.searchsorted(row, (rows[0], rows[-1] + cell)).tolist())
         line = np.searchsorted(rows, row[chosen], side="right") - 1
-        here = row[chosen] < rows[line] + cell
-        line, x, sign = line[here], x[chosen][here], sign[chosen][here]
+        is_in_cell = row[chosen] < rows[line] + cell
+        line, x, sign = line[is_in_cell], x[chosen][is_in_cell], sign[chosen][is_in_cell]
         width = columns.stop - columns.start
         steps = np.zeros((len(rows), -(-width // cell) + 2), dtype=np.float32)
         start = np.ceil(np.clip(x, columns.start, columns.stop)) - columns.start
@@ -210,23 +210,23 @@ class Coverage:
         return before.astype(np.int64), (place - before).astype(np.float32)
 
 
-def _count_rows(outline: FloatArray, seen: range) -> int:
-    """Count the rows of ``seen`` between the outline's first and last row."""
-    low, high = np.clip(outline[:, 1], seen.start, seen.stop).min(), outline[:, 1].max()
-    return int(min(float(high), float(seen.stop)) - low)
+def _count_rows(outline: FloatArray, rows: range) -> int:
+    """Count those of some rows that are between the outline's first and last row."""
+    low, high = np.clip(outline[:, 1], rows.start, rows.stop).min(), outline[:, 1].max()
+    return int(min(float(high), float(rows.stop)) - low)
 
 
 def _crossings(
-    outline: FloatArray, seen: range, stride: int
+    outline: FloatArray, rows: range, stride: int
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Return where the outline crosses rows: row, column, and direction (1 upwards, -1 downwards).
 
-    The rows are those of ``seen``, or the middle one of every ``stride`` of them.
+    Of ``rows``, only the middle one of every ``stride`` is used.
     """
     (x0, y0), (x1, y1) = outline.T, np.roll(outline, -1, axis=0).T
     # Half open, so that only one of the two edges at a corner crosses its row.
-    start, stop = (_first_rows(y, seen) for y in (np.minimum(y0, y1), np.maximum(y0, y1)))
-    start += (seen.start + stride // 2 - start) % stride
+    start, stop = (_first_rows(y, rows) for y in (np.minimum(y0, y1), np.maximum(y0, y1)))
+    start += (rows.start + stride // 2 - start) % stride
     counts = np.maximum(-(-(stop - start) // stride), 0)
     edge = np.repeat(np.arange(len(outline)), counts)
     before = np.cumsum(counts) - counts
@@ -252,5 +252,5 @@ def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArr
     return first, np.maximum(first, last)
 
 
-def _first_rows(y: FloatArray, seen: range) -> IndexArray:
-    return np.ceil(np.clip(y, seen.start, seen.stop)).astype(np.int64)
+def _first_rows(y: FloatArray, rows: range) -> IndexArray:
+    return np.ceil(np.clip(y, rows.start, rows.stop)).astype(np.int64)

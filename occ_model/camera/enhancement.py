@@ -52,8 +52,8 @@ class Enhancement:
     def __call__(self, values: NDArray[np.floating[Any]]) -> ByteArray:
         """Round and enhance grey levels of any shape."""
         if self._is_even:
-            same = (values >= self._low) & (values <= self._high)
-            values = np.where(same, self._low, values)
+            is_equal = (values >= self._low) & (values <= self._high)
+            values = np.where(is_equal, self._low, values)
         return self.curve[to_bytes(values)]
 
     def moments(self, levels: FloatArray, spread: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -61,24 +61,24 @@ class Enhancement:
 
         A pixel of mean v and standard deviation s is above the curve's step from level k to the
         next with the probability Q((k + 1/2 - v) / s), where Q is the tail of the normal
-        distribution. The mean is the sum of the steps times these probabilities; that of the square
-        is found alike.
+        distribution. The mean is the sum of the steps times these probabilities; the mean square
+        follows likewise.
         """
         return self._moments(LevelSteps.of(levels, spread))
 
-    def _moments(self, passed: "LevelSteps") -> tuple[FloatArray, FloatArray]:
+    def _moments(self, steps: "LevelSteps") -> tuple[FloatArray, FloatArray]:
         curve = self.curve.astype(np.float64)
-        mean = passed.mean_of(curve)
-        return mean, np.sqrt(np.maximum(passed.mean_of(curve**2) - mean**2, 0.0))
+        mean = steps.mean_of(curve)
+        return mean, np.sqrt(np.maximum(steps.mean_of(curve**2) - mean**2, 0.0))
 
-    def mean(self, passed: "LevelSteps") -> FloatArray:
+    def mean(self, steps: "LevelSteps") -> FloatArray:
         """Return only the mean of :meth:`moments`."""
-        return passed.mean_of(self.curve.astype(np.float64))
+        return steps.mean_of(self.curve.astype(np.float64))
 
-    def moments_and_jumps(self, passed: "LevelSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
+    def moments_and_jumps(self, steps: "LevelSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return :meth:`moments`, and the mean sum of the squares of the steps below a pixel."""
         jumps = np.concatenate([[0.0], np.cumsum(np.diff(self.curve.astype(np.float64)) ** 2)])
-        return *self._moments(passed), passed.mean_of(jumps)
+        return *self._moments(steps), steps.mean_of(jumps)
 
     def enhance_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
         """Enhance whole grey levels, shape (rows, columns), optionally in place."""
@@ -88,10 +88,10 @@ class Enhancement:
 def byte_fractions(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
     """Return the expected number of pixels of each of the 256 levels, weighted."""
     steps = LevelSteps.of(levels, spread)
-    edge, passed = steps.edge, steps.passed
-    ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
-    fraction = np.hstack([ones, passed]) - np.hstack([passed, none])
-    place = np.hstack([edge, edge[:, -1:] + 1])
+    level_below, fraction_above = steps.level_below, steps.fraction_above
+    ones, zeros = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
+    fraction = np.hstack([ones, fraction_above]) - np.hstack([fraction_above, zeros])
+    place = np.hstack([level_below, level_below[:, -1:] + 1])
     flat = np.minimum(place, 255).ravel()
     counts = np.bincount(flat, weights=(fraction * weights[:, None]).ravel(), minlength=256)
     return np.asarray(counts, dtype=np.float64)
@@ -107,8 +107,8 @@ class LevelSteps:
     """Steps between grey levels near some mean values, and the fraction of pixels above each."""
 
     # Shape (values, steps): the grey level below each step; hardly any pixel is below the first
-    edge: IndexArray
-    passed: FloatArray  # Shape (values, steps): the fraction of the pixels above it
+    level_below: IndexArray
+    fraction_above: FloatArray  # Shape (values, steps): the fraction of the pixels above it
 
     @classmethod
     def of(cls, levels: FloatArray, spread: FloatArray) -> Self:
@@ -117,15 +117,15 @@ class LevelSteps:
         lowest = np.minimum(np.maximum(np.rint(levels).astype(np.int64) - reach, 0), 255)
         step = lowest[:, None] + np.arange(2 * reach)
         scale = (1.0 / np.maximum(spread, _LEVEL_TOLERANCE))[:, None]
-        passed = _tail((step + (0.5 - levels[:, None])) * scale)
-        passed[step >= 255] = 0.0
-        return cls(step, passed)
+        fraction_above = _tail((step + (0.5 - levels[:, None])) * scale)
+        fraction_above[step >= 255] = 0.0
+        return cls(step, fraction_above)
 
     def mean_of(self, values: FloatArray) -> FloatArray:
         """Return the mean of ``values``, given for each grey level, over the pixels."""
-        steps = np.concatenate([np.diff(values), np.zeros(self.edge.shape[1] + 1)])
-        passed = np.einsum("ij,ij->i", steps[self.edge], self.passed)
-        return np.asarray(values[self.edge[:, 0]] + passed)
+        steps = np.concatenate([np.diff(values), np.zeros(self.level_below.shape[1] + 1)])
+        fraction_above = np.einsum("ij,ij->i", steps[self.level_below], self.fraction_above)
+        return np.asarray(values[self.level_below[:, 0]] + fraction_above)
 
 
 def _tail(deviations: FloatArray) -> FloatArray:

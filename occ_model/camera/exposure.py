@@ -28,21 +28,21 @@ def column_phases(
 ) -> PhasesInPeriod:
     """Return where in a period each column's exposure starts.
 
-    ``rate`` is that of units per second, such as chips, ``period`` their number in a period. Start
+    ``rate``: units, such as chips, per second; ``period``: their number in a period. Start
     and step are reduced to one period exactly, as fractions; the columns follow in floating point.
     ``shift`` is added to all starts. The result is read-only.
     """
-    wanted = scene.camera.columns if columns is None else columns
-    # Fewer columns than the picture's are a common request, so that at least these are cached.
-    known = _column_starts(
+    count = scene.camera.columns if columns is None else columns
+    # Fewer columns are often requested, so that at least the picture's are computed and cached.
+    starts = _column_starts(
         rate,
         scene.camera.readout_time,
         scene.model.start_time,
         period,
         shift,
-        max(wanted, scene.camera.columns),
+        max(count, scene.camera.columns),
     )
-    return known if wanted == len(known.whole) else known.first(wanted)
+    return starts if count == len(starts.whole) else starts.first(count)
 
 
 @lru_cache(maxsize=8)
@@ -54,7 +54,7 @@ def _column_starts(
     shift: Fraction,
     columns: int,
 ) -> PhasesInPeriod:
-    """Return the phases, cached by everything on which they depend; the exposure time is not."""
+    """Return the phases, cached by all on which they depend, which excludes the exposure time."""
     start = (Fraction(start_time) * rate + shift) % period
     phases = count_phases(start, _step(readout_time, rate, period), period, columns)
     phases.whole.flags.writeable = phases.fraction.flags.writeable = False
@@ -69,7 +69,7 @@ def _step(readout_time: float, rate: Fraction, period: int) -> Fraction:
 def lit_fraction(scene: Scene) -> FloatArray:
     """Return the mean light of each column's exposure, 1 being the panel fully lit; read-only.
 
-    Of chips it is the fraction of the exposure with the LED on, t_on / t.
+    For chips, it is the fraction of the exposure with the LED on, t_on / t.
     """
     camera = scene.camera
     return _lit_fraction(
@@ -85,7 +85,7 @@ def lit_fraction(scene: Scene) -> FloatArray:
 def _lit_fraction(
     light: Light, exposure_time: float, readout_time: float, columns: int, start_time: float
 ) -> FloatArray:
-    """Return the fraction, cached by everything on which it depends; the pose is not."""
+    """Return the fraction, cached by all on which it depends, which excludes the pose."""
     if isinstance(light, Cosine):
         lit = light.means(
             Fraction(start_time), Fraction(readout_time), columns, Fraction(exposure_time)
@@ -103,8 +103,8 @@ def _lit_fraction(
 
 def forget_exposures() -> None:
     """Clear the caches, so that the next exposure takes as long as the first."""
-    for kept in (_step, _column_starts, _lit_fraction):
-        kept.cache_clear()
+    for cached in (_step, _column_starts, _lit_fraction):
+        cached.cache_clear()
     forget_steps()
     forget_lights()
 
@@ -112,12 +112,12 @@ def forget_exposures() -> None:
 def on_time(scene: Scene) -> FloatArray:
     """Return how long the LED is on during each column's exposure, t_on(i).
 
-    Of a light of several levels it is the integral of the light: seconds times level, 1 being fully
-    lit. A lamp on the mains exceeds its mean, 1, in part of each cycle.
+    For a light of several levels, it is the integral of the light: seconds times level, fully lit
+    being 1. A lamp on the mains exceeds its mean, 1, in part of each cycle.
 
     Returns
     -------
     ndarray of float64, shape (columns,)
-        Seconds, of chips from 0 to the exposure time; t_off is the rest of the exposure time.
+        Seconds, for chips from 0 to the exposure time; t_off is the rest of the exposure time.
     """
     return lit_fraction(scene) * scene.camera.exposure_time

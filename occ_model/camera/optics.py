@@ -18,16 +18,16 @@ class Gain:
     def cached(
         cls, stage: str, depends_on: tuple[Hashable, ...], at: Callable[[FloatArray, slice], Pixels]
     ) -> Self:
-        def recalled(rows: FloatArray, columns: slice) -> Pixels:
+        def recall_factors(rows: FloatArray, columns: slice) -> Pixels:
             place = (rows[0], rows[-1], len(rows), columns.start, columns.stop)
             return MEMORY.recall(
-                (stage, *depends_on, *place), lambda: at(rows, columns), lambda one: (one,)
+                (stage, *depends_on, *place), lambda: at(rows, columns), lambda factors: (factors,)
             )
 
-        return cls(stage, recalled)
+        return cls(stage, recall_factors)
 
 
-STAGE = "optics"  # the stage that gets the time of no effect in particular
+STAGE = "optics"  # the stage to which time counts that belongs to no effect
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -37,7 +37,7 @@ class Optics:
     blur: float = 0.0  # Standard deviation of the lens's blur in pixels
     emission: tuple[Gain, ...] = field(default=())
     transmission: tuple[Gain, ...] = field(default=())
-    # The stage that gets the time to compute the panel's coverage
+    # The stage to which the time to compute the panel's coverage counts
     cover_stage: str = STAGE
 
     @property

@@ -42,8 +42,8 @@ def pixel_value(
 
 def fast_power(values: FloatArray, power: float) -> FloatArray:
     """Return a power, faster than NumPy but with slightly different rounding."""
-    found: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
-    return found.reshape(values.shape)
+    powers: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
+    return powers.reshape(values.shape)
 
 
 def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:
@@ -173,8 +173,10 @@ def deviation(
     """
     electrons = electrons_of(values, scene)
     square = variance(electrons)
-    raised = np.sqrt(electrons * electrons + square)
-    slope = values_of(raised, scene) / np.maximum(scene.camera.gamma * raised, _SMALLEST_FLOAT)
+    effective_electrons = np.sqrt(electrons * electrons + square)
+    slope = values_of(effective_electrons, scene) / np.maximum(
+        scene.camera.gamma * effective_electrons, _SMALLEST_FLOAT
+    )
     headroom = np.maximum(saturation_value(scene) - values, 0.0)
     return np.minimum(slope * np.sqrt(square), headroom)
 

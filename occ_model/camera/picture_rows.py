@@ -77,9 +77,9 @@ class Rows:
     ) -> None:
         """Combine ``target`` in place with values given at the nodes and on the rims."""
         places = [rim.columns for rim in self.rims]
-        own = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
+        results = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
         operation(target, self._expand(nodes), out=target)
-        for at, values in zip(places, own, strict=True):
+        for at, values in zip(places, results, strict=True):
             target[:, at] = values
 
     def expand_rows(self) -> "Rows":
@@ -115,11 +115,11 @@ class _Panel:
         self, line: FloatArray, columns: slice, end_stage: Callable[[str], object]
     ) -> Pixels:
         """Return the light that the panel itself emits, shape (rows, columns) or (columns,)."""
-        own = self._light[columns]
+        light = self._light[columns]
         for gain in self._emission:
-            own = own * gain.at(line, columns)
+            light = light * gain.at(line, columns)
             end_stage(gain.stage)
-        return own
+        return light
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -160,8 +160,8 @@ class PictureRows:
         self._panels = [_Panel(panel, camera, dark) for panel in panels]
         self._cover_stage = optics[0].cover_stage
         self._transmission: tuple[Gain, ...] = optics[0].transmission
-        self._is_plain = all(own.is_plain for own in optics)
-        self._is_even = not (self._transmission or any(own.emission for own in optics))
+        self._is_plain = all(each.is_plain for each in optics)
+        self._is_even = not (self._transmission or any(each.emission for each in optics))
         self._last_common_row: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
 
     def of(self, rows: range, end_stage: Callable[[str], object] = lambda _stage: None) -> Rows:
@@ -177,15 +177,15 @@ class PictureRows:
         ]
         end_stage(self._cover_stage)
         shared = self._find_shared_columns(lit)
-        alone = [piece for one in lit for piece in _cut_shared(one, shared)] if shared else lit
-        inside = [(one.panel, one.columns) for one in alone if one.fraction is None]
+        unshared = [cut for piece in lit for cut in _cut_shared(piece, shared)] if shared else lit
+        inside = [(piece.panel, piece.columns) for piece in unshared if piece.fraction is None]
         rims = [
-            self._compute_rim(rows, one.columns, [one], end_stage)
-            for one in alone
-            if one.fraction is not None
+            self._compute_rim(rows, piece.columns, [piece], end_stage)
+            for piece in unshared
+            if piece.fraction is not None
         ]
         rims += [
-            self._compute_rim(rows, columns, [one.crop(columns) for one in lit], end_stage)
+            self._compute_rim(rows, columns, [piece.crop(columns) for piece in lit], end_stage)
             for columns in shared
         ]
         nodes, weights = self._compute_nodes(rows, inside, end_stage)
@@ -196,11 +196,11 @@ class PictureRows:
         if len(self._panels) == 1:
             return []
         steps = np.zeros(self._columns + 1, dtype=np.int64)
-        for one in lit:
-            steps[one.columns.start] += 1
-            steps[one.columns.stop] -= 1
-        several = (np.cumsum(steps) > 1).astype(np.int8)
-        ends: IndexArray = np.flatnonzero(np.diff(several, prepend=0))
+        for piece in lit:
+            steps[piece.columns.start] += 1
+            steps[piece.columns.stop] -= 1
+        is_shared = (np.cumsum(steps) > 1).astype(np.int8)
+        ends: IndexArray = np.flatnonzero(np.diff(is_shared, prepend=0))
         return [slice(start, stop) for start, stop in ends.reshape(-1, 2).tolist()]
 
     def _compute_rim(
@@ -211,21 +211,22 @@ class PictureRows:
         end_stage: Callable[[str], object],
     ) -> Rim:
         if self._is_plain and len(lit) == 1 and lit[0].fraction is not None:
-            shown = lit[0].fraction >= np.float32(0.5)
+            is_panel = lit[0].fraction >= np.float32(0.5)
             panel, around = lit[0].panel.values[:, columns], self._surroundings[:, columns]
-            return Rim(columns, np.where(shown, panel, around), shown)
+            return Rim(columns, np.where(is_panel, panel, around), is_panel)
         line = np.asarray(rows, dtype=np.float64)
         shape = len(rows), columns.stop - columns.start
-        light, shown = np.zeros(shape, dtype=np.float32), np.zeros(shape, dtype=np.bool_)
-        for one in lit:
-            if one.columns.stop <= one.columns.start:
+        light, is_panel = np.zeros(shape, dtype=np.float32), np.zeros(shape, dtype=np.bool_)
+        for piece in lit:
+            if piece.columns.stop <= piece.columns.start:
                 continue
-            fraction = np.ones(1, dtype=np.float32) if one.fraction is None else one.fraction
-            own = np.s_[:, one.columns.start - columns.start : one.columns.stop - columns.start]
-            light[own] += fraction * one.panel.emitted_light(line, one.columns, end_stage)
-            shown[own] |= fraction >= np.float32(0.5)
+            fraction = np.ones(1, dtype=np.float32) if piece.fraction is None else piece.fraction
+            start, stop = piece.columns.start - columns.start, piece.columns.stop - columns.start
+            part = np.s_[:, start:stop]
+            light[part] += fraction * piece.panel.emitted_light(line, piece.columns, end_stage)
+            is_panel[part] |= fraction >= np.float32(0.5)
         light += self._around[columns]
-        return Rim(columns, self._encode(light, line, columns, end_stage), shown)
+        return Rim(columns, self._encode(light, line, columns, end_stage), is_panel)
 
     def _compute_nodes(
         self,

@@ -42,8 +42,8 @@ def _corner_rays(pose: Pose, width: float, height: float) -> FloatArray:
     """Return the rays (x, y) to the panel's corners, in focal lengths, shape (4, 2)."""
     x, y = width / 2, height / 2
     corners = np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])
-    placed = corners @ rotation_of(pose).T + [pose.offset_x, pose.offset_y, pose.distance]
-    nearest = float(placed[:, 2].min())
+    points = corners @ rotation_of(pose).T + [pose.offset_x, pose.offset_y, pose.distance]
+    nearest = float(points[:, 2].min())
     if nearest <= pose.distance * _MIN_RELATIVE_DEPTH:
         place = f"{METRE.format(-nearest)} behind" if nearest < 0.0 else "beside"
         raise ProjectionError(
@@ -51,7 +51,7 @@ def _corner_rays(pose: Pose, width: float, height: float) -> FloatArray:
             f"is {place} the camera; move it away or turn it back.",
             parameters=("distance", "yaw", "pitch"),
         )
-    return np.asarray(placed[:, :2] / placed[:, 2:])
+    return np.asarray(points[:, :2] / points[:, 2:])
 
 
 def image_points(rays: FloatArray, camera: Camera) -> FloatArray:

@@ -28,8 +28,8 @@ def node_rows(rows: range) -> FloatArray:
 @lru_cache(maxsize=16)
 def row_weights(rows: int) -> Pixels:
     """Return the weights from a band's nodes to its rows, shape (rows, nodes)."""
-    found = chebvander(np.linspace(-1.0, 1.0, rows), NODES - 1) @ _coefficients()
-    return np.asarray(found, dtype=np.float32)
+    weights = chebvander(np.linspace(-1.0, 1.0, rows), NODES - 1) @ _coefficients()
+    return np.asarray(weights, dtype=np.float32)
 
 
 def apply_weights(weights: Pixels, values: Pixels) -> Pixels:

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from numpy.typing import NDArray
 
-_Made = TypeVar("_Made")
+_Object = TypeVar("_Object")
 
 CAPACITY = 24 * 2**20  # most bytes in the cache: the rows of one large picture and of its draft
 
@@ -26,33 +26,33 @@ class RowMemory:
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
         self.limit, self._entries = limit, entries
         self._lock = Lock()
-        self.known: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
+        self.entries: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
         self.size = 0
 
     def recall(
         self,
         key: Hashable,
-        make: Callable[[], _Made],
-        arrays: Callable[[_Made], Iterable[NDArray[Any]]],
-    ) -> _Made:
+        make: Callable[[], _Object],
+        arrays: Callable[[_Object], Iterable[NDArray[Any]]],
+    ) -> _Object:
         """Return a cached object, or make it; its ``arrays`` become read-only."""
         with self._lock:
-            if key in self.known:
-                self.known.move_to_end(key)
-                found: _Made = self.known[key][0]
-                return found
-        made = make()
+            if key in self.entries:
+                self.entries.move_to_end(key)
+                cached_object: _Object = self.entries[key][0]
+                return cached_object
+        new_object = make()
         size = 0
-        for array in arrays(made):
+        for array in arrays(new_object):
             array.flags.writeable = False
             size += array.nbytes
         with self._lock:
-            if key not in self.known and size <= self.limit:
-                self.known[key] = made, size
+            if key not in self.entries and size <= self.limit:
+                self.entries[key] = new_object, size
                 self.size += size
-            while self.size > self.limit or len(self.known) > self._entries:
-                self.size -= self.known.popitem(last=False)[1][1]
-        return made
+            while self.size > self.limit or len(self.entries) > self._entries:
+                self.size -= self.entries.popitem(last=False)[1][1]
+        return new_object
 
 
 MEMORY = RowMemory(CAPACITY)  # the cache of this process

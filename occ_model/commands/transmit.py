@@ -54,7 +54,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _frequency_facts(transmission: Transmission) -> list[str]:
     facts = [" ".join(frequency_lines(transmission))]
-    if not transmission.is_as_asked:
+    if not transmission.is_exact:
         facts.append(f"{SCENE} has the frequency that is sent; match your photos with it.")
     return facts
 

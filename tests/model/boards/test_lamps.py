@@ -116,7 +116,7 @@ def test_a_lamp_that_was_sent_can_be_sent_exactly(
     first = lamp_of(board, frequency, duty)
     again = send(first.sent_scene, board)
     assert (again.timing.cycles, again.start_of(1)) == (first.timing.cycles, first.start_of(1))
-    assert again.is_as_asked
+    assert again.is_exact
 
 
 @every_board

@@ -39,7 +39,7 @@ def test_no_setting_of_the_timer_comes_nearer(board: TransmitterBoard, frequency
 def test_frequency_period_and_error_agree(board: TransmitterBoard, frequency: float) -> None:
     timing = choose_timing(board, frequency)
     assert timing.frequency * timing.period == 1
-    assert timing.frequency == timing.asked * (1 + timing.error_ppm / 10**6)
+    assert timing.frequency == timing.requested_frequency * (1 + timing.error_ppm / 10**6)
     assert timing.prescaler in board.prescalers
     assert 1 <= timing.count <= board.largest_count
 
@@ -53,7 +53,7 @@ def test_a_frequency_that_was_sent_can_be_sent_exactly(
     assert again.timing.cycles == first.timing.cycles
     # A float has only 16 digits of 1/3.
     assert abs(again.timing.error_ppm) < Fraction(1, 10**9)
-    assert again.is_as_asked
+    assert again.is_exact
     assert again.sent_scene == first.sent_scene
 
 

@@ -121,7 +121,7 @@ def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.Monkey
         moved = scene.replace(distance=1.0 + 0.01 * move)
         occ.render(moved, tolerance=0.0, noise="reused", rows_step=1 + 8 * (move % 5 > 0))
         assert MEMORY.size <= limit
-    held = sum(size for _, size in MEMORY.known.values())
+    held = sum(size for _, size in MEMORY.entries.values())
     assert held == MEMORY.size > limit / 2
 
 

@@ -78,13 +78,13 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
         raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")
     who = describe(group, name)
 
-    def check(offered: object) -> _Kind:
-        if not isinstance(offered, kind):
-            raise PluginError(f"{who} is a {type(offered).__name__}, not a {kind.__name__}.")
-        name_of_object = getattr(offered, "name", None)
+    def check(plugin: object) -> _Kind:
+        if not isinstance(plugin, kind):
+            raise PluginError(f"{who} is a {type(plugin).__name__}, not a {kind.__name__}.")
+        name_of_object = getattr(plugin, "name", None)
         if not isinstance(name_of_object, str) or name_of_object != name:
             raise PluginError(f"{who} calls itself {quote(name_of_object)}.")
-        return offered
+        return plugin
 
     return call(who, "be imported", check, entry.load)
 

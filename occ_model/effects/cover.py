@@ -33,9 +33,12 @@ def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
     along = np.roll(outline[:, axis], -int(np.argmin(outline[:, axis])))
     across = np.roll(outline[:, 1 - axis], -int(np.argmin(outline[:, axis])))
     turn = int(np.argmax(along))
-    near = np.maximum.accumulate(along[: turn + 1]), across[: turn + 1]
-    far_along, far = np.append(along[turn:], along[0])[::-1], np.append(across[turn:], across[0])
-    chains = (near, (np.maximum.accumulate(far_along), far[::-1]))
+    first_chain = np.maximum.accumulate(along[: turn + 1]), across[: turn + 1]
+    last_along, last_chain = (
+        np.append(along[turn:], along[0])[::-1],
+        np.append(across[turn:], across[0]),
+    )
+    chains = (first_chain, (np.maximum.accumulate(last_along), last_chain[::-1]))
     ends = [[np.interp(lines + step, *chain) for step in (0.0, -0.5, 0.5)] for chain in chains]
     if ends[0][0].sum() > ends[1][0].sum():
         ends.reverse()
@@ -48,18 +51,18 @@ def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
 def covers_of(
     columns: FloatArray,
     rows: FloatArray,
-    moved: Mapping[str, FloatArray],
+    outlines: Mapping[str, FloatArray],
     blurs: Mapping[str, float],
     plain: Optics,
 ) -> dict[frozenset[str], FloatArray | None]:
     """Return the panel's fraction of each pixel, for every subset of the effects on the outline."""
     covers: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
-    for names in subsets_of([*moved, *blurs]):
-        bending = next((name for name in moved if name in names), "")
+    for names in subsets_of([*outlines, *blurs]):
+        bending = next((name for name in outlines if name in names), "")
         blur = max((blurs[name] for name in blurs if name in names), default=0.0)
         if bending not in distances:
-            outline = moved.get(bending, plain.outline)
+            outline = outlines.get(bending, plain.outline)
             distances[bending] = _distances(
                 outline, columns, rows, max(blurs.values(), default=0.0)
             )

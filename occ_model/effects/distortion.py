@@ -225,7 +225,7 @@ def _slopes(rays: FloatArray, lens: Lens) -> tuple[FloatArray, FloatArray, Float
 def clip_polygon(polygon: FloatArray, window: FloatArray) -> FloatArray:
     """Clip a polygon by a convex window, whose corners (corners, 2) run counter-clockwise.
 
-    The part outside each edge of the window is removed in turn (I. E. Sutherland and G. W. Hodgman,
+    The parts outside the window's edges are removed one by one (I. E. Sutherland and G. W. Hodgman,
     "Reentrant polygon clipping", Comm. ACM 17, 1974).
     """
     for start, end in zip(window, np.roll(window, -1, axis=0), strict=True):

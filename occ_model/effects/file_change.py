@@ -157,9 +157,9 @@ class FileChange:
         a column's mean by what differs between blocks; and the largest further addition to the
         pixels if other coefficients differ a little from the sampled ones.
         """
-        moved = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
-        flips = np.sqrt(rounding_growth(moved).mean(axis=1))
-        size = np.sqrt((moved**2).mean(axis=1))
+        changes = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
+        flips = np.sqrt(rounding_growth(changes).mean(axis=1))
+        size = np.sqrt((changes**2).mean(axis=1))
         read_back = self._x + rounding_mean(self._x, self._s)
         shift = read_back - read_back[0]
         by_noise = rounding_growth_by_noise(flips[:, None, None] / self._step)[:, None]
@@ -261,8 +261,10 @@ class FileChange:
         variances = square_of_rounded_noise(spreads / q)
         # Coefficients of other vertical frequencies lie near 0, or anywhere if the rows differ; the
         # geometric mean is between the two.
-        near = np.sqrt(density_at_boundaries(self._noise / q))
-        most = near * ((own[:, None] / q) ** 2 + rounding_growth_by_noise(own[:, None] / q))
+        density_factor = np.sqrt(density_at_boundaries(self._noise / q))
+        most = density_factor * (
+            (own[:, None] / q) ** 2 + rounding_growth_by_noise(own[:, None] / q)
+        )
         across = np.minimum(variances[:-1] + variances[-1], most) @ q**2 / 64.0
         rims = self._growth_at_rims(own, self._white)
         part = self._rims * float(self._density_at_rims.mean())  # noise is not rounded away there

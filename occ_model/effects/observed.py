@@ -76,14 +76,14 @@ class SampledObservable:
 
     def largest_squares(self, sets: Sequence[frozenset[str]]) -> FloatArray:
         """Return upper bounds of the mean square changes without each set of effects."""
-        moved = [
+        places_of_sets = [
             [self._place[name] for name in left_out if name in self._place] for left_out in sets
         ]
-        squares = np.array([self._products[places, places].sum() for places in moved])
-        several = [at for at, places in enumerate(moved) if len(places) > 1]
-        if several:
-            changes = self._observe([self._names - sets[at] for at in several]) - self.complete
-            squares[several] = np.einsum("sv,sv->s", changes, changes)
+        squares = np.array([self._products[places, places].sum() for places in places_of_sets])
+        larger_sets = [at for at, places in enumerate(places_of_sets) if len(places) > 1]
+        if larger_sets:
+            changes = self._observe([self._names - sets[at] for at in larger_sets]) - self.complete
+            squares[larger_sets] = np.einsum("sv,sv->s", changes, changes)
         names = sorted(self._names)
         members = np.array([[float(name in left_out) for name in names] for left_out in sets])
         return self._add_allowances(names, members, squares)
@@ -95,8 +95,8 @@ class SampledObservable:
         """
         moving = [at for at, name in enumerate(names) if name in self._place]
         places = [self._place[names[at]] for at in moving]
-        moved = members[:, moving]
-        squares = ((moved @ self._products[np.ix_(places, places)]) * moved).sum(axis=1)
+        subset = members[:, moving]
+        squares = ((subset @ self._products[np.ix_(places, places)]) * subset).sum(axis=1)
         return self._add_allowances(names, members, squares)
 
     def _add_allowances(

@@ -66,15 +66,15 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
     fluctuations = sampling.fluctuations()
     observed.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
     region, contrast = pixels.view.region, float(np.ptp(observed.complete / weights))
-    jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
+    step_size = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
     doubt = unsampled_rim_square(pixels, contrast**2 / (region.rows**2 * region.columns))
     gain = min(contrast / pixels.view.swing, _MOST_GAIN)
     doubt += cut_block_square(pixels) * gain**2
     for name in pixels.sample.outline:  # a pixel of a rim is either enhanced or not
-        own = pixels.rims.count_moved_rims(name) * (part * jump / region.rows) ** 2
-        observed.doubt[name] = doubt + own + pixels.rims.upright_rim_error(name) * jump**2
+        own = pixels.rims.count_moved_rims(name) * (part * step_size / region.rows) ** 2
+        observed.doubt[name] = doubt + own + pixels.rims.upright_rim_error(name) * step_size**2
     for name, square in fluctuations.items():
         observed.add_doubt([name], square)
     _doubt_sharp_steps(pixels, observed)
@@ -106,8 +106,8 @@ def _doubt_sharp_steps(pixels: SampledPixels, observed: SampledObservable) -> No
     if pixels.file is None:
         curve = enhancement.curve.astype(np.float64)
         below = np.minimum(values, WHITE - 1.0).astype(np.int64)
-        near = np.abs(values - below - 0.5) < _ROUNDING_MARGIN
-        step = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
+        is_near = np.abs(values - below - 0.5) < _ROUNDING_MARGIN
+        step = np.where(is_near, curve[below + 1] - curve[below], 0.0) / 2.0
     else:
         error = np.full(values.size, math.sqrt(pixels.file.own_change))
         step = enhancement.moments(values.ravel(), error)[1].reshape(values.shape)
@@ -133,8 +133,8 @@ def _doubt_large_steps(pixels: SampledPixels, observed: SampledObservable) -> No
     middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
     noise = pixels.noise_at(pixels.names, profile)  # a saturated pixel has none
     squares = pixels.mean_of_rows((pixels.stack[1:] - pixels.complete_values) ** 2)
-    moved = np.sqrt(squares.max(axis=1)).tolist()
-    reach = max(2.0 * float(noise.max()), *moved, _ROUNDING_MARGIN)
+    changes = np.sqrt(squares.max(axis=1)).tolist()
+    reach = max(2.0 * float(noise.max()), *changes, _ROUNDING_MARGIN)
     close = (np.abs(profile - middles) < reach).any(axis=0)
     profile, weights, noise = profile[close], weights[close], noise[close]
     distance = np.abs(profile - middles)
@@ -154,10 +154,10 @@ def _doubt_large_steps(pixels: SampledPixels, observed: SampledObservable) -> No
         chance = np.sqrt(own / (rest + own)) / 3.0 / region.rows
         fraction = np.sqrt((own / rest / 8.0) ** 2 + chance)
         add_doubt(effect.name, np.maximum(2.0 * noise, _ROUNDING_MARGIN), fraction)
-    least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
-    for name, own in zip(pixels.moving, moved, strict=True):
-        add_doubt(name, max(own, _ROUNDING_MARGIN), 0.4 * own / least)
-        if least.min() < LEAST_SMOOTHING_NOISE:  # each column then crosses a step as a whole
+    spreads = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
+    for name, own in zip(pixels.moving, changes, strict=True):
+        add_doubt(name, max(own, _ROUNDING_MARGIN), 0.4 * own / spreads)
+        if spreads.min() < LEAST_SMOOTHING_NOISE:  # each column then crosses a step as a whole
             error = observed.sampling_error(name, region.columns)
             observed.add_doubt([name], SURE_DEVIATIONS * error)
 

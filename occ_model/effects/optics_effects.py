@@ -41,8 +41,8 @@ class Emission(OpticsEffect):
             cosines = np.abs(_cosine(normal, across[:, columns], y)).astype(np.float32)
             return np.asarray(cv2.pow(np.minimum(cosines, np.float32(1.0)), power))
 
-        own = Gain.cached(self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain)
-        return replace(optics, emission=(*optics.emission, own))
+        factor = Gain.cached(self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain)
+        return replace(optics, emission=(*optics.emission, factor))
 
 
 def _normal(scene: Scene) -> FloatArray:
@@ -81,8 +81,8 @@ class Vignetting(OpticsEffect):
             _, y = pixel_rays(scene.camera, rows)
             return np.asarray(cv2.pow(across[:, columns] + y * y, power), dtype=np.float32)
 
-        own = Gain.cached(self.name, (power, *geometry_of(scene.camera)), gain)
-        return replace(optics, transmission=(*optics.transmission, own))
+        factor = Gain.cached(self.name, (power, *geometry_of(scene.camera)), gain)
+        return replace(optics, transmission=(*optics.transmission, factor))
 
 
 _LARGEST_SPREAD = 1e12

@@ -146,10 +146,10 @@ def signal_plan(
     If pixels are simulated, the plan includes the effects that the signal of any picture needs. If
     not, simulating all effects takes less time than estimating what they change.
     """
-    own = replace(settings, observable="signal").check(NAMES)
-    complete = complete_plan(scenes[0], own)
-    if needs_pixels or "image" in complete.kinds or own.tolerance == math.inf:
-        return plan_of_any([paper_view_of(scene) for scene in scenes], own)
+    signal_settings = replace(settings, observable="signal").check(NAMES)
+    complete = complete_plan(scenes[0], signal_settings)
+    if needs_pixels or "image" in complete.kinds or signal_settings.tolerance == math.inf:
+        return plan_of_any([paper_view_of(scene) for scene in scenes], signal_settings)
     return complete
 
 
@@ -161,11 +161,11 @@ def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Pla
     for view in views[1:]:
         if present <= set(chosen.included):
             break  # no other picture can need more
-        other = plan_of(view, settings)
-        pairs = zip(chosen.decisions, other.decisions, strict=True)
+        other_plan = plan_of(view, settings)
+        pairs = zip(chosen.decisions, other_plan.decisions, strict=True)
         decisions = tuple(max(pair, key=lambda d: (d.included, d.estimate)) for pair in pairs)
         left_out, error = (max(pair) for pair in (
-            (chosen.left_out, other.left_out), (chosen.error, other.error),
+            (chosen.left_out, other_plan.left_out), (chosen.error, other_plan.error),
         ))  # fmt: skip
         chosen = replace(chosen, decisions=decisions, left_out=left_out, error=error)
     return chosen

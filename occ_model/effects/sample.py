@@ -101,8 +101,10 @@ def choose_sample(
     ``optics`` holds the optics with each effect alone, ``plain`` those without any. With
     ``in_blocks``, the columns are whole blocks of a file.
     """
-    moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
-    blurs = {name: own.blur for name, own in optics.items() if own.blur > NEGLIGIBLE_BLUR}
+    moved_outlines = {
+        name: lens.outline for name, lens in optics.items() if lens.outline is not plain.outline
+    }
+    blurs = {name: lens.blur for name, lens in optics.items() if lens.blur > NEGLIGIBLE_BLUR}
     few = region.columns <= _ALL_COLUMNS
     step = 1 if few else -(-region.columns // COLUMNS)
     main = np.arange(region.first_column + step // 2, region.last_column, step)
@@ -116,28 +118,28 @@ def choose_sample(
         columns = (starts[:, None] + np.arange(8.0)).ravel()
     covers: dict[frozenset[str], FloatArray | None]
     weights = np.full(len(columns), 1.0 / len(columns))
-    outlines = [plain.outline, *moved.values()]
+    outlines = [plain.outline, *moved_outlines.values()]
     blur = max(blurs.values(), default=0.0)
     if (outlines[1:] or blur) and not few:
         columns, weights = _add_side_columns(columns, region, outlines, blur)
     is_covered = _is_covered(region, outlines, blur)
-    if is_covered or (level and not (moved or blur)):
+    if is_covered or (level and not (moved_outlines or blur)):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
         first = 0
-        covers = dict.fromkeys(subsets_of([*moved, *blurs]))
+        covers = dict.fromkeys(subsets_of([*moved_outlines, *blurs]))
     else:
         spans = [spans_of(outline, columns, 0) for outline in outlines]
-        rows, row_weights, first = _choose_rows(region, spans, bool(moved or blur), blur)
-        covers = covers_of(columns, rows, moved, blurs, plain)
+        rows, row_weights, first = _choose_rows(region, spans, bool(moved_outlines or blur), blur)
+        covers = covers_of(columns, rows, moved_outlines, blurs, plain)
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
     nearest = np.clip((places - along.start + step // 2) // step, 0, len(main) - 1)
     gains = {
-        name: _gain_at_sample(own.emission or own.transmission, rows, along, nearest, region)
-        for name, own in optics.items()
-        if own.emission or own.transmission
+        name: _gain_at_sample(lens.emission or lens.transmission, rows, along, nearest, region)
+        for name, lens in optics.items()
+        if lens.emission or lens.transmission
     }
     return PixelSample(
         columns=places,
@@ -210,18 +212,18 @@ def _choose_rows(
         places = pixel_boundary(np.stack([getattr(span, side) for span in spans]))
         slopes = np.stack([getattr(span, side + "_slope") for span in spans]).max(axis=0)
         reach = np.ceil(_REACH * blur * np.sqrt(1.0 + np.minimum(slopes, 1e3) ** 2))
-        least, most = places.min(axis=0), places.max(axis=0)
-        edges += [least - reach, least, most, most + reach] if blur else [least, most]
+        upper, lower = places.min(axis=0), places.max(axis=0)
+        edges += [upper - reach, upper, lower, lower + reach] if blur else [upper, lower]
     half = len(edges) // 2
     middle = np.clip(np.floor((edges[0] + edges[-1]) / 2.0) + 0.5, low, high)
     ends = [np.full(len(middle), low)]
     ends += [np.clip(edge, low, middle) for edge in edges[:half]]
     ends += [np.clip(edge, middle, high) for edge in edges[half:]]
     ends += [np.full(len(middle), high)]
-    moved = _even_nodes(_MOVED_NODES if rims else 0)
-    across = [_even_nodes(_BLURRED_NODES), moved, _even_nodes(_BLURRED_NODES)] if blur else [moved]
-    beside = _even_nodes(_BESIDE_NODES)
-    parts = [beside, *across, (_GAUSS, _GAUSS_WEIGHTS), *across, beside]
+    rim = _even_nodes(_MOVED_NODES if rims else 0)
+    across = [_even_nodes(_BLURRED_NODES), rim, _even_nodes(_BLURRED_NODES)] if blur else [rim]
+    outer_nodes = _even_nodes(_BESIDE_NODES)
+    parts = [outer_nodes, *across, (_GAUSS, _GAUSS_WEIGHTS), *across, outer_nodes]
     rows, weights = [], []
     for (nodes, fractions), start, end in zip(parts, ends[:-1], ends[1:], strict=True):
         length = (end - start)[:, None]
@@ -256,9 +258,10 @@ def _gain_at_sample(
     fraction = place - below
     product: FloatArray = np.ones(rows.shape)
     for gain in gains:
-        at = np.asarray(gain.at(lines, along), dtype=np.float64)[:, nearest]
+        sampled_gain = np.asarray(gain.at(lines, along), dtype=np.float64)[:, nearest]
         column = np.arange(len(nearest))[:, None]
         product = product * (
-            at[below, column] * (1.0 - fraction) + at[below + 1, column] * fraction
+            sampled_gain[below, column] * (1.0 - fraction)
+            + sampled_gain[below + 1, column] * fraction
         )
     return product

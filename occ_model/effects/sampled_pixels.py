@@ -87,7 +87,7 @@ class SampledPixels:
             level = view.sides is not None and view.is_visible
             return choose_sample(view.region, level, optics, plain, bool(self.files))
 
-        return MEMORY.recall(key, make, lambda made: made.arrays)
+        return MEMORY.recall(key, make, lambda sample: sample.arrays)
 
     @cached_property
     def stack(self) -> FloatArray:
@@ -120,9 +120,9 @@ class SampledPixels:
         values = np.empty((len(sets), *sample.rows.shape))
         if any(cover is not None for cover in sample.covers.values()) or sample.emission:
             dark = luminance_of(surroundings_values(self.scene, light), camera)
-            own = (luminance_of(panel, camera) - dark)[places][:, :, None]
+            panel_light = (luminance_of(panel, camera) - dark)[places][:, :, None]
             dark = dark[places][:, :, None]
-            for included, pixel_values, of_panel in zip(sets, values, own, strict=True):
+            for included, pixel_values, of_panel in zip(sets, values, panel_light, strict=True):
                 cover = sample.covers[included & sample.outline]
                 pixel_values[:] = of_panel if cover is None else of_panel * cover
                 for name, gain in sample.emission.items():
@@ -239,8 +239,8 @@ class SampledPixels:
         """The mean square of each noise after the file, in pixels and in a column's mean."""
         if self.file is None or not self.variances:
             return {}
-        own = np.array(list(self._noise_squares.values()))
-        image, mean = self.file.noise_squares(np.sqrt(own), np.sqrt(own.sum() - own))
+        squares = np.array(list(self._noise_squares.values()))
+        image, mean = self.file.noise_squares(np.sqrt(squares), np.sqrt(squares.sum() - squares))
         pairs = zip(image.tolist(), mean.tolist(), strict=True)
         return dict(zip(self.variances, pairs, strict=True))
 

@@ -103,8 +103,8 @@ class FullWell(PixelEffect):
     def is_present(self, scene: Scene) -> bool:
         """Return whether any column can get more light than fills the well."""
         dark, bright = luminance_levels(scene)
-        most = bright + dark * scene.surroundings.flicker_depth
-        return min(float(pixel_value(most, scene.camera)), WHITE) > saturation_value(scene)
+        brightest = bright + dark * scene.surroundings.flicker_depth
+        return min(float(pixel_value(brightest, scene.camera)), WHITE) > saturation_value(scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
         full = np.asarray(saturation_value(scene), dtype=values.dtype)

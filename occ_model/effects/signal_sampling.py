@@ -37,10 +37,10 @@ class SignalSampling:
         self._gain = pixels.mean_of_columns(
             self._panel_means(self._even) + self._off_panel_fraction
         )
-        one = 1.0 / (self._rows**2 * pixels.view.region.columns)
-        self._pixel = pixels.mean_over_pixels(self._even + self._uneven) * one
+        pixel_weight = 1.0 / (self._rows**2 * pixels.view.region.columns)
+        self._pixel = pixels.mean_over_pixels(self._even + self._uneven) * pixel_weight
         # One pixel with another random value of its noise.
-        self._drawn = pixels.mean_over_pixels(self._even * spread**2) * one
+        self._drawn = pixels.mean_over_pixels(self._even * spread**2) * pixel_weight
         self._column_squares = {
             **self._noise_squares(),
             **self._file_squares(),
@@ -78,17 +78,17 @@ class SignalSampling:
         squares = {}
         for name, variance in pixels.variances.items():
             square_read_back, of_means = pixels.noise_read_back.get(name, (0.0, 0.0))
-            own = np.maximum(np.sqrt(variance), math.sqrt(square_read_back))
-            known = self._even * total if pixels.files else 0.0  # the file already rounds it
-            most = np.maximum(self._deviation**2 - known, 0.0)
-            part = self._even * np.tanh(4.8 * own) / 6.0 + self._uneven * 0.8 * own
+            deviation = np.maximum(np.sqrt(variance), math.sqrt(square_read_back))
+            known_square = self._even * total if pixels.files else 0.0  # the file already rounds it
+            largest = np.maximum(self._deviation**2 - known_square, 0.0)
+            part = self._even * np.tanh(4.8 * deviation) / 6.0 + self._uneven * 0.8 * deviation
             if not pixels.files:
-                part = part + self._even * own**2
-            part = np.where(own**2 > 0.7 * total, most, np.minimum(part, most))
+                part = part + self._even * deviation**2
+            part = np.where(deviation**2 > 0.7 * total, largest, np.minimum(part, largest))
             square = self._panel_means(part)
             if self._inside is not None and not pixels.files:
                 square = square + pixels.mean_of_rows(
-                    pixels.interpolate_at_pixels(own**2) * ~self._inside
+                    pixels.interpolate_at_pixels(deviation**2) * ~self._inside
                 )
             squares[name] = self._square_of_mean(square, of_means) + self._drawn
         return squares
@@ -107,8 +107,8 @@ class SignalSampling:
     def _rounding_square(self) -> FloatArray:
         """The mean square change of an enhanced pixel by a file's rounding."""
         file = self._pixels.file
-        moved = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
-        part = self._even / 6.0 + self._uneven * 0.8 * moved
+        change = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
+        part = self._even / 6.0 + self._uneven * 0.8 * change
         return self._panel_means(part) + self._off_panel_fraction / 6.0
 
     @property
@@ -121,7 +121,7 @@ class SignalSampling:
         pixels = self._pixels
         changes = np.abs(pixels.stack[1:] - pixels.complete_values)
         of_means: FloatArray = np.zeros(len(changes))
-        by_file = np.zeros((len(changes), 1, 1))  # Acts like noise, also where it is large
+        by_file = np.zeros((len(changes), 1, 1))  # Acts like noise, even if large
         if pixels.file is not None:
             added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.growth)
             by_file = np.maximum(added, 0.0)[:, None, None]

@@ -100,10 +100,10 @@ class SmoothedCurves:
             np.stack([self.curve(included) for included in sets]), values
         )
         tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
-        for included, own, mean in zip(sets, values, means, strict=True):
+        for included, set_values, mean in zip(sets, values, means, strict=True):
             noise = self.noise(included)
             if noise.least < tabulated:
-                flat = np.clip(own, 0.0, WHITE)
+                flat = np.clip(set_values, 0.0, WHITE)
                 with_file = self.files & included
                 own_noise = (
                     pixels.table.interpolate(noise.spread, flat)
@@ -134,8 +134,8 @@ def add_unsampled(
         return
 
     def add(name: str, values: FloatArray) -> None:
-        missed = float((values[1] - values[0]) ** 2 @ weights)
-        observed.independent[name] = observed.independent.get(name, 0.0) + max(missed, 0.0)
+        square = float((values[1] - values[0]) ** 2 @ weights)
+        observed.independent[name] = observed.independent.get(name, 0.0) + max(square, 0.0)
 
     for effect in (*pixels.lights, *pixels.limits, *pixels.lenses):
         profiles = _profiles(pixels, effect.name)
@@ -145,7 +145,7 @@ def add_unsampled(
         changed = profiles
         if curves is not None:  # first as if there were no noise
             pairs = zip(sets, profiles, strict=True)
-            levels = [pixels.columns.enhancement(included)(own) for included, own in pairs]
+            levels = [pixels.columns.enhancement(included)(profile) for included, profile in pairs]
             changed = np.array(levels, dtype=np.float64)
         squares = (changed[1] - changed[0]) ** 2
         if squares @ weights <= _MISSED_FRACTION * squares.mean():

@@ -47,7 +47,9 @@ def flicker_drawing(scene: Scene) -> Drawing:
             ("sine", eye.frequencies, eye.modulations),
         )
         for part, frequencies, modulations in parts:
-            limits = (np.where(np.isinf(each), np.nan, each) for each in risk_limits(frequencies))
+            limits = (
+                np.where(np.isinf(limit), np.nan, limit) for limit in risk_limits(frequencies)
+            )
             for row in np.stack([frequencies, modulations, *limits], axis=1).tolist():
                 yield part, *(None if value != value else value for value in row)
 

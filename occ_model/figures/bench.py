@@ -87,9 +87,11 @@ def _draw(
         for number, (label, curve) in enumerate(_group_curves(axis_points).items()):
             _draw_rates(rates, number, label, curve)
             _draw_bits(bits, number, curve, frames_a_second)
-        at, bounds_of_bits = bounds.most_bits[axis]
+        bound_places, bounds_of_bits = bounds.most_bits[axis]
         bits.plot(
-            at, [frames_a_second * bits_a_picture for bits_a_picture in bounds_of_bits], **_BOUND
+            bound_places,
+            [frames_a_second * bits_a_picture for bits_a_picture in bounds_of_bits],
+            **_BOUND,
         )
         rates.set_yscale("log")
         # The scale is linear below a bit a picture, to include 0.

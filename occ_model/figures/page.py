@@ -1,4 +1,4 @@
-"""Keep every text of a figure inside its page, whatever its length and language."""
+"""Keep texts of any length and language inside a figure's page."""
 
 import textwrap
 from collections.abc import Iterator

@@ -42,17 +42,17 @@ def light_of(transmitter: Transmitter) -> Light:
     sent = transmitter
     match sent.light:
         case "lamp":
-            return _blinking(sent.lamp_frequency, Fraction(sent.duty), sent.depth)
+            return _blinking_light(sent.lamp_frequency, Fraction(sent.duty), sent.depth)
         case "pulses":
             lit = Fraction(sent.pulse_length) * Fraction(sent.pulse_frequency)
-            return _blinking(sent.pulse_frequency, min(lit, Fraction(1)), 1.0)
+            return _blinking_light(sent.pulse_frequency, min(lit, Fraction(1)), 1.0)
         case "mains":
-            return _mains(sent.mains_frequency, sent.mains_depth)
+            return _mains_light(sent.mains_frequency, sent.mains_depth)
         case "waveform":
             if sent.waveform_file:
-                return _recorded(sent.waveform_file)
-            return _levels(sent.levels, sent.switching_frequency)
-    return _chips(sent_chips(sent).tobytes(), sent.switching_frequency)
+                return _recorded_light(sent.waveform_file)
+            return _light_of_levels(sent.levels, sent.switching_frequency)
+    return _light_of_chips(sent_chips(sent).tobytes(), sent.switching_frequency)
 
 
 def light_period(transmitter: Transmitter) -> Fraction:
@@ -78,7 +78,7 @@ def flicker_of(scene: Scene) -> Cosine:
 
 
 @lru_cache(maxsize=256)
-def _chips(chips: bytes, frequency: float) -> PiecewiseLight:
+def _light_of_chips(chips: bytes, frequency: float) -> PiecewiseLight:
     return PiecewiseLight(_waveform_of_chips(chips), Fraction(frequency))
 
 
@@ -88,7 +88,7 @@ def _waveform_of_chips(chips: bytes) -> Waveform:
 
 
 @lru_cache(maxsize=64)
-def _blinking(frequency: float, duty: Fraction, depth: float) -> PiecewiseLight:
+def _blinking_light(frequency: float, duty: Fraction, depth: float) -> PiecewiseLight:
     """Return light that is full for the first fraction ``duty`` of each cycle."""
     pieces = [(1.0, duty), (1.0 - depth, 1 - duty)]
     levels, lengths = zip(*((level, length) for level, length in pieces if length), strict=True)
@@ -98,22 +98,29 @@ def _blinking(frequency: float, duty: Fraction, depth: float) -> PiecewiseLight:
 
 
 @lru_cache(maxsize=8)
-def _levels(line: str, frequency: float) -> PiecewiseLight:
+def _light_of_levels(line: str, frequency: float) -> PiecewiseLight:
     return PiecewiseLight(Waveform(levels_of(line)), Fraction(frequency))
 
 
 @lru_cache(maxsize=4)
-def _recorded(samples: str) -> PiecewiseLight:
+def _recorded_light(samples: str) -> PiecewiseLight:
     seconds, levels = samples_of(samples)
     lengths = [Fraction(last) - Fraction(first) for first, last in pairwise(seconds)]
     return PiecewiseLight(Waveform(levels, lengths), len(levels) / sum(lengths, Fraction(0)))
 
 
 @lru_cache(maxsize=8)
-def _mains(frequency: float, depth: float) -> Cosine:
+def _mains_light(frequency: float, depth: float) -> Cosine:
     return Cosine(HARMONIC * frequency, depth)
 
 
 def forget_lights() -> None:
-    for function in (_chips, _waveform_of_chips, _blinking, _levels, _recorded, _mains):
+    for function in (
+        _light_of_chips,
+        _waveform_of_chips,
+        _blinking_light,
+        _light_of_levels,
+        _recorded_light,
+        _mains_light,
+    ):
         function.cache_clear()

@@ -189,12 +189,12 @@ class Scheduler:
 
     def _choose_run(self) -> Run | None:
         """Choose the run whose job goes next."""
-        ready = (
+        runs = (
             run
             for channel, run in self._runs.items()
             if run.waiting and (run.waiting[0].uninterruptible or channel not in self._pending)
         )
-        first = min(ready, key=lambda run: run.waiting[0].rank, default=None)
+        first = min(runs, key=lambda run: run.waiting[0].rank, default=None)
         if first is None:
             return None
         rank = first.waiting[0].rank

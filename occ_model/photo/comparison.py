@@ -86,8 +86,10 @@ def compare(
     height /= np.sqrt(np.mean(height**2))
     covered = simulated[first : last + 1]
     shapes = int(np.clip(_edges(photo) // _EDGES_PER_SHAPE, 1, MEAN_SHAPES))
-    (mean, deviation), (own, spread) = (trend_of(one, shapes) for one in (covered, photo))
-    flattened_photo = (photo - own) / spread
+    (mean, deviation), (photo_mean, photo_deviation) = (
+        trend_of(one, shapes) for one in (covered, photo)
+    )
+    flattened_photo = (photo - photo_mean) / photo_deviation
     correlation = 0.0
     if min(photo.std(), covered.std()) > _LEAST_DEVIATION:
         correlation = weighted_correlation(flattened_photo, (covered - mean) / deviation, height**2)

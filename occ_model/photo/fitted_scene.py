@@ -98,8 +98,10 @@ def make_match(
     scene = round_estimates(scene, uncertainties)
     if was_read and is_single_pulse(explanation.chips):
         # The stated duty is that of whole chips, so that its change in the fit is also an error.
-        least = min(runs_of(explanation.chips))  # an upper limit of that error
-        uncertainties["duty"] = min(math.hypot(*fit.longer), least) / len(explanation.chips)
+        shortest_pulse = min(runs_of(explanation.chips))  # an upper limit of that error
+        uncertainties["duty"] = min(math.hypot(*fit.longer), shortest_pulse) / len(
+            explanation.chips
+        )
     camera = scene.camera
     return Match(
         scene=scene,

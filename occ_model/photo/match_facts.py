@@ -66,7 +66,9 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
         texts["others"] = condition + others, ""
     texts |= _fit(match)
     facts = [Fact(key, label, *texts[key]) for key, label in LABELS.items() if key in texts]
-    alternatives = (_alternative(each, match.estimate, condition) for each in match.alternatives)
+    alternatives = (
+        _alternative(alternative, match.estimate, condition) for alternative in match.alternatives
+    )
     return (*facts, *(Fact("alternative", LABELS["alternative"], text) for text in alternatives))
 
 

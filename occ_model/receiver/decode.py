@@ -61,8 +61,8 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
             raise PluginError(
                 f"{who} gives code = {quote(code_of_result)} with bits that are {quote(code)}."
             )
-    sent = scene.transmitter.payload
-    payload = payload_of_bits(bits.tolist(), form_of(sent)) if sent else ""
+    sent_payload = scene.transmitter.payload
+    payload = payload_of_bits(bits.tolist(), form_of(sent_payload)) if sent_payload else ""
     payload_of_result: object = result.payload
     if not isinstance(payload_of_result, str) or payload_of_result not in ("", payload):
         raise PluginError(
@@ -186,13 +186,13 @@ def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
 
     A light that is no code is also a failure, as anything read from it was not sent.
     """
-    read = decoder_named(decoder).read
+    read_signal = decoder_named(decoder).read
     try:
         check_code(scene.transmitter)
     except ParameterError as refusal:
         return DecodeResult(decoder, signal=signal, failure=str(refusal))
     try:
-        result = read(signal, scene)
+        result = read_signal(signal, scene)
     except PluginError as fault:
         plugins.note_reading(decoder, str(fault))
         return DecodeResult(decoder, signal=signal, failure=str(fault))

@@ -88,17 +88,17 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
 
 def _explain_failure(edges: Edges) -> str:
     """Explain why edges give no chips: they are too few, too close, or on no lattice."""
-    together = edges.shortest_pair
+    pair = edges.shortest_pair
     if edges.count < LEAST_EDGES:
         return (
             f"{inflect(edges.count, 'edge')} of stripes are in view; at least {LEAST_EDGES} are "
             "needed; come closer, or raise the frequency."
         )
-    if together <= LEAST_PAIR:
-        shown, limit = distinct_texts(together, LEAST_PAIR)
+    if pair <= LEAST_PAIR:
+        length, limit = distinct_texts(pair, LEAST_PAIR)
         return (
-            f"the shortest bright and the shortest dark stripe have {shown} columns together; more "
-            f"than {limit} are needed; come closer, or lower the frequency."
+            f"the shortest bright and the shortest dark stripe have {length} columns together; "
+            f"more than {limit} are needed; come closer, or lower the frequency."
         )
     return (
         f"the {edges.count} edges of the stripes lie on no common lattice of chips; a shorter "
@@ -148,11 +148,13 @@ def align_bursts(edges: Edges) -> Edges:
     frequency = burst_lattice.frequency
     turns = [lattice_at(burst, frequency) for burst in bursts]
     first = 0.5 * (turns[0].rising + turns[0].falling)
-    moved = []
+    moved_bursts = []
     for burst, turn in zip(bursts, turns, strict=True):
         shift = (0.5 * (turn.rising + turn.falling) - first + 0.5) % 1.0 - 0.5
-        moved.append(Edges(burst.rising - shift / frequency, burst.falling - shift / frequency))
-    joined = Edges.join(moved)
+        moved_bursts.append(
+            Edges(burst.rising - shift / frequency, burst.falling - shift / frequency)
+        )
+    joined = Edges.join(moved_bursts)
     lattice = find_coarsest(joined)
     common_coherence = 0.0 if common_lattice is None else common_lattice.coherence
     least_coherence = max(

@@ -269,5 +269,5 @@ def _region_of(corners: Sequence[int]) -> Region | None:
 
 def part_of(photo: Photo, region: Region) -> Photo:
     """Cut a rectangle out of a photo; its pixels are views of the photo's, not copies."""
-    cut = replace(photo, samples=region.crop(photo.samples), image=region.crop(photo.image))
-    return replace(cut, profile=column_means(cut, 0, region.rows))
+    part = replace(photo, samples=region.crop(photo.samples), image=region.crop(photo.image))
+    return replace(part, profile=column_means(part, 0, region.rows))

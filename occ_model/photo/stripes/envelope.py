@@ -61,10 +61,10 @@ def trend_of(profile: FloatArray, polynomials: int) -> tuple[FloatArray, FloatAr
     return mean, np.sqrt(np.maximum(power, 1e-300))
 
 
-def weighted_correlation(one: FloatArray, other: FloatArray, weights: FloatArray) -> float:
+def weighted_correlation(first: FloatArray, second: FloatArray, weights: FloatArray) -> float:
     """Return the correlation of two profiles, from -1 to 1; 0 if one of them is constant."""
     weights = weights / weights.sum()
-    a, b = one - weights @ one, other - weights @ other
+    a, b = first - weights @ first, second - weights @ second
     energy = math.sqrt(float(weights @ a**2) * float(weights @ b**2))
     return float(weights @ (a * b)) / energy if energy > _LEAST_VARIANCE else 0.0
 

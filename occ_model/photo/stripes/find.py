@@ -64,8 +64,8 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
     """
     if isinstance(region, Lamp):
         return _stripes_between(photo, region.region, lamp_profile(photo, region))
-    whole = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
-    rectangle = whole if region is None else region_within(photo, region)
+    whole_photo = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
+    rectangle = whole_photo if region is None else region_within(photo, region)
     part = photo if region is None else part_of(photo, rectangle)
     try:
         stripes = _stripes_of(part)

@@ -33,17 +33,17 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene, settings = scene_of(options), simulation_settings_of(options)
-    measured = accuracy(scene, settings)
+    results = accuracy(scene, settings)
     if options.out:
-        make_folder(options.out)  # refuse a folder before minutes of work
+        make_folder(options.out)  # refuse a folder before minutes of measurement
     points = []
     with progress_bar(total=point_count(scene, settings), unit="point") as bar:
-        for point in measured:
+        for point in results:
             points.append(point)
             bar.write(_format_point(point), file=sys.stdout)
             bar.update()
     if options.out:
-        # matplotlib takes half a second to import, which only figures need.
+        # Only figures need Matplotlib, whose import takes half a second.
         from occ_model.figures.accuracy import write_accuracy_figure
 
         write_accuracy_figure(options.out, scene, settings, points)

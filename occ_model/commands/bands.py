@@ -31,7 +31,7 @@ def add_to(commands: Commands) -> None:
         parser, "--limit", 100.0 * NO_BARS_DEPTH, "depth below which there are no bars",
         metavar="PERCENT",
     )  # fmt: skip
-    lamps = _LAMPS.replace("%", "%%")  # as argparse wants it
+    lamps = _LAMPS.replace("%", "%%")  # because argparse formats help with %
     parser.add_argument("--lamp", metavar="TEXT", help=f"a lamp in place of a scene: {lamps}")
     parser.add_argument("--shutter", metavar="TIME", help="the shutter time of a camera: 1/100")
     parser.add_argument("--readout", metavar="TIME", help="the time from line to line: 12us")
@@ -41,15 +41,15 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     rows, scene = 0, scene_of(options)
     if options.lamp is not None:
-        light, rows = _lamp_of(options.lamp)
+        light, rows = _parse_lamp(options.lamp)
         scene = scene.replace(**light, illuminance=0.0)
     for name, text in (("exposure_time", options.shutter), ("readout_time", options.readout)):
         if text is not None:
             scene = scene.replace(**{name: quantity(name).parse(text)})
     knows_readout = options.lamp is None or options.readout is not None
-    of_scene = [] if options.lamp is not None else _scene_lines(scene, options.limit / 100.0)
+    scene_lines = [] if options.lamp is not None else _scene_lines(scene, options.limit / 100.0)
     answer = bars_answer(scene, knows_readout=knows_readout, rows=rows)
-    for line in (answer.sentence, *(f"  {detail}" for detail in answer.details), *of_scene):
+    for line in (answer.sentence, *(f"  {detail}" for detail in answer.details), *scene_lines):
         print(line)
     return 0
 
@@ -66,7 +66,7 @@ def _scene_lines(scene: Scene, limit: float) -> list[str]:
 _LAMPS = "240Hz 30%, mains 50Hz, or 60Hz 1/16 rows for a panel whose rows are lit in turn"
 
 
-def _lamp_of(text: str) -> tuple[dict[str, ParameterValue], int]:
+def _parse_lamp(text: str) -> tuple[dict[str, ParameterValue], int]:
     """Return the parameters of a lamp, and how many rows of it are lit in turn; 0: all at once."""
     words = re.sub(r"\s+(k?Hz|%)", r"\1", text).split()
     kinds = set(words) & {"mains", "rows"}
@@ -119,18 +119,18 @@ def _advice_lines(scene: Scene, advice: BandAdvice) -> list[str]:
         "Bars peak to peak, of the mean light:",
         "shutter speed  nominal   at the power of two nearby",
     ]
-    for each in advice.speeds:
-        best = max(each.at_nominal, each.at_real)
-        least = min(each.at_nominal, each.at_real)
-        verdict = "no bars" if best < advice.limit else ""
-        if not verdict and least < advice.limit:
+    for speed in advice.speeds:
+        largest = max(speed.at_nominal, speed.at_real)
+        smallest = min(speed.at_nominal, speed.at_real)
+        verdict = "no bars" if largest < advice.limit else ""
+        if not verdict and smallest < advice.limit:
             verdict = (
-                "no bars if the camera keeps the former"
-                if each.at_nominal == least
-                else ("no bars if the camera keeps the latter")
+                "no bars if the camera uses the nominal time"
+                if speed.at_nominal == smallest
+                else "no bars if the camera uses the power of two"
             )
-        depths = f"{format_depth(each.at_nominal):8}  {format_depth(each.at_real):8}"
-        row = f"{each.name:13}  {depths}  {verdict}"
+        depths = f"{format_depth(speed.at_nominal):8}  {format_depth(speed.at_real):8}"
+        row = f"{speed.name:13}  {depths}  {verdict}"
         lines.append(row.rstrip())
     return lines
 
@@ -140,9 +140,9 @@ def _format_range(unit: Unit, ends: tuple[float, float]) -> str:
 
 
 def _list_ranges(ranges: list[str], rest: float | None, unit: Unit) -> str:
-    shown = ranges[:_RANGES]
+    texts = ranges[:_RANGES]
     if len(ranges) > _RANGES:
-        shown.append(f"{len(ranges) - _RANGES} more")
+        texts.append(f"{len(ranges) - _RANGES} more")
     if rest is not None:
-        shown.append(f"all from {unit.format(rest, _DIGITS)}" if rest else "all")
-    return ", ".join(shown) or "none"
+        texts.append(f"all from {unit.format(rest, _DIGITS)}" if rest else "all")
+    return ", ".join(texts) or "none"

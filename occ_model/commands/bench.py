@@ -33,22 +33,22 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
         "bench", help="compare bit error rates against exposure and noise, or read a data set"
     )
-    own = _DEFAULT_REQUEST
-    for flag, field, kind, metavar, what, usual in (
-        ("--scheme", "schemes", str, "LINE_CODE[/FRAMING]", "", own.schemes[0]),
+    defaults = _DEFAULT_REQUEST
+    for flag, field, kind, metavar, meaning, default in (
+        ("--scheme", "schemes", str, "LINE_CODE[/FRAMING]", "", defaults.schemes[0]),
         ("--decoder", "decoders", decoder_name, "DECODER", "", "all"),
-        ("--exposure", "exposures", number, "SYMBOLS", "", _format_list(own.exposures)),
+        ("--exposure", "exposures", number, "SYMBOLS", "", _format_list(defaults.exposures)),
         ("--snr", "decibels", number, "DB", "the chips' variance over that of a row's noise; ",
-         _format_list(own.decibels)),
+         _format_list(defaults.decibels)),
     ):  # fmt: skip
         parser.add_argument(
             flag, dest=field, action="append", type=kind, metavar=metavar,
-            help=f"{what}may be repeated; default: {usual}",
+            help=f"{meaning}may be repeated; default: {default}",
         )  # fmt: skip
-    for field, (flag, metavar, what) in _NUMBERS.items():
-        add_option(parser, flag, getattr(own, field), what, dest=field, metavar=metavar)
+    for field, (flag, metavar, meaning) in _NUMBERS.items():
+        add_option(parser, flag, getattr(defaults, field), meaning, dest=field, metavar=metavar)
     add_option(parser, "--fps", FRAMES_A_SECOND, "pictures a second, one payload each")
-    add_option(parser, "--seed", own.seed)
+    add_option(parser, "--seed", defaults.seed)
     parser.add_argument(
         "--data", type=Path, metavar="CSV",
         help="the table of a data set, whose pictures are read instead",
@@ -75,7 +75,7 @@ def _run(options: argparse.Namespace) -> int:
     check_bench(request)
     check_frame_rate(bench_scene(request, request.schemes[0]), options.fps)
     if options.out is not None:
-        make_folder(options.out)  # refuse a folder before minutes of work
+        make_folder(options.out)  # refuse a folder before minutes of measurement
     with progress_bar(total=len(request.points), unit=" points", leave=False, delay=0.5) as bar:
         points = bench(request, lambda done, _all: bar.update(done - bar.n))
     for line in _table_lines(points, options.fps):

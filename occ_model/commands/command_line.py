@@ -22,7 +22,7 @@ _MODULES = {  # the module of each command
 
 
 def make_parser(command: str | None = None) -> Parser:
-    """Make the parser of one command, or of all commands if there is no such one."""
+    """Make the parser of one command, or of all commands if there is none of this name."""
     parser = Parser(
         prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
     )

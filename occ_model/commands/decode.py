@@ -72,10 +72,10 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     check_code(scene.transmitter, instead="match its picture")
-    percent, most = options.readout_tolerance, 100.0 * MOST_READOUT_TOLERANCE
-    if not 0.0 < percent <= most:
+    percent, largest = options.readout_tolerance, 100.0 * MOST_READOUT_TOLERANCE
+    if not 0.0 < percent <= largest:
         raise ParameterError.of(
-            "--readout-tolerance", f"{percent:g} %", f"above 0 % up to {most:g} %"
+            "--readout-tolerance", f"{percent:g} %", f"above 0 % up to {largest:g} %"
         )
     if options.follow or is_film(options.file):
         return read_film(options, scene)
@@ -88,12 +88,12 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _remarks(result: DecodeResult, image: ByteArray, scene: Scene) -> list[str]:
-    """State why nothing was read, and if the picture is overexposed (first if that is why)."""
+    """State why nothing was read, and overexposure, which comes first if it is the cause."""
     failure = [] if result.failure is None else [result.failure]
     if result.region is None:
         return failure
     white = white_fraction(image, result.region, is_enhanced=scene.model.enhancement != "none")
-    # A picture need not be the scene's; only what it shows is known.
+    # The picture need not be of this scene; only its own pixels are certain.
     cause = cause_of(scene, result.decoder) if failure and white != 0.0 else None
     if cause is not None and cause.is_overexposed:
         return [str(cause), *failure]
@@ -143,9 +143,9 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
     video = load_video(options.file, options.scan_axis, channel=_film_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
-        def report_progress(known: FilmProgress) -> None:
+        def report_progress(progress: FilmProgress) -> None:
             if options.follow:
-                print(_format_progress(known), flush=True)
+                print(_format_progress(progress), flush=True)
             else:
                 bar.update()
 
@@ -182,15 +182,15 @@ def _film_channel(name: str) -> str:
     return name
 
 
-def _format_progress(known: FilmProgress) -> str:
+def _format_progress(progress: FilmProgress) -> str:
     """Describe what is known after a frame in one line."""
-    frame = known.frame
+    frame = progress.frame
     chips = inflect(len(frame.chips), "chip")
-    what = frame.failure or f"{chips}, starting with chip {frame.place} of the packet"
-    payload = f"  {known.payload}" if known.payload else ""
+    result = frame.failure or f"{chips}, starting with chip {frame.place} of the packet"
+    payload = f"  {progress.payload}" if progress.payload else ""
     return (
-        f"frame {frame.index:5d}  {SECOND.format(frame.time):>10}  {100.0 * known.known:3.0f} %"
-        f"{payload}  ({what})"
+        f"frame {frame.index:5d}  {SECOND.format(frame.time):>10}  {100.0 * progress.known:3.0f} %"
+        f"{payload}  ({result})"
     )
 
 

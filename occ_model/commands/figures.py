@@ -46,7 +46,7 @@ def _run(options: argparse.Namespace) -> int:
     check_count("images", options.images, 1, MOST_IMAGES)
     check_seed(options.seed)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
-    # matplotlib takes half a second to import, which only figures need.
+    # Only figures need Matplotlib, whose import takes half a second.
     from occ_model.figures.drawing import house_style
 
     photos = [
@@ -86,9 +86,9 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
 
 
 def _continue_bar(bar: Any) -> Progress:
-    """Return a callback that advances a bar from where it is, by one sweep."""
-    before = bar.n
-    return lambda done, _total, _left: bar.update(before + done - bar.n)
+    """Return a callback that advances a bar by the points of one sweep."""
+    start = bar.n
+    return lambda done, _total, _left: bar.update(start + done - bar.n)
 
 
 def _requests(options: argparse.Namespace) -> dict[str, SweepRequest]:
@@ -106,12 +106,12 @@ def _rates_file(options: argparse.Namespace, preset: str) -> Path:
 
 
 def detection_sentence(preset: str, table: SweepTable) -> str:
-    last, unread = find_detection_limit(table, PAPER_DECODER)
-    if unread is None:
+    last, first_unread = find_detection_limit(table, PAPER_DECODER)
+    if first_unread is None:
         return f"{preset}: read up to the highest frequency tried"
     if last is None:
         return f"{preset}: read at none of the frequencies tried"
     return (
         f"{preset}: of the frequencies tried, {HERTZ.format(last)} is the last that is read at "
-        f"some distance, {HERTZ.format(unread)} the first at none"
+        f"some distance, {HERTZ.format(first_unread)} the first at none"
     )

@@ -62,8 +62,8 @@ def check_files(options: argparse.Namespace) -> None:
     """
     inputs, outputs = list(_list_inputs(options)), list(_list_outputs(options))
     for place, (name, path) in enumerate(outputs):
-        for other, read in inputs:
-            if is_same_file(path, read):
+        for other, input_path in inputs:
+            if is_same_file(path, input_path):
                 raise OutputError(
                     f"{name} is {one_line(str(path))}, the same file as {other}; name another file "
                     "to write to."
@@ -84,24 +84,24 @@ def _check_endings(options: argparse.Namespace) -> None:
 
 
 def _list_inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
-    named = vars(options)
+    values = vars(options)
     for option, name in INPUTS.items():
-        paths = named.get(option)
+        paths = values.get(option)
         if paths is not None:
             yield from ((name, path) for path in (paths if isinstance(paths, list) else [paths]))
-    if named.get("preset") is not None and named.get("scene") is None:
+    if values.get("preset") is not None and values.get("scene") is None:
         yield "the file of --preset", user_folder() / f"{options.preset}.toml"
 
 
 def _list_outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
-    named = vars(options)
+    values = vars(options)
     for option, name in OUTPUTS.items():
-        path: Path | None = named.get(option)
+        path: Path | None = values.get(option)
         if path is None:
             continue
         written = _outputs_of(options, option)
         if written.names:
-            yield from ((f"{name}, where {each} goes,", path / each) for each in written.names)
+            yield from ((f"{name}, where {file} goes,", path / file) for file in written.names)
         else:
             yield name, path
 
@@ -124,9 +124,9 @@ def is_same_file(path: Path, other: Path) -> bool:
         return False
     if path == other:
         return True
-    alike = path.name.casefold() == other.name.casefold()
+    is_same_name = path.name.casefold() == other.name.casefold()
     return (
-        alike
+        is_same_name
         and _is_same_folder(path.parent, other.parent)
         and (path.name == other.name or ignores_case(path.parent))
     )
@@ -142,10 +142,10 @@ def _is_same_folder(folder: Path, other: Path) -> bool:
 def ignores_case(folder: Path) -> bool:
     """Find out whether names in a folder that differ only in case are the same file."""
     try:
-        inside = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]
+        cased_paths = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]
     except OSError:
-        inside = []
-    for path in (*inside, folder, *folder.parents):
+        cased_paths = []
+    for path in (*cased_paths, folder, *folder.parents):
         if path.name != path.name.swapcase():
             try:
                 return path.samefile(path.with_name(path.name.swapcase()))

@@ -36,12 +36,12 @@ def add_to(commands: Commands) -> None:
     add_simulation_options(parser)
     add_option(parser, "--frames", _FRAMES, metavar="N")
     for declared in DECLARED:
-        usual = declared.format(declared.default)
+        default = declared.format(declared.default)
         parser.add_argument(
             f"--{declared.name.replace('_', '-')}",
-            default=usual,
+            default=default,
             metavar="VALUE",
-            help=f"{declared.meaning.rstrip('.').lower()}; default: {usual}",
+            help=f"{declared.meaning.rstrip('.').lower()}; default: {default}",
         )
     parser.add_argument(
         "--exposures",
@@ -124,9 +124,9 @@ def _parse_waypoint(text: str) -> Waypoint:
 
 def _describe_loss(film: Video, path: Path) -> str:
     """Describe the loss by a codec in the first frame."""
-    written = load_video(path, "columns").frame(0).image
-    rows, columns = written.shape
-    error = written.astype(np.float64) - film.frame(0).image[:rows, :columns]
+    decoded = load_video(path, "columns").frame(0).image
+    rows, columns = decoded.shape
+    error = decoded.astype(np.float64) - film.frame(0).image[:rows, :columns]
     pixels = np.sqrt(np.mean(error**2))
     means = np.sqrt(np.mean(np.mean(error, axis=0) ** 2))
     return (
@@ -150,7 +150,7 @@ def _add_animation(commands: Commands) -> None:
 
 
 def _animate(options: argparse.Namespace) -> int:
-    # matplotlib takes half a second to import.
+    # Importing Matplotlib takes half a second.
     from occ_model.figures.animation import write_animation
 
     scene = scene_of(options)
@@ -159,13 +159,13 @@ def _animate(options: argparse.Namespace) -> int:
         raise ParameterError(
             f"{name} cannot change in an animation; allowed: a parameter with a unit."
         )
-    run = [float(value) for value in values]
+    frame_values = [float(value) for value in values]
     if options.back:
-        run += run[-2:0:-1]
-    with progress_bar(total=len(run), unit="frame") as bar:
+        frame_values += frame_values[-2:0:-1]
+    with progress_bar(total=len(frame_values), unit="frame") as bar:
         write_animation(
-            options.out, scene, name, run, settings=simulation_settings_of(options),
+            options.out, scene, name, frame_values, settings=simulation_settings_of(options),
             rate=options.rate, decoder=options.decoder, progress=lambda _done: bar.update(),
         )  # fmt: skip
-    print(f"{one_line(str(options.out))}: {inflect(len(run), 'frame')}")
+    print(f"{one_line(str(options.out))}: {inflect(len(frame_values), 'frame')}")
     return 0

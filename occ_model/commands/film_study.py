@@ -55,7 +55,7 @@ def add_to(commands: Commands) -> None:
     add_option(parser, "--seed", 1)
     parser.add_argument(
         "--example", action="store_true",
-        help="measure the published example of CamComSim instead, beside counting and its own rule",
+        help="measure the published example of CamComSim beside counting and its own rule",
     )  # fmt: skip
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help="folder for the figure as PDF, PNG, SVG and CSV"
@@ -66,7 +66,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     request = _example_of(options) if options.example else _request_of(options)
     if options.out:
-        make_folder(options.out)  # refuse a folder before minutes of work
+        make_folder(options.out)  # refuse a folder before minutes of measurement
     points = []
     print("   frequency    gap   bits  packets  received  by counting  with repeats")
     with progress_bar(total=request.point_count * request.frames, unit="frame") as bar:
@@ -79,7 +79,7 @@ def _run(options: argparse.Namespace) -> int:
             "are received."
         )
     if options.out:
-        # matplotlib takes half a second to import, which only figures need.
+        # Only figures need Matplotlib, whose import takes half a second.
         from occ_model.figures.films import write_films_figure
 
         write_films_figure(options.out, request, points)
@@ -107,19 +107,19 @@ def _request_of(options: argparse.Namespace) -> FilmRequest:
     )
 
 
-def _parse_numbers(name: str, text: str, kind: type[Number], what: str) -> tuple[Number, ...]:
+def _parse_numbers(name: str, text: str, kind: type[Number], allowed: str) -> tuple[Number, ...]:
     numbers = []
     for part in text.split(","):
         try:
             numbers.append(kind(part))
         except ValueError:
-            raise ParameterError(f"{name} has {quote(part)}; allowed: {what}.") from None
+            raise ParameterError(f"{name} has {quote(part)}; allowed: {allowed}.") from None
     return tuple(numbers)
 
 
 def _format_point(point: FilmPoint) -> str:
-    wrong = "" if point.is_right else point.failure or "The payload is wrong."
-    note = "".join(f"  {text}" for text in (wrong, point.faults) if text)
+    failure = "" if point.is_right else point.failure or "The payload is wrong."
+    note = "".join(f"  {text}" for text in (failure, point.faults) if text)
     received, counted = 100.0 * point.reception, 100.0 * point.counted_reception
     return (
         f"{HERTZ.format(point.frequency):>12} {100.0 * point.gap:5.1f} % {point.bits:5d} "

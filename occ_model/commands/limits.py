@@ -85,11 +85,11 @@ def _run(options: argparse.Namespace) -> int:
         answers = limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show)
     for line in _heading_lines(scene, options):
         print(line)
-    for each in answers:
-        print(format_row(each, options.fps))
+    for limits in answers:
+        print(format_row(limits, options.fps))
     for line in sentences(answers, options.fps):
         print(line)
-    reads = any(each.highest_frequency and each.longest_exposure for each in answers)
+    reads = any(limits.highest_frequency and limits.longest_exposure for limits in answers)
     return 0 if reads else EXIT_FAILURE
 
 
@@ -118,8 +118,8 @@ def _align_cells(cells: Sequence[str]) -> str:
 def format_row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
     """Format the limits of a decoder as a line of the table."""
     cells = [found.decoder]
-    for each in (found.frequency, found.exposure):
-        cells += range_cells(each)
+    for working_range in (found.frequency, found.exposure):
+        cells += range_cells(working_range)
     return _align_cells([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
 
 
@@ -128,8 +128,8 @@ def range_cells(found: WorkingRange) -> tuple[str, str, str]:
     if found.lowest is None or found.highest is None:
         return "none", "none", ""
     first, *others = format_gaps(found) or ["no"]
-    more = f", {len(others)} more" if others else ""
-    return _end_text(found, found.lowest), _end_text(found, found.highest), first + more
+    remainder = f", {len(others)} more" if others else ""
+    return _end_text(found, found.lowest), _end_text(found, found.highest), first + remainder
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:
@@ -146,8 +146,8 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
             lines.append(
                 f"The {found.decoder} decoder does not read the scene as it is. {advice.cause}"
             )
-        for each in (found.frequency, found.exposure):
-            lines += _range_lines(found.decoder, each)
+        for working_range in (found.frequency, found.exposure):
+            lines += _range_lines(found.decoder, working_range)
         two_packets = advice.frequency.two_packets
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
@@ -209,15 +209,15 @@ def _search_most_bits(options: argparse.Namespace) -> int:
     print(
         f"At an exposure of {exposure} and {distance}, {inflect(options.fps, 'picture')} a second:"
     )
-    for one in found:
-        print(f"  {_describe_best(one)} {one.faults}".rstrip())
+    for result in found:
+        print(f"  {_describe_best(result)} {result.faults}".rstrip())
     null = HERTZ.format(theory.null_frequency(scene), 4)
     rows = HERTZ.format(2.0 * theory.row_rate_frequency(scene), 4)
     print(
         f"By theory an alternating pattern has no stripes at {null}, and above {rows} a chip is "
         "shorter than a column."
     )
-    return 0 if all(one.scene for one in found) else EXIT_FAILURE
+    return 0 if all(result.scene for result in found) else EXIT_FAILURE
 
 
 def _describe_best(found: MostBits) -> str:

@@ -39,7 +39,7 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--led-frequency",
         metavar="FREQUENCY",
-        help="what blinks is a lamp with so many cycles a second, such as 1kHz; short for "
+        help="a lamp with this frequency blinks, such as 1kHz; short for "
         "--set light=lamp --set lamp_frequency=1kHz",
     )
     parser.add_argument(
@@ -54,14 +54,14 @@ def add_to(commands: Commands) -> None:
     parser.add_argument("--fit-gamma", action="store_true", help="also estimate gamma")
     add_option(parser, "--scan-axis", SCAN_AXES[0], choices=SCAN_AXES)
     add_option(parser, "--channel", CHANNELS[0], choices=CHANNELS)
-    where = parser.add_mutually_exclusive_group()
-    where.add_argument(
+    area_options = parser.add_mutually_exclusive_group()
+    area_options.add_argument(
         "--region",
         metavar="R0:R1,C0:C1",
         help="search only rows R0 to before R1 and columns C0 to before C1; columns are the scan "
         "axis",
     )
-    where.add_argument(
+    area_options.add_argument(
         "--lamps", action="store_true", help="find every lamp and match each by itself"
     )
     parser.add_argument(
@@ -116,8 +116,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _check_options(options: argparse.Namespace) -> None:
     if options.out and (options.lamps or options.chips):
-        what = "--lamps" if options.lamps else "--chips"
-        raise ParameterError(f"--out is given with {what}; allowed: with a single match.")
+        option = "--lamps" if options.lamps else "--chips"
+        raise ParameterError(f"--out is given with {option}; allowed: with a single match.")
     if options.lamps and options.chips:
         raise ParameterError("--chips is given with --lamps; read each lamp with its --region.")
     if options.more and (options.lamps or options.region or options.chips):
@@ -130,7 +130,7 @@ def _check_options(options: argparse.Namespace) -> None:
 
 def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
     with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
-        matched = match_lamps(
+        lamp_matches = match_lamps(
             photo,
             scene,
             estimate=options.estimate,
@@ -138,12 +138,12 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
             fit_gamma=options.fit_gamma,
             progress=lambda fraction: bar.update(fraction - bar.n),
         )
-    if not matched:
+    if not lamp_matches:
         raise MatchError(
             "No lamp was found: no place is much brighter than the rest of the photo, and none has "
             "stripes with sharp edges. Without --lamps the stripes of the whole photo are matched."
         )
-    for number, (lamp, match) in enumerate(matched, 1):
+    for number, (lamp, match) in enumerate(lamp_matches, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):
             lines += _report_lines(
@@ -173,15 +173,15 @@ _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
 
 def parse_region(text: str) -> Region:
     """Parse the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1."""
-    found = _REGION.fullmatch(text.strip())
-    if found is None:
+    fields = _REGION.fullmatch(text.strip())
+    if fields is None:
         raise ParameterError.of(
             "--region",
             quote(text),
             "R0:R1,C0:C1, such as 100:800,0:1920: the first row, the row after the last, and the "
             "same for columns",
         )
-    return Region(*(int(number) for number in found.groups()))
+    return Region(*(int(number) for number in fields.groups()))
 
 
 def lamp_lines(number: int, lamp: Lamp) -> list[str]:
@@ -208,6 +208,6 @@ def chip_lines(reading: ChipReading) -> list[str]:
         f"{'chips in view':22}{len(reading.chips)}, between the first and the last edge",
         f"{'chip length':22}{reading.columns_per_chip:.3f} columns",
         f"{'first chip from':22}column {reading.start:.1f}",
-        f"{'all right with':22}a probability of {100.0 * reading.confidence:.0f} %",
+        f"{'certainty':22}{100.0 * reading.confidence:.0f} % that all chips are right",
         f"{'region':22}{reading.region}",
     ]

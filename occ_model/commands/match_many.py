@@ -54,18 +54,18 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     paths = [options.file, *options.more]
     jobs = usual_jobs() if options.jobs is None else options.jobs
     check_count("jobs", jobs, 1, MOST_JOBS)
-    own = _parse_known(paths, scene, options)
+    own_values = _parse_known(paths, scene, options)
     if options.out:
         check_replaceable(options.out)  # before minutes of work
-    table = _match_with_bar(paths, scene, own, options, jobs)
+    table = _match_with_bar(paths, scene, own_values, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
     is_assumed = table.rests_on_the_scene and not is_stated(table.known, options)
     known = assumption(*known_value(table.estimate, table.scene)) if is_assumed else ""
-    paste = stated_lines(table, known)
+    paste_lines = stated_lines(table, known)
     if options.out:
-        write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))
-    for line in [*_report_lines(table, known), *paste]:
+        write_whole(options.out, csv_text(table, paste_lines, known).encode("utf-8"))
+    for line in [*_report_lines(table, known), *paste_lines]:
         print(line)
     if options.out:
         print(f"{one_line(str(options.out))}: {inflect(len(table.rows), 'photo')}")
@@ -78,23 +78,23 @@ def _parse_known(paths: list[Path], scene: Scene, options: argparse.Namespace) -
     declared = quantity(known_parameter(options.estimate, scene.transmitter))
     for text in options.known:
         name, _, value = text.rpartition("=")
-        places = _find_photo(name, paths)
+        indices = _find_photo(name, paths)
         number = replace(declared, name=f"--known {one_line(name)}").parse(value)
-        if not known.keys().isdisjoint(places):
+        if not known.keys().isdisjoint(indices):
             raise ParameterError(
                 f"--known {one_line(name)} is given again, as {one_line(value)}; allowed: one "
                 "value for a photo."
             )
-        known |= dict.fromkeys(places, number)
+        known |= dict.fromkeys(indices, number)
     return known
 
 
 def _find_photo(name: str, paths: list[Path]) -> list[int]:
     """Return a photo's indices among those given, by its path or by its file name alone."""
     for names in ([str(path) for path in paths], [path.name for path in paths]):
-        places = [place for place, each in enumerate(names) if each == name]
-        if len({paths[place] for place in places}) == 1:
-            return places
+        indices = [index for index, each in enumerate(names) if each == name]
+        if len({paths[index] for index in indices}) == 1:
+            return indices
     raise ParameterError(
         f"--known {one_line(name) or '(nothing)'} is not exactly one of the photos; allowed: "
         f"PHOTO=VALUE with the path of one, such as {one_line(str(paths[0]))}=1kHz."
@@ -109,13 +109,13 @@ def _match_with_bar(
     jobs: int,
 ) -> PhotoTable | None:
     """Match photos with a progress bar; None after Ctrl-C."""
-    reached = 0
+    finished_count = 0
     try:
         with progress_bar(total=len(paths), unit="photo", leave=False) as bar:
 
             def progress(done: int, _total: int) -> None:
-                nonlocal reached
-                reached = done
+                nonlocal finished_count
+                finished_count = done
                 bar.update(done - bar.n)
 
             return match_photos(
@@ -133,7 +133,7 @@ def _match_with_bar(
     except KeyboardInterrupt:
         pass
     print(
-        f"occ-model: stopped after {reached} of {len(paths)} photos; nothing was written.",
+        f"occ-model: stopped after {finished_count} of {len(paths)} photos; nothing was written.",
         file=sys.stderr,
     )
     return None
@@ -145,11 +145,13 @@ def _report_lines(table: PhotoTable, known: str) -> list[str]:
     lines = [
         f"{_shorten(row.path.name, width):{width}}  {row.verdict:10}  {_estimates_text(row, name)}"
         + (f"  given: {quantity(table.known).format(row.given)}" if row.given is not None else "")
-        + ("  outlier" if table.is_outlier(place) else "")
+        + ("  outlier" if table.is_outlier(index) else "")
         + (f"  {row.note}" if row.note else "")
-        for place, row in enumerate(table.rows)
+        for index, row in enumerate(table.rows)
     ]
-    counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
+    counts = ", ".join(
+        f"{table.count(verdict)} {verdict}" for verdict in VERDICTS if table.count(verdict)
+    )
     lines += ["", f"{'photos':22}{len(table.rows)}: {counts}"]
     lines += _mean_lines(name, table.estimated, known)
     lines += _mean_lines("exposure_time", table.exposure_time, known)
@@ -172,16 +174,16 @@ def _estimates_text(row: PhotoRow, name: str) -> str:
     return f"{texts[0]:24}  {texts[1]:22}".rstrip()
 
 
-def _mean_lines(name: str, found: CombinedEstimate | None, known: str) -> list[str]:
-    if found is None:
+def _mean_lines(name: str, mean: CombinedEstimate | None, known: str) -> list[str]:
+    if mean is None:
         return []
-    text = f"{known}{_format_estimate(name, found.value, found.uncertainty)}, mean of {found.count}"
-    if found.count > 1:
-        text += f"; chi-square {found.chi_square:.3g} of {found.degrees_of_freedom}: " + (
-            "they agree" if found.agrees else "they differ by more than their errors"
+    text = f"{known}{_format_estimate(name, mean.value, mean.uncertainty)}, mean of {mean.count}"
+    if mean.count > 1:
+        text += f"; chi-square {mean.chi_square:.3g} of {mean.degrees_of_freedom}: " + (
+            "they agree" if mean.agrees else "they differ by more than their errors"
         )
-    if found.outliers:
-        text += f"; {len(found.outliers)} excluded as too far from the others"
+    if mean.outliers:
+        text += f"; {len(mean.outliers)} excluded as too far from the others"
     return [f"{name:22}{text}"]
 
 
@@ -190,8 +192,8 @@ def _format_estimate(name: str, value: float, error: float) -> str:
 
 
 def _shorten(text: str, width: int) -> str:
-    shown = one_line(text)
-    return shown if len(shown) <= width else f"…{shown[1 - width :]}"
+    line = one_line(text)
+    return line if len(line) <= width else f"…{line[1 - width :]}"
 
 
 def outputs_of_match(options: argparse.Namespace) -> OutputFiles:

@@ -80,16 +80,16 @@ def add_option(
     parser: argparse._ActionsContainer,
     flag: str,
     default: float | str,
-    what: str = "",
-    **more: Any,
+    meaning: str = "",
+    **arguments: Any,
 ) -> None:
     """Add an option whose default is in its help, and sets its type."""
     kinds = {int: whole_number, float: number}
     if type(default) in kinds:  # a window checks whether a text is the default
-        more["type"] = kinds[type(default)]
-    shown = "%(default)g" if isinstance(default, float) else "%(default)s"
-    help_text = f"{what}; default: {shown}" if what else f"default: {shown}"
-    parser.add_argument(flag, default=default, help=help_text, **more)
+        arguments["type"] = kinds[type(default)]
+    default_text = "%(default)g" if isinstance(default, float) else "%(default)s"
+    help_text = f"{meaning}; default: {default_text}" if meaning else f"default: {default_text}"
+    parser.add_argument(flag, default=default, help=help_text, **arguments)
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
@@ -112,27 +112,31 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 def scene_of(options: argparse.Namespace) -> Scene:
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
-    changed = change_scene(scene, options.settings)
-    light = changed.transmitter.light
+    new_scene = change_scene(scene, options.settings)
+    light = new_scene.transmitter.light
     for setting in options.settings:
         declared = parameter_named(setting.partition("=")[0].strip())
         if not declared.is_of(light):
-            lights = " or ".join(f"light={each}" for each in declared.lights)
+            lights = " or ".join(f"light={name}" for name in declared.lights)
             raise ParameterError(
                 f"{declared.name} changes nothing in the light {light}; set {lights} as well.",
                 parameters=(declared.name, "light"),
             )
-    return changed
+    return new_scene
 
 
 def add_plan_options(parser: argparse.ArgumentParser) -> None:
-    own = SimulationSettings()
+    defaults = SimulationSettings()
     add_option(
-        parser, "--tolerance", own.tolerance, "how much omitted effects may change, in levels of "
-        "the stretched profile; 0: simulate all effects, inf: none", metavar="LEVELS",
+        parser, "--tolerance", defaults.tolerance, "how much omitted effects may change, in levels "
+        "of the stretched profile; 0: simulate all effects, inf: none", metavar="LEVELS",
     )  # fmt: skip
     add_option(
-        parser, "--observable", own.observable, "the quantity of the tolerance", choices=OBSERVABLES
+        parser,
+        "--observable",
+        defaults.observable,
+        "the quantity of the tolerance",
+        choices=OBSERVABLES,
     )
     add_switches(parser)
 
@@ -150,10 +154,10 @@ def add_switches(parser: argparse.ArgumentParser) -> None:
 
 
 def add_noise_options(parser: argparse.ArgumentParser) -> None:
-    own = SimulationSettings()
+    defaults = SimulationSettings()
     meaning = "exact: random numbers for each pixel; reused: stored ones, many times faster"
-    add_option(parser, "--noise", own.noise, meaning, choices=NOISE_SOURCES)
-    add_option(parser, "--seed", own.seed)
+    add_option(parser, "--noise", defaults.noise, meaning, choices=NOISE_SOURCES)
+    add_option(parser, "--seed", defaults.seed)
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:
@@ -177,9 +181,9 @@ def forced_effects(options: argparse.Namespace) -> dict[str, bool]:
 
 
 def is_stated(name: str, options: argparse.Namespace) -> bool:
-    """Whether the command line states a parameter, rather than a preset or a file."""
-    stated = {setting.partition("=")[0].strip() for setting in options.settings}
-    return name in stated or (name == "lamp_frequency" and options.led_frequency is not None)
+    """Return whether the command line states a parameter, rather than a preset or a file."""
+    names = {setting.partition("=")[0].strip() for setting in options.settings}
+    return name in names or (name == "lamp_frequency" and options.led_frequency is not None)
 
 
 _SETTINGS = "TQDM_"  # prefix of the environment variables that change tqdm's bars
@@ -222,11 +226,13 @@ def _bar_class() -> Any:
 
 @contextmanager
 def _hide_settings() -> Iterator[None]:
-    hidden = {name: os.environ.pop(name) for name in list(os.environ) if name.startswith(_SETTINGS)}
+    variables = {
+        name: os.environ.pop(name) for name in list(os.environ) if name.startswith(_SETTINGS)
+    }
     try:
         yield
     finally:
-        os.environ.update(hidden)
+        os.environ.update(variables)
 
 
 @contextmanager

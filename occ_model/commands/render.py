@@ -59,15 +59,15 @@ def _run(options: argparse.Namespace) -> int:
     rows, columns = image.shape
     milliseconds = 1e3 * sum(frame.timings.values())
     name = one_line(str(options.out))
-    what = f"{title[:1].lower()}{title[1:]}"
+    description = f"{title[:1].lower()}{title[1:]}"
     lines = inflect(rows, "row")
     if frame.rows_step > 1:
         lines = f"{rows} of {inflect(scene.camera.rows, 'row')}"
     size = f"{inflect(columns, 'column')}, {lines}"
-    print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {what}")
-    lost = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
-    if lost:
-        print(overexposed_text(lost))
+    print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {description}")
+    fraction = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
+    if fraction:
+        print(overexposed_text(fraction))
     return 0
 
 
@@ -75,8 +75,8 @@ def _add_plan(commands: Commands) -> None:
     parser = commands.add_parser("plan", help="list the effects that a scene needs, and why")
     add_scene_options(parser)
     add_plan_options(parser)
-    own = SimulationSettings()
-    parser.set_defaults(command=_list_effects, noise=own.noise, seed=own.seed)
+    defaults = SimulationSettings()
+    parser.set_defaults(command=_list_effects, noise=defaults.noise, seed=defaults.seed)
 
 
 def _list_effects(options: argparse.Namespace) -> int:

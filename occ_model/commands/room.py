@@ -134,7 +134,7 @@ def _run_render(options: argparse.Namespace) -> int:
     check_image_path(options.out)
     frame = _render_with_settings(room, settings)
     write_image(options.out, frame.camera_image, "Camera's picture")
-    shown = [one.lamp.name + (" (cut)" if one.is_cut else "") for one in frame.lamps]
+    shown = [result.lamp.name + (" (cut)" if result.is_cut else "") for result in frame.lamps]
     seconds = sum(frame.timings.values())
     print(
         f"{one_line(str(options.out))}: {len(shown)} of {len(room.lamps)} lamps in the picture, "
@@ -195,25 +195,30 @@ def _run_codes(options: argparse.Namespace) -> int:
             progress=progress,
         )  # fmt: skip
 
-    found = run_with_bar(run, options)
-    if found is None:
+    lengths = run_with_bar(run, options)
+    if lengths is None:
         return EXIT_INTERRUPTED
     print("bits    codes  chips  columns  packets  distance     named  misread  named wrongly")
-    for one in found:
+    for length in lengths:
         print(
-            f"{one.bits:4} {one.codes:8} {one.chips:6} {one.columns:8.0f} {one.packets:8.2f} "
-            f"{one.distance:9} {one.named:5}/{one.whole:<4} {one.misread:7} "
-            f"{one.expected_mix_ups(options.lamps):14.2g}"
+            f"{length.bits:4} {length.codes:8} {length.chips:6} {length.columns:8.0f} "
+            f"{length.packets:8.2f} {length.distance:9} {length.named:5}/{length.whole:<4} "
+            f"{length.misread:7} {length.expected_mix_ups(options.lamps):14.2g}"
         )
-    gains = [one.named - one.expected_mix_ups(options.lamps) for one in found]
-    best = found[gains.index(max(gains))]
+    gains = [length.named - length.expected_mix_ups(options.lamps) for length in lengths]
+    best = lengths[gains.index(max(gains))]
     print(
         f"Of these, {best.bits} bits serve {inflect(options.lamps, 'lamp')} best: {best.named} of "
         f"{best.whole} whole lamps named correctly in these pictures."
     )
-    alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]
-    if len(alike) > 1:
-        print(f"{', '.join(alike[1:])} bits do as well; so few pictures do not distinguish them.")
+    equal_lengths = [
+        f"{length.bits}" for length, gain in zip(lengths, gains, strict=True) if gain == max(gains)
+    ]
+    if len(equal_lengths) > 1:
+        print(
+            f"{', '.join(equal_lengths[1:])} bits do as well; these pictures are too few to "
+            "distinguish them."
+        )
     return 0
 
 
@@ -224,9 +229,9 @@ def _run_locate(options: argparse.Namespace) -> int:
     else:
         given = any(text.split("=")[0].strip() == _FOCAL_LENGTH for text in options.settings)
         focal_length = room.scene.camera.equivalent_focal_length if given else None
-        found = read_room_photo(load_photo(options.file), room, focal_length)
-        reading = found.reading
-        for sentence in found.assumed:
+        photo_reading = read_room_photo(load_photo(options.file), room, focal_length)
+        reading = photo_reading.reading
+        for sentence in photo_reading.assumed:
             print(f"Assumed. {sentence}")
     _print_reading(reading)
     if options.file is None:
@@ -241,10 +246,10 @@ def _print_reading(reading: RoomReading) -> None:
         print(f"{name}: {lamp.light_words}, {at}. {one_line(lamp.note)}".rstrip())
     for reason in reading.reasons:
         print(reason)
-    for one in filter(None, (reading.located, *reading.alternatives)):
-        print("I am here:  " + _format_place(one.place, one))
-        if one.focal_error:
-            focal, error = 1e3 * one.focal_length, 1e3 * one.focal_error
+    for result in filter(None, (reading.located, *reading.alternatives)):
+        print("I am here:  " + _format_place(result.place, result))
+        if result.focal_error:
+            focal, error = 1e3 * result.focal_length, 1e3 * result.focal_error
             print(f"Focal length that fits: {focal:.2f} ± {error:.2g} mm equivalent.")
 
 
@@ -256,7 +261,7 @@ def _format_place(place: Place, located: Located | None = None) -> str:
         scale, unit, digits = (1.0, "m", 4) if name in "xyz" else (180.0 / math.pi, "°", 2)
         if error:  # show two digits of it
             digits = max(digits, 1 - math.floor(math.log10(error * scale)))
-        own = f" ± {error * scale:.{digits}f}" if located else ""
+        error_text = f" ± {error * scale:.{digits}f}" if located else ""
         rounded = round(value * scale, digits) + 0.0  # no -0
-        texts.append(f"{name} {rounded:.{digits}f}{own} {unit}")
+        texts.append(f"{name} {rounded:.{digits}f}{error_text} {unit}")
     return ", ".join(texts)

@@ -148,12 +148,12 @@ def _run(options: argparse.Namespace) -> int:
     elif not options.plot:
         sys.stdout.writelines(table.csv())
     if options.plot:
-        # matplotlib takes half a second to import, which only figures need.
+        # Only figures need Matplotlib, whose import takes half a second.
         from occ_model.figures.sweep import write_sweep_figure
 
         write_sweep_figure(options.plot, table, options.show)
-        what = {"rate": "success rate", "bits": "bits a second"}[options.show]
-        print(f"{one_line(str(options.plot))}: {what} over {' and '.join(axes)}")
+        quantity = {"rate": "success rate", "bits": "bits a second"}[options.show]
+        print(f"{one_line(str(options.plot))}: {quantity} over {' and '.join(axes)}")
     return 0
 
 
@@ -181,15 +181,15 @@ def run_with_bar(
 ) -> Study | None:
     """Run a study with a progress bar that shows the time left; None after Ctrl-C."""
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
-    reached = "before the first point"
+    progress_text = "before the first point"
     with ExitStack() as stack:
         bar: Any = None
 
         def progress(done: int, total: int, _left: float) -> None:
-            nonlocal bar, reached
+            nonlocal bar, progress_text
             if bar is None:  # only after the first point, so that a refused study shows no bar
                 bar = stack.enter_context(progress_bar(total=total, unit="point"))
-            reached = f"after {done} of {total} points"
+            progress_text = f"after {done} of {total} points"
             bar.update(done - bar.n)
 
         try:
@@ -198,12 +198,12 @@ def run_with_bar(
         except KeyboardInterrupt:
             pass
     out = getattr(options, "out", "")
-    kept = f"the results are in {one_line(str(out))}, and the same command continues from there."
+    outcome = f"the results are in {one_line(str(out))}, and the same command continues from there."
     if out == "":
-        kept = "no results are kept."
+        outcome = "no results are kept."
     elif not out:
-        kept = "with --out FILE.csv the results would be kept."
-    print(f"occ-model: stopped {reached}; {kept}", file=sys.stderr)
+        outcome = "with --out FILE.csv the results would be kept."
+    print(f"occ-model: stopped {progress_text}; {outcome}", file=sys.stderr)
     return None
 
 
@@ -260,8 +260,8 @@ async def _count_workers(address: str) -> int:
         keys: Any = Security().get_connection_args("client")
         async with asyncio.timeout(SECONDS):
             async with rpc(address, connection_args=keys) as scheduler:
-                known = await scheduler.identity()
-            return len(known["workers"])
+                identity = await scheduler.identity()
+            return len(identity["workers"])
     except TimeoutError:
         reason = f"no answer within {SECONDS} s"
     except Exception as error:  # noqa: BLE001 - anything may listen and answer there

@@ -220,7 +220,7 @@ def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(
     assert "The lamp's bars vanish at whole multiples of 2.083 ms." in lines
     rows = {line.split(" s ")[0]: line for line in lines if line.startswith("1/")}
     assert rows["1/120"].endswith("0 %       no bars")
-    assert rows["1/60"].endswith("no bars if the camera keeps the former")
+    assert rows["1/60"].endswith("no bars if the camera uses the nominal time")
     assert rows["1/100"].endswith("%")
     assert any("percent flicker 100 %" in line for line in lines)
 

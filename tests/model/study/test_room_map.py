@@ -223,7 +223,10 @@ def test_the_command_states_which_length_is_best(
     assert "6 bits serve 64 lamps best: 2 of 2 whole lamps named correctly" in said
     assert "bits do as well" not in said
     assert main((*words, "--bits", "8")) == 0
-    assert "8 bits do as well; so few pictures do not distinguish them." in capsys.readouterr().out
+    assert (
+        "8 bits do as well; these pictures are too few to distinguish them."
+        in capsys.readouterr().out
+    )
 
 
 def test_progress_is_that_of_all_lengths() -> None:

@@ -168,13 +168,13 @@ _ANGLES = ("yaw", "pitch", "roll")
 def _describe_map(floor_map: FloorMap) -> str:
     points = floor_map.points
     sure = [point for point in points if point.sure_places]
-    named, shown, wrong = (
+    named, whole, wrong = (
         sum(getattr(point, count) for point in points)
         for count in ("named", "whole", "named_wrongly")
     )
     text = (
         f"Map of the floor: {len(sure)} of {len(points)} places determined (blue, else orange), "
-        f"{named} of {shown} whole lamps named, {inflect(wrong, 'lamp')} named wrongly."
+        f"{named} of {whole} whole lamps named, {inflect(wrong, 'lamp')} named wrongly."
     )
     if sure:
         text += f" Median error: {METRE.format(float(np.median([p.error for p in sure])), 2)}."

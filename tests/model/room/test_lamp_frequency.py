@@ -186,6 +186,6 @@ def test_no_lamp_of_a_random_room_has_a_wrong_name_or_error() -> None:
 def test_a_map_counts_lamps_named_by_frequency_and_compares_no_codes_of_them() -> None:
     request = RoomMapRequest(_room(_lamp(700.0), _lamp(500.0)), (0.6,), (0.0,))
     (point,) = room_map(request)
-    assert (point.shown, point.named, point.misread, point.wrong) == (2, 2, 0, 0)
+    assert (point.whole, point.named, point.misread, point.named_wrongly) == (2, 2, 0, 0)
     with pytest.raises(occ.ParameterError, match=r"light is lamp; .*, map the room"):
         code_lengths(request, 8)

@@ -187,7 +187,7 @@ def test_a_lamp_that_sends_a_payload_is_named_by_its_bits() -> None:
         "L1": 0b1110001010,
     }
     (point,) = room_map(RoomMapRequest(room, (0.6,), (0.0,)))
-    assert (point.shown, point.named, point.misread) == (2, 2, 0)
+    assert (point.whole, point.named, point.misread) == (2, 2, 0)
 
 
 def test_a_lamp_with_long_dark_runs_is_found_as_one() -> None:

@@ -1,7 +1,7 @@
 """Measure the straight edges of a rectangular lamp in a picture to a fraction of a pixel.
 
-Dark chips hide a lamp's edge, which is therefore measured only where the lamp's light, which
-repeats with the packet, is bright.
+Dark chips hide a lamp's edge. It is therefore measured only where the lamp's light, which repeats
+with the packet, is bright.
 """
 
 import math
@@ -31,18 +31,18 @@ from occ_model.room.seen_light import ApparentLight, LampLight, find_enhancement
 from occ_model.scene.scene import Scene
 
 _EDGE_REACH = 7  # minimum pixels on either side of an expected edge over which light is summed
-_BLUR_REACH = 3.0  # standard deviations of the lens's blur over which light is summed as well
+_BLUR_REACH = 3.0  # standard deviations of the lens's blur over which light is also summed
 _LEVEL_PIXELS = 10  # further pixels, which give the levels of lamp and surroundings
 _MIN_RELATIVE_LIGHT = 0.5  # fraction of the lamp's brightest light from which an edge is measured
 
 _MIN_LEVEL_PIXELS = 4  # minimum pixels across an edge that determine the level inside
 _MIN_LEVEL_POINTS = 8  # minimum number of bright points for each of them
-_MOST_PASSES = 6  # over a side, each about the line found by the one before
-_SETTLED = 0.2  # pixels up to which a line agrees with the course about which it was measured
-_OF_PIXEL = math.sqrt(1.0 / 12.0)  # standard deviation of the blur by a pixel's own width
+_MAX_PASSES = 6  # over a side, each around the line of the previous pass
+_CONVERGED = 0.2  # pixels up to which a line agrees with the course around which it was measured
+_PIXEL_BLUR = math.sqrt(1.0 / 12.0)  # standard deviation of the blur by a pixel's own width
 _SHARP = 0.3  # standard deviation in pixels of a blur below which no pixel is partly lit
 _SEARCHED_POINTS = 64  # number of an edge's points used to search for it
-_NOTHING = np.zeros((2, 2))
+_NO_COVARIANCE = np.zeros((2, 2))
 _SAMPLES = 16  # of each side's curve in the lamp's outline
 
 
@@ -54,23 +54,25 @@ def find_edges(image: ByteArray, room: Room, lamp: RoomLamp, corners: FloatArray
     """
     outline = distort_points(subdivide(corners, np.full(4, _SAMPLES)), room.scene)
     enhancement = find_enhancement(lamp, room, _take_middle(image, outline))
-    seen, blur = ApparentLight(room.scene, enhancement), _find_blur(lamp, corners, room.scene)
-    # The outline is at a tenth of the light, and the blurred rim is not the lamp's inside.
+    apparent, blur = ApparentLight(room.scene, enhancement), _find_blur(lamp, corners, room.scene)
+    # The outline is where the light is a tenth; the margin also excludes the blurred rim.
     margin = _EDGE_REACH + math.ceil(1.5 * _BLUR_REACH * blur)
-    own = LampLight.of(image, outline, lamp, seen, margin)
-    shown = _LampInPicture(image, room.scene, outline, seen, own, blur)
-    lines = [shown.fit_line(corners[[side, (side + 1) % 4]]) for side in range(4)]
-    found = [line for line in lines if line is not None]
-    alike = estimate_variance_ratio(found)
-    return [line.make_edge(alike) for line in found]
+    lamp_light = LampLight.of(image, outline, lamp, apparent, margin)
+    lamp_in_picture = _LampInPicture(image, room.scene, outline, apparent, lamp_light, blur)
+    lines = [lamp_in_picture.fit_line(corners[[side, (side + 1) % 4]]) for side in range(4)]
+    measured = [line for line in lines if line is not None]
+    variance_ratio = estimate_variance_ratio(measured)
+    return [line.make_edge(variance_ratio) for line in measured]
 
 
 def _take_middle(image: ByteArray, outline: FloatArray) -> ByteArray:
     """Return the pixels well within an outline, in no particular order."""
     centre = outline.mean(axis=0)
     first, last = column_spans(centre + 0.5 * (outline - centre), *image.shape)
-    shown = np.flatnonzero(last > first).tolist()
-    return np.concatenate([image[:0, 0], *(image[first[one] : last[one], one] for one in shown)])
+    columns = np.flatnonzero(last > first).tolist()
+    return np.concatenate(
+        [image[:0, 0], *(image[first[column] : last[column], column] for column in columns)]
+    )
 
 
 def _find_blur(lamp: RoomLamp, corners: FloatArray, scene: Scene) -> float:
@@ -86,29 +88,29 @@ class _LampInPicture:
     image: ByteArray
     scene: Scene
     outline: FloatArray  # the lamp's approximate outline in the picture
-    seen: ApparentLight
-    own: LampLight
+    apparent: ApparentLight
+    lamp_light: LampLight
     blur: float
 
     def fit_line(self, ends: FloatArray) -> Line | None:
-        """Measure an edge where it is expected, and repeatedly where it was found."""
+        """Measure an edge around its expected course, then repeatedly around the fitted line."""
         pixels = self._take_across(Course.of(ends, self.scene))
         if pixels is None:
             return None
         ends = pixels.search_ends()
-        for _ in range(_MOST_PASSES):
+        for _ in range(_MAX_PASSES):
             pixels = self._take_across(Course.of(ends, self.scene))
             line = None if pixels is None else pixels.fit_line()
-            if line is None or np.abs(line.shift).max() < _SETTLED:
+            if line is None or np.abs(line.shift).max() < _CONVERGED:
                 return line
             ends = line.course.move(line.shift)
         return None
 
     def _take_across(self, course: Course) -> "_PixelsAcross | None":
         """Return the pixels across an edge; None if too few of its points have enough pixels."""
-        level, seen = course.axis == 0, self.seen
+        is_level, apparent = course.axis == 0, self.apparent
         image, outline = (
-            (self.image, self.outline) if level else (self.image.T, self.outline[:, ::-1])
+            (self.image, self.outline) if is_level else (self.image.T, self.outline[:, ::-1])
         )
         steepest = float(course.steepness.max(initial=1.0))
         reach = max(_EDGE_REACH, math.ceil(_BLUR_REACH * self.blur * steepest))
@@ -117,28 +119,35 @@ class _LampInPicture:
         middle = np.rint(course.across).astype(np.int64)
         first, last = column_spans(outline, *image.shape)
         # The level is taken from pixels that the blur of the opposite edge does not reach.
-        kept = (last - first)[course.places] >= size + reach
-        kept &= (middle >= size) & (middle < len(image) - size)
-        course, middle = course.take(kept), middle[kept]
+        is_clear = (last - first)[course.places] >= size + reach
+        is_clear &= (middle >= size) & (middle < len(image) - size)
+        course, middle = course.take(is_clear), middle[is_clear]
         if len(middle) < MIN_POINTS:
             return None
         inwards = 1 if course.leverage.sum() > 0.0 else -1
         pixels = np.arange(-size, size + 1)
         across = middle[:, None] + pixels * inwards
-        light = seen.of(image[across, course.places[:, None]])
-        if level:  # its innermost pixels show a column's light unless they are white
+        light = apparent.of(image[across, course.places[:, None]])
+        if is_level:  # its innermost pixels show a column's light unless they are white
             inside = light[:, -_LEVEL_PIXELS:].mean(axis=1)
-            lit = seen.true_inside(inside) - seen.true_outside(light[:, :_LEVEL_PIXELS].mean())
-            lit = np.where(seen.is_white(inside), self.own.light[course.places], lit)[:, None]
-            brightest = np.percentile(lit, 95)
+            lamp_levels = apparent.true_inside(inside) - apparent.true_outside(
+                light[:, :_LEVEL_PIXELS].mean()
+            )
+            lamp_levels = np.where(
+                apparent.is_white(inside), self.lamp_light.light[course.places], lamp_levels
+            )[:, None]
+            brightest = np.percentile(lamp_levels, 95)
         else:
-            lit, brightest = self.own.at(course.places, across), np.percentile(self.own.light, 99)
+            lamp_levels, brightest = (
+                self.lamp_light.at(course.places, across),
+                np.percentile(self.lamp_light.light, 99),
+            )
         depth = pixels - ((course.across - middle) * inwards)[:, None]
-        found = _PixelsAcross(
-            course, inwards, depth, light, np.broadcast_to(lit, light.shape),
-            max(_MIN_RELATIVE_LIGHT * float(brightest), 0.0), seen, self.blur,
+        edge_pixels = _PixelsAcross(
+            course, inwards, depth, light, np.broadcast_to(lamp_levels, light.shape),
+            max(_MIN_RELATIVE_LIGHT * float(brightest), 0.0), apparent, self.blur,
         )  # fmt: skip
-        return found.correct_level()
+        return edge_pixels.correct_level()
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,12 +158,12 @@ class _PixelsAcross:
     """
 
     course: Course
-    inwards: int  # 1 if rows or columns inside have larger numbers, otherwise -1
-    depth: FloatArray  # pixels along the axis from the course
+    inwards: int  # 1 if rows or columns inside the lamp have larger numbers, otherwise -1
+    depth: FloatArray  # distance inwards from the course, in pixels
     light: FloatArray  # light as it appears
     lit: FloatArray  # the lamp's true light above the dark, as if it had no edge
-    bright: float  # the true light from which an edge is measured
-    seen: ApparentLight
+    bright: float  # the minimum true light at which an edge is measured
+    apparent: ApparentLight
     blur: float
     error: float = 0.0  # common error of all points' light, in pixels of the lamp's light
 
@@ -164,72 +173,88 @@ class _PixelsAcross:
         return float(self.light[:, :_LEVEL_PIXELS].mean())
 
     @cached_property
-    def own(self) -> FloatArray:
-        """The lamp's light above that outside, as it appears far from any edge."""
-        black = self.seen.true_outside(self.outside)
-        return self.seen.inside(black + self.lit) - self.outside
+    def apparent_lamp(self) -> FloatArray:
+        """The lamp's light, less that outside, as it appears far from any edge."""
+        black = self.apparent.true_outside(self.outside)
+        return self.apparent.inside(black + self.lit) - self.outside
 
     def expect(self, shift: float = 0.0) -> FloatArray:
         """Return the expected light of an edge that is ``shift`` pixels further inside."""
-        depth, black, own = self.depth - shift, self.seen.true_outside(self.outside), self.own
+        depth, black, apparent_lamp = (
+            self.depth - shift,
+            self.apparent.true_outside(self.outside),
+            self.apparent_lamp,
+        )
         if self.blur < _SHARP:
-            return np.asarray(self.outside + np.clip(depth + 0.5, 0.0, 1.0) * own)
+            return np.asarray(self.outside + np.clip(depth + 0.5, 0.0, 1.0) * apparent_lamp)
         across = depth / self.course.steepness[:, None]
-        covered = normal_fraction(across / self.blur)
-        true = black + covered * self.lit
-        seen = np.where(covered < 0.5, self.seen.outside(true), self.seen.inside(true))
-        # The edge may be anywhere on the grid of pixels.
-        on_grid = math.hypot(self.blur, _OF_PIXEL / float(self.course.steepness.mean()))
-        return np.asarray(seen + (normal_fraction(across / on_grid) - covered) * own)
+        lit_fraction = normal_fraction(across / self.blur)
+        true_light = black + lit_fraction * self.lit
+        apparent = np.where(
+            lit_fraction < 0.5, self.apparent.outside(true_light), self.apparent.inside(true_light)
+        )
+        # The edge may be at any position on the pixel grid.
+        total_blur = math.hypot(self.blur, _PIXEL_BLUR / float(self.course.steepness.mean()))
+        return np.asarray(
+            apparent + (normal_fraction(across / total_blur) - lit_fraction) * apparent_lamp
+        )
 
     def correct_level(self) -> Self | None:
         """Correct the lamp's light by the pixels inside the edge; None if there are too few.
 
-        The light falls towards the rim, so the level is extrapolated to the lit pixels of the sum.
+        The light decreases towards the rim, so the level is extrapolated to the summed pixels.
         """
         inner = np.s_[:, -_LEVEL_PIXELS:]
         dark = self.light[:, :_LEVEL_PIXELS].mean(axis=0)
         is_bright = self.lit[inner] > self.bright
-        shows = is_bright.sum(axis=0) >= _MIN_LEVEL_POINTS
+        has_points = is_bright.sum(axis=0) >= _MIN_LEVEL_POINTS
         reach = self.light.shape[1] // 2 - _LEVEL_PIXELS
-        places = reach + 1.0 + np.flatnonzero(shows)
-        if len(places) < _MIN_LEVEL_PIXELS:
+        distances = reach + 1.0 + np.flatnonzero(has_points)
+        if len(distances) < _MIN_LEVEL_PIXELS:
             return None
-        level, whole = (
-            np.where(is_bright, light[inner] - self.outside, 0.0).sum(axis=0)[shows]
+        level, expected = (
+            np.where(is_bright, light[inner] - self.outside, 0.0).sum(axis=0)[has_points]
             for light in (self.light, self.expect())
         )
-        if whole.min() <= 0.0:
+        if expected.min() <= 0.0:
             return None
-        level = level / whole
-        apart = places - places.mean()
-        slope, gain = np.polyfit(apart, level, 1).tolist()
-        scatter = float((level - slope * apart).std()) * math.sqrt(len(places) / (len(places) - 2))
-        back = float(places.mean()) - reach / 2.0
-        spread = float(apart.std()) * math.sqrt(len(places))
-        of_level = reach * math.hypot(1.0 / math.sqrt(len(places)), back / spread)
-        of_dark = (2 * reach + 1) * float(dark.std()) / math.sqrt(_LEVEL_PIXELS)
-        of_dark /= float(self.own[inner].max())
-        at_edge = gain - slope * back
-        if min(gain, at_edge) <= 0.0:
+        level = level / expected
+        centred = distances - distances.mean()
+        slope, gain = np.polyfit(centred, level, 1).tolist()
+        scatter = float((level - slope * centred).std()) * math.sqrt(
+            len(distances) / (len(distances) - 2)
+        )
+        extrapolation = float(distances.mean()) - reach / 2.0
+        spread = float(centred.std()) * math.sqrt(len(distances))
+        level_error = reach * math.hypot(1.0 / math.sqrt(len(distances)), extrapolation / spread)
+        dark_error = (2 * reach + 1) * float(dark.std()) / math.sqrt(_LEVEL_PIXELS)
+        dark_error /= float(self.apparent_lamp[inner].max())
+        edge_gain = gain - slope * extrapolation
+        if min(gain, edge_gain) <= 0.0:
             return None
-        error = math.hypot(scatter * of_level, of_dark) / gain
-        return replace(self, lit=self.lit * at_edge, bright=self.bright * at_edge, error=error)
+        error = math.hypot(scatter * level_error, dark_error) / gain
+        return replace(self, lit=self.lit * edge_gain, bright=self.bright * edge_gain, error=error)
 
     def search_ends(self) -> FloatArray:
-        """Return the edge's ends that explain both of its halves best, to a pixel."""
-        few = self._take(slice(None, None, max(1, len(self.light) // _SEARCHED_POINTS)))
+        """Return the ends for which both halves of the edge fit best, to a pixel."""
+        sample = self._take(slice(None, None, max(1, len(self.light) // _SEARCHED_POINTS)))
         reach = self.light.shape[1] // 2 - _LEVEL_PIXELS
         shifts = np.arange(-reach, reach + 1)
         errors = np.array(
-            [np.square(few.light - few.expect(one)).sum(axis=1) for one in shifts.tolist()]
+            [
+                np.square(sample.light - sample.expect(shift)).sum(axis=1)
+                for shift in shifts.tolist()
+            ]
         )
-        half = len(few.light) // 2
+        half = len(sample.light) // 2
         first, second = (
-            shifts[part.sum(axis=1).argmin()] for part in (errors[:, :half], errors[:, half:])
+            shifts[half_errors.sum(axis=1).argmin()]
+            for half_errors in (errors[:, :half], errors[:, half:])
         )
-        place = np.linspace(-0.5, 1.5, len(self.light))  # 0 and 1 in the middles of the halves
-        line = Line(self.course, self.inwards * (first + place * (second - first)), _NOTHING)
+        position = np.linspace(-0.5, 1.5, len(self.light))  # 0 and 1 in the middles of the halves
+        line = Line(
+            self.course, self.inwards * (first + position * (second - first)), _NO_COVARIANCE
+        )
         return self.course.move(line.shift)
 
     def _take(self, points: slice) -> Self:
@@ -240,13 +265,13 @@ class _PixelsAcross:
 
     def fit_line(self) -> Line | None:
         """Find each point from the light summed across it, and fit a line."""
-        summed = np.s_[:, _LEVEL_PIXELS:-_LEVEL_PIXELS]
-        total, expected, nearer, farther = (
-            light[summed].sum(axis=1)
+        across = np.s_[:, _LEVEL_PIXELS:-_LEVEL_PIXELS]
+        total, expected, outer, inner = (
+            light[across].sum(axis=1)
             for light in (self.light, self.expect(), self.expect(-0.5), self.expect(0.5))
         )
         middle = self.light.shape[1] // 2
         valid = self.lit[:, middle - 1 : middle + 2].min(axis=1) > self.bright
-        a_pixel = np.maximum(nearer - farther, 1e-12)
-        off = self.inwards * (expected - total) / a_pixel
-        return fit_line(self.course.take(valid), off[valid], self.error, self.blur)
+        light_per_pixel = np.maximum(outer - inner, 1e-12)
+        offsets = self.inwards * (expected - total) / light_per_pixel
+        return fit_line(self.course.take(valid), offsets[valid], self.error, self.blur)

@@ -14,15 +14,15 @@ from occ_model.room.room import RoomLamp
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.units import HERTZ, PERCENT
 
-_LEAST_CYCLES = 2.0  # of the light in a lamp's columns
-_MOST_ALIASES = 3  # harmonics that are fitted where columns resolve fewer
-_MOST_UNREPEATED = 0.25  # fraction of the stripes' variance that no repeated light explains
-_MOST_DEVIATIONS = 5.0  # between a measured frequency and that of the lamp
-_LEAST_COLUMNS = 8
-_EDGE = 0.075  # standard error of the width in columns, as they sample edges coarsely; measured
-_SHIFT = 0.1  # standard error in cycles by a harmonic that looks almost like the first
-_MOST_ERROR = 0.01  # of the frequency; other lamps may be as near
-_FINEST = 0.48  # cycles a column above which a light cannot be told from a slower one
+_MIN_CYCLES = 2.0  # of the light in a lamp's columns
+_MAX_HARMONICS = 3  # harmonics that are fitted
+_MAX_UNREPEATED = 0.25  # fraction of the stripes' variance that no periodic light explains
+_MAX_DEVIATIONS = 5.0  # between a measured frequency and that of the lamp, in standard errors
+_MIN_COLUMNS = 8
+_EDGE_ERROR = 0.075  # measured standard error of the width in columns, which sample edges coarsely
+_ALIAS_ERROR = 0.1  # standard error in cycles due to a harmonic with nearly the same alias
+_MAX_ERROR = 0.01  # fraction of the frequency; other lamps may be as close
+_MAX_FREQUENCY = 0.48  # cycles a column, above which light looks like slower light
 _OVERSAMPLING = 8  # of the spectrum in which the strongest frequency is searched
 
 
@@ -41,66 +41,68 @@ class MeasuredFrequency:
     def is_of(self, lamp: RoomLamp, readout_time: float) -> bool:
         """Return whether a lamp's light can have this frequency in a picture."""
         cycles = _frequencies_of(lamp) * readout_time
-        seen = np.abs(cycles - np.rint(cycles)) / readout_time
-        return bool((np.abs(seen - self.value) <= _MOST_DEVIATIONS * self.error).any())
+        aliases = np.abs(cycles - np.rint(cycles)) / readout_time
+        return bool((np.abs(aliases - self.value) <= _MAX_DEVIATIONS * self.error).any())
 
 
 def sends_code(lamp: RoomLamp) -> bool:
-    """Return whether a lamp is named by its code, and not by its frequency."""
+    """Return whether a lamp is identified by its code, and not by its frequency."""
     return lamp.transmitter.light == "code" and blinking_lamp(lamp.transmitter) is None
 
 
 def _frequencies_of(lamp: RoomLamp) -> FloatArray:
-    """Return the frequencies one of which is the strongest in a lamp's stripes, in Hz.
+    """Return the frequencies in Hz that can be the strongest in a lamp's stripes.
 
-    Of light with one symmetric pulse a cycle it is the first, whatever the tone curve: such light
-    is a sum of centred rectangles, and a sine's k-th multiple is at most k times as large.
+    For light with one symmetric pulse a cycle it is the fundamental, whatever the tone curve: such
+    light is a sum of centred rectangles, and |sin(k x)| is at most k |sin(x)|.
     """
     light = light_of(lamp.transmitter)
     if isinstance(light, Cosine):
         return np.array([light.frequency])
-    single = blinking_lamp(lamp.transmitter) is not None
-    return np.arange(1, 2 if single else light.waveform.period + 1) / float(light.period)
+    has_one_pulse = blinking_lamp(lamp.transmitter) is not None
+    return np.arange(1, 2 if has_one_pulse else light.waveform.period + 1) / float(light.period)
 
 
 def measure_frequency(signal: FloatArray, readout_time: float) -> MeasuredFrequency | str:
-    """Measure how often the light of a lamp's columns repeats, or say why that is not known."""
+    """Measure how often the light in a lamp's columns repeats, or say why it is unknown."""
     count, scale = len(signal), float(signal.std())
-    if count < _LEAST_COLUMNS:
-        return f"only {inflect(count, 'column')} show its whole height."
+    if count < _MIN_COLUMNS:
+        return f"only {inflect(count, 'column')} show its full height."
     if not scale:
         return "its light shows no stripes."
     column = np.arange(count)
     values = (signal - np.polynomial.Polynomial.fit(column, signal, 1)(column)) / scale
     strengths = np.abs(np.fft.rfft(values, _OVERSAMPLING * count))
-    first, last = _OVERSAMPLING, int(_FINEST * _OVERSAMPLING * count)  # from one cycle on
+    first, last = _OVERSAMPLING, int(_MAX_FREQUENCY * _OVERSAMPLING * count)  # from one cycle on
     strongest = first + int(strengths[first:last].argmax())
     harmonics = _distinct_harmonics(count, _OVERSAMPLING * count / strongest)
-    near = _OVERSAMPLING * count / (strongest + np.linspace(-2.0, 2.0, 9))
-    rough = min(near.tolist(), key=lambda one: unrepeated_fraction(values, one, harmonics))
-    period, deviation = refine_period(values, rough, harmonics)
-    if unrepeated_fraction(values, period, harmonics) > _MOST_UNREPEATED:
+    candidates = _OVERSAMPLING * count / (strongest + np.linspace(-2.0, 2.0, 9))
+    rough_period = min(
+        candidates.tolist(), key=lambda period: unrepeated_fraction(values, period, harmonics)
+    )
+    period, deviation = refine_period(values, rough_period, harmonics)
+    if unrepeated_fraction(values, period, harmonics) > _MAX_UNREPEATED:
         return "its light shows no stripes that repeat."
-    if count < _LEAST_CYCLES * period:
+    if count < _MIN_CYCLES * period:
         return (
             f"its {inflect(count, 'column')} show {count / period:.1f} cycles of its light; at "
-            f"least {_LEAST_CYCLES:g} are needed."
+            f"least {_MIN_CYCLES:g} are needed."
         )
     cycles = 1.0 / period
-    error = cycles * math.hypot(deviation / period, _EDGE / count)
-    if harmonics < _MOST_ALIASES:
-        error = math.hypot(error, _SHIFT / count)
-    if error > _MOST_ERROR * cycles:
+    error = cycles * math.hypot(deviation / period, _EDGE_ERROR / count)
+    if harmonics < _MAX_HARMONICS:
+        error = math.hypot(error, _ALIAS_ERROR / count)
+    if error > _MAX_ERROR * cycles:
         return f"it is determined to {PERCENT.format(error / cycles, 2)} only."
     return MeasuredFrequency(cycles / readout_time, error / readout_time, period)
 
 
 def _distinct_harmonics(count: int, period: float) -> int:
-    """Return the number of first harmonics whose frequencies differ as columns sample them."""
-    cycles = np.arange(_MOST_ALIASES + 1) * (count / period)
-    seen = np.abs(cycles - count * np.rint(cycles / count))  # in the columns together
-    for number in range(2, _MOST_ALIASES + 1):
-        others = [*seen[:number], count / 2.0]
-        if min(abs(seen[number] - other) for other in others) < _LEAST_CYCLES:
+    """Return the number of lowest harmonics whose frequencies differ after sampling by columns."""
+    cycles = np.arange(_MAX_HARMONICS + 1) * (count / period)
+    aliases = np.abs(cycles - count * np.rint(cycles / count))  # cycles over all columns
+    for number in range(2, _MAX_HARMONICS + 1):
+        others = [*aliases[:number], count / 2.0]
+        if min(abs(aliases[number] - other) for other in others) < _MIN_CYCLES:
             return number - 1
-    return _MOST_ALIASES
+    return _MAX_HARMONICS

@@ -1,4 +1,4 @@
-"""Find a camera's place and angles from the named lamps in its picture or photo."""
+"""Find a camera's place and angles from the identified lamps in its picture or photo."""
 
 import math
 from collections.abc import Sequence
@@ -25,18 +25,17 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
-_MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, up to which another place is as good
+_MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, up to which another place fits equally well
 _MIN_EDGES = 4
-"""Minimum number of lamps' edges: each gives two numbers, and many places explain three edges."""
+"""Minimum number of edges: each gives two numbers, and many places explain three edges."""
 
 _MAX_MEAN_SQUARE = 4.0  # in squared standard errors, up to which a place explains the edges
 _MAX_ANCHORS = 3  # maximum number of lamps whose corners give starting values
 _MAX_EXCLUDED_EDGES = 3  # maximum number of edges omitted one by one if no place explains all
-_ONE_LAMP = "Only one lamp determines the place, which can be farther off than the stated errors."
+_ONE_LAMP = "Only one lamp determines the place, so its error may exceed the stated errors."
 
-_LOOSE = (
-    "The measured edges determine the place so loosely that it can be farther off than the "
-    "stated errors."
+_POOR_FIT = (
+    "The measured edges determine the place so poorly that its error may exceed the stated errors."
 )
 
 _PLACE_TOLERANCE = 1e-3  # metres and radians up to which two places are the same
@@ -55,7 +54,7 @@ class RoomReading:
     alternatives
         Other places that explain the picture as well.
     reasons
-        Sentences on why there is no place, or several, or an uncertain one.
+        Sentences on why there is no place, more than one, or an uncertain one.
     """
 
     lamps: tuple[ReadLamp, ...]
@@ -74,8 +73,8 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
 
     The receiver knows the room except for the camera's place and angles: the lamps, and the
     camera's settings and lens. Lamps are named by their codes, or by the measured frequency of
-    light that is no code. The place follows from the straight edges of the named rectangles;
-    discs are only named.
+    light without a code. The place follows from the straight edges of the named rectangles; discs
+    are only named.
 
     Parameters
     ----------
@@ -84,8 +83,8 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     room
         The room; its camera's place is not used.
     focal_share
-        Standard error of the room's focal length, as a fraction of it, which the place's errors
-        include.
+        Standard error of the room's focal length, as a fraction of it; the errors of the place
+        include it.
 
     Raises
     ------
@@ -100,22 +99,28 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     lamps = read_lamps(picture, room)
     by_name = {lamp.name: lamp for lamp in room.lamps}
     measured = []
-    for read in lamps:
-        lamp = by_name.get(read.name or "")
+    for read_lamp in lamps:
+        lamp = by_name.get(read_lamp.name or "")
         if lamp is None or lamp.shape != "rectangle":
             continue
-        corners = fit_quadrilateral(undistort(read.hull, room.scene))
+        corners = fit_quadrilateral(undistort(read_lamp.hull, room.scene))
         edges = find_edges(picture, room, lamp, corners)
-        measured.append(_MeasuredLamp(lamp, corners, edges, read.is_cut))
-    whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
-    found, why = _locate(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
-    return RoomReading(lamps, found[0] if found else None, tuple(found[1:]), why)
+        measured.append(_MeasuredLamp(lamp, corners, edges, read_lamp.is_cut))
+    complete_lamps = [
+        (by_name[read_lamp.name], read_lamp)
+        for read_lamp in lamps
+        if read_lamp.name and not read_lamp.is_cut
+    ]
+    places, reasons = _locate(
+        measured, room, len(lamps), _start_of_centres(complete_lamps, room), focal_share
+    )
+    return RoomReading(lamps, places[0] if places else None, tuple(places[1:]), reasons)
 
 
 def fit_quadrilateral(hull: FloatArray) -> FloatArray:
     """Return the quadrilateral around a convex outline, its corners in the order of a lamp's."""
-    found = cv2.approxPolyN(hull.astype(np.float32).reshape(-1, 1, 2), 4)
-    corners = np.asarray(found, dtype=np.float64).reshape(4, 2)
+    quadrilateral = cv2.approxPolyN(hull.astype(np.float32).reshape(-1, 1, 2), 4)
+    corners = np.asarray(quadrilateral, dtype=np.float64).reshape(4, 2)
     x, y = corners.T
     area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
     return corners if area > 0.0 else corners[::-1].copy()
@@ -132,81 +137,90 @@ class _MeasuredLamp:
 def _locate(
     measured: Sequence[_MeasuredLamp],
     room: Room,
-    found: int,
-    more: Sequence[FloatArray],
+    lamp_count: int,
+    extra_starts: Sequence[FloatArray],
     focal_share: float = 0.0,
 ) -> tuple[list[Located], tuple[str, ...]]:
     if not measured:
-        what = "No lamp was found" if not found else "No rectangular lamp was named"
-        return [], (f"{what}: nothing determines the place.",)
-    whole = [one for one in measured if not one.is_cut]
-    if not whole:
+        problem = "No lamp was found" if not lamp_count else "No rectangular lamp was named"
+        return [], (f"{problem}: nothing determines the place.",)
+    complete_lamps = [measured_lamp for measured_lamp in measured if not measured_lamp.is_cut]
+    if not complete_lamps:
         return [], ("Every named lamp is cut by the picture's edge; at least one must be whole.",)
-    edges = sum(len(one.edges) for one in measured)
+    edges = sum(len(measured_lamp.edges) for measured_lamp in measured)
     if edges < _MIN_EDGES:
         return [], (
             f"Only {inflect(edges, 'edge')} of the named lamps can be measured, because the others "
             f"are too faint; at least {_MIN_EDGES} are needed.",
         )
-    table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
-    starts = [start for anchor in whole[:_MAX_ANCHORS] for start in _starts(anchor, room)]
-    tried = find_places(table, [*more, *starts])
-    if not tried:
+    table = LampEdges.of(
+        [(measured_lamp.lamp, measured_lamp.edges) for measured_lamp in measured], room, focal_share
+    )
+    starts = [start for anchor in complete_lamps[:_MAX_ANCHORS] for start in _starts(anchor, room)]
+    places = find_places(table, [*extra_starts, *starts])
+    if not places:
         return [], (
-            "No place of the camera explains the edges of the named lamps: the bright ones are "
-            "all parallel, or they are not where the room's lamps are, or the picture "
-            "is mirrored.",
+            "No place of the camera explains the edges of the named lamps: the bright edges are "
+            "all parallel, the lamps are not where the room states, or the picture is mirrored.",
         )
-    tried.sort(key=lambda one: one.deviations)
-    best = tried[0]
+    places.sort(key=lambda measured_lamp: measured_lamp.deviations)
+    best = places[0]
     limit = best.deviations + _MAX_DEVIATION_EXCESS * max(
         1.0, best.deviations / max(best.freedom, 1)
     )
-    kept: list[Located] = []
-    for one in tried:
-        if one.deviations <= limit and not any(_is_same(one, other) for other in kept):
-            kept.append(one)
-    if len(kept) == 1:
-        why = (_ONE_LAMP,) if len(measured) == 1 else ()
-        return kept, why if kept[0].is_linear else (*why, _LOOSE)
-    return kept, (
-        f"{len(kept)} places explain the picture equally well: a panel looks the same when it is "
-        "turned, and a small one when it is tilted the other way. More lamps would decide between "
-        "them.",
+    distinct: list[Located] = []
+    for measured_lamp in places:
+        if measured_lamp.deviations <= limit and not any(
+            _is_same(measured_lamp, other) for other in distinct
+        ):
+            distinct.append(measured_lamp)
+    if len(distinct) == 1:
+        reasons = (_ONE_LAMP,) if len(measured) == 1 else ()
+        return distinct, reasons if distinct[0].is_linear else (*reasons, _POOR_FIT)
+    return distinct, (
+        f"{len(distinct)} places explain the picture equally well: a panel looks the same when it "
+        "is turned, and a small one when it is tilted the other way. More lamps would decide.",
     )
 
 
 def find_places(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Located]:
     """Return the places that explain all edges, or all except a few."""
     for _ in range(_MAX_EXCLUDED_EDGES + 1):
-        tried = [fitted for start in starts if (fitted := edges.fit(start)) is not None]
-        fits = [one for one, _ in tried if one.deviations <= _MAX_MEAN_SQUARE * (one.freedom + 4)]
-        if fits or not tried:
-            return fits
-        _, off = min(tried, key=lambda each: each[0].deviations)
-        if len(off) < _MIN_EDGES + 2:
+        fits = [fit for start in starts if (fit := edges.fit(start)) is not None]
+        good = [one for one, _ in fits if one.deviations <= _MAX_MEAN_SQUARE * (one.freedom + 4)]
+        if good or not fits:
+            return good
+        _, squared_deviations = min(fits, key=lambda fit: fit[0].deviations)
+        if len(squared_deviations) < _MIN_EDGES + 2:
             return []
-        edges = edges.omit_edge(int(np.argmax(off)))
+        edges = edges.omit_edge(int(np.argmax(squared_deviations)))
     return []
 
 
 def _is_same(one: Located, other: Located) -> bool:
-    apart = np.array(astuple(one.place)) - np.array(astuple(other.place))
-    apart[3:] = np.angle(np.exp(1j * apart[3:]))
-    return bool(np.abs(apart).max() < _PLACE_TOLERANCE)
+    difference = np.array(astuple(one.place)) - np.array(astuple(other.place))
+    difference[3:] = np.angle(np.exp(1j * difference[3:]))
+    return bool(np.abs(difference).max() < _PLACE_TOLERANCE)
 
 
-def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) -> list[FloatArray]:
+def _start_of_centres(
+    named_lamps: Sequence[tuple[RoomLamp, ReadLamp]], room: Room
+) -> list[FloatArray]:
     """Return a place that explains the centres of at least four lamps, including discs."""
-    if len(whole) < 4:
+    if len(named_lamps) < 4:
         return []
-    centres = np.array([[lamp.x, lamp.y, lamp.z] for lamp, _ in whole])
-    seen = np.array([(read.hull.min(axis=0) + read.hull.max(axis=0)) / 2.0 for _, read in whole])
-    rays = image_rays(undistort(seen, room.scene), room.scene.camera)
-    found, vector, move = cv2.solvePnP(
+    centres = np.array([[lamp.x, lamp.y, lamp.z] for lamp, _ in named_lamps])
+    image_centres = np.array(
+        [
+            (read_lamp.hull.min(axis=0) + read_lamp.hull.max(axis=0)) / 2.0
+            for _, read_lamp in named_lamps
+        ]
+    )
+    rays = image_rays(undistort(image_centres, room.scene), room.scene.camera)
+    is_solved, vector, move = cv2.solvePnP(
         centres[:, None, :], rays[:, None, :], np.eye(3), None, flags=cv2.SOLVEPNP_SQPNP
     )
-    if not found:
+    if not is_solved:
         return []
     camera = np.asarray(cv2.Rodrigues(vector)[0], dtype=np.float64).T
     place = -camera @ np.asarray(move, dtype=np.float64).ravel()
@@ -214,28 +228,28 @@ def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) ->
 
 
 def _starts(anchor: _MeasuredLamp, room: Room) -> list[FloatArray]:
-    """Return places of six numbers that roughly explain the corners of one lamp."""
+    """Return places, as six numbers each, that roughly explain the corners of one lamp."""
     rays = image_rays(anchor.corners, room.scene.camera)
     outline = room_outline(anchor.lamp)
-    turned = rotation(anchor.lamp)
+    lamp_axes = rotation(anchor.lamp)
     middle = outline.mean(axis=0)
     starts = []
     for shift in range(4):
         order = np.roll(np.arange(4), -shift)
-        local = (outline - middle) @ turned
+        local = (outline - middle) @ lamp_axes
         _, vectors, moves, _ = cv2.solvePnPGeneric(
             local[:, None, :], rays[order][:, None, :], np.eye(3), None, flags=cv2.SOLVEPNP_IPPE
         )
         for vector, move in zip(vectors, moves, strict=True):
             # From the lamp's own axes to the camera's.
-            seen = np.asarray(cv2.Rodrigues(vector)[0], dtype=np.float64)
-            camera = turned @ seen.T
+            lamp_to_camera = np.asarray(cv2.Rodrigues(vector)[0], dtype=np.float64)
+            camera = lamp_axes @ lamp_to_camera.T
             place = middle - camera @ np.asarray(move, dtype=np.float64).ravel()
             starts.append(np.concatenate([place, angles_of(camera)]))
     return starts
 
 
-_SHAPE_ERROR = 0.01  # relative difference of aspect ratios from which a picture is not a scaled one
+_SHAPE_ERROR = 0.01  # relative difference of aspect ratios above which a picture is not just scaled
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -258,47 +272,53 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
     """
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)
     scene, assumed = _camera_of(photo, upright, room.scene)
-    scene, fraction, said = _with_focal_length(photo, scene, focal_length)
-    seen = room.replace(scene=scene)
+    scene, fraction, focal_note = _with_focal_length(photo, scene, focal_length)
+    photo_room = room.replace(scene=scene)
     check_size(scene.camera)
-    reading, image, turned = read_room(upright, seen, fraction), upright, 90 if photo.turned else 0
+    reading, image, turned = (
+        read_room(upright, photo_room, fraction),
+        upright,
+        90 if photo.turned else 0,
+    )
     if not any(lamp.name for lamp in reading.lamps):
-        around = np.ascontiguousarray(upright[::-1, ::-1])
-        other = read_room(around, seen, fraction)
-        if any(lamp.name for lamp in other.lamps):
-            reading, image, turned = other, around, turned + 180
+        upside_down = np.ascontiguousarray(upright[::-1, ::-1])
+        other_reading = read_room(upside_down, photo_room, fraction)
+        if any(lamp.name for lamp in other_reading.lamps):
+            reading, image, turned = other_reading, upside_down, turned + 180
     if turned:
-        assumed.append(f"The photo is read turned by {turned}°, to which the angles refer.")
-    return RoomPhoto(seen, image, reading, (said, *assumed))
+        assumed.append(f"The photo is turned by {turned}° for reading; the angles refer to that.")
+    return RoomPhoto(photo_room, image, reading, (focal_note, *assumed))
 
 
 def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, list[str]]:
     camera, (rows, columns) = scene.camera, image.shape
-    readout, scaled = camera.readout_time, ""
+    readout, scale_note = camera.readout_time, ""
     is_scaled = math.isclose(rows / columns, camera.rows / camera.columns, rel_tol=_SHAPE_ERROR)
     if is_scaled and columns != camera.columns:
         readout *= camera.columns / columns
-        scaled = f", scaled to a picture of {columns} columns instead of {camera.columns}"
+        scale_note = f", scaled to a picture of {columns} columns instead of {camera.columns}"
     scene = with_notes(scene.replace(rows=rows, columns=columns, readout_time=readout), photo)
     if photo.is_linear:
         scene = scene.replace(gamma=1.0)
-    said = "EXIF data say" if photo.exposure_time == scene.camera.exposure_time else "room says"
-    bends = "that of the room" if scene.lens.distorts else "none"
+    source = "EXIF data say" if photo.exposure_time == scene.camera.exposure_time else "room says"
+    distortion = "that of the room" if scene.lens.distorts else "none"
     return scene, [
-        f"Readout time: {SECOND.format(readout)} a column, as the room says{scaled}.",
-        f"Exposure time: {SECOND.format(scene.camera.exposure_time)}, as the {said}.",
-        f"Distortion: {bends}; the lens's axis passes through the middle of the picture.",
+        f"Readout time: {SECOND.format(readout)} a column, as the room says{scale_note}.",
+        f"Exposure time: {SECOND.format(scene.camera.exposure_time)}, as the {source}.",
+        f"Distortion: {distortion}; the lens's axis passes through the middle of the picture.",
     ]
 
 
-def _with_focal_length(photo: Photo, scene: Scene, given: float | None) -> tuple[Scene, float, str]:
-    noted, fraction = photo.equivalent_focal_length, 0.0
-    if given is not None:
-        PARAMETERS["equivalent_focal_length"].check(given)
-        value, source = given, "as given"
-    elif noted is not None:
+def _with_focal_length(
+    photo: Photo, scene: Scene, focal_length: float | None
+) -> tuple[Scene, float, str]:
+    exif_length, fraction = photo.equivalent_focal_length, 0.0
+    if focal_length is not None:
+        PARAMETERS["equivalent_focal_length"].check(focal_length)
+        value, source = focal_length, "as given"
+    elif exif_length is not None:
         error = photo.focal_length_step / math.sqrt(12.0)  # of rounding to this step
-        value, fraction = noted, error / noted
+        value, fraction = exif_length, error / exif_length
         source = f"± {1e3 * error:.2g} mm, as the EXIF data say, if the picture is not cropped"
     else:
         value = scene.camera.equivalent_focal_length

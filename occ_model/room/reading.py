@@ -19,9 +19,9 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import code_of, packet
 
 _MIN_LIT_FRACTION = 0.5
-"""Fraction of a lamp's own brightest light from which one of its columns counts as lit."""
+"""Fraction of a lamp's brightest light from which one of its columns counts as lit."""
 
-_SENT = (  # what a decoder must know about a lamp besides its code
+_DECODER_SETTINGS = (  # what a decoder must know about a lamp besides its code
     "switching_frequency", "bits", "payload", "line_code", "framing", "preamble",
     "error_correction", "pattern",
 )  # fmt: skip
@@ -42,11 +42,11 @@ class ReadLamp:
     hull : ndarray of float64, shape (corners, 2)
         The convex outline of its lit pixels, with (column, row) of each corner.
     is_cut
-        Whether it reaches the picture's edge, or may do so where its light is dark.
+        Whether it reaches the picture's edge, or may reach it where its light is dark.
     note
         Why it has no name, or that it is cut; otherwise empty.
     frequency
-        The frequency of its light, measured where lamps of the room send no code; else None.
+        The frequency of its light, measured if lamps of the room send no code; else None.
     """
 
     name: str | None
@@ -59,7 +59,7 @@ class ReadLamp:
 
     @property
     def light_words(self) -> str:
-        """What was read of its light."""
+        """Its code or frequency in words."""
         if self.code is not None:
             return f"code {self.code}"
         return "no code" if self.frequency is None else self.frequency.words
@@ -83,15 +83,15 @@ def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     (spots, scale), lamps = find_spots(image, width), list[ReadLamp]()
     gaps = longest_gaps(room)
     for gap in sorted({*gaps.values()}):
-        for region, hull, own in join_spots(spots, gap, scale, len(image)):
-            lamp, known = _read_lamp(image, region, hull, room, scale)
-            is_whole = max((gaps[name] for name in known), default=0) == gap
+        for region, hull, pixels in join_spots(spots, gap, scale, len(image)):
+            lamp, names = _read_lamp(image, region, hull, room, scale)
+            is_whole = max((gaps[name] for name in names), default=0) == gap
             if is_whole or gap == max(gaps.values()):
-                spots[own] = 0
+                spots[pixels] = 0
                 lamps.append(lamp if is_whole or not lamp.name else replace(
-                    lamp, name=None, note=f"It is dark for longer within than {lamp.name}.",
+                    lamp, name=None, note=f"It has longer dark gaps than {lamp.name}.",
                 ))  # fmt: skip
-    lamps.sort(key=lambda one: -one.region.rows * one.region.columns)
+    lamps.sort(key=lambda lamp: -lamp.region.rows * lamp.region.columns)
     names = [lamp.name for lamp in lamps if lamp.name]
     return tuple(
         replace(lamp, name=None, note=f"{lamp.name} was read at {names.count(lamp.name)} places.")
@@ -104,14 +104,14 @@ def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
 def _settings(room: Room) -> tuple[Scene, ...]:
     """Return a scene for each combination of settings with which lamps of the room send."""
     return tuple(
-        room.scene.replace(**dict(zip(_SENT, sent, strict=True)), light="code", code=0)
+        room.scene.replace(**dict(zip(_DECODER_SETTINGS, sent, strict=True)), light="code", code=0)
         for sent in dict.fromkeys(settings_of(lamp) for lamp in room.lamps if sends_code(lamp))
     )
 
 
 def settings_of(lamp: RoomLamp) -> tuple[Any, ...]:
     """Return what a decoder must know about a lamp besides its code."""
-    return tuple(getattr(lamp.transmitter, name) for name in _SENT)
+    return tuple(getattr(lamp.transmitter, name) for name in _DECODER_SETTINGS)
 
 
 def code_sent(lamp: RoomLamp) -> int:
@@ -122,25 +122,27 @@ def code_sent(lamp: RoomLamp) -> int:
 def _signal(image: ByteArray, region: Region, hull: FloatArray) -> FloatArray:
     """Return the mean pixel value within the outline in each column of the region."""
     part = region.crop(image)
-    own = hull - [region.first_column, region.first_row]
-    first, last = column_spans(own, *part.shape)
+    outline = hull - [region.first_column, region.first_row]
+    first, last = column_spans(outline, *part.shape)
     edge = np.minimum(3, (last - first) // 4)
     first, last = first + edge, last - edge
     sums = np.zeros((part.shape[0] + 1, part.shape[1]))
     np.cumsum(part, axis=0, out=sums[1:])
     column = np.arange(part.shape[1])
     total = sums[last, column] - sums[first, column]
-    shown = last > first
+    is_visible = last > first
     means = total / np.maximum(last - first, 1)
-    return np.asarray(np.interp(column, column[shown], means[shown]))
+    return np.asarray(np.interp(column, column[is_visible], means[is_visible]))
 
 
-def _whole_columns(region: Region, hull: FloatArray, shape: tuple[int, ...]) -> slice:
+def _full_columns(region: Region, hull: FloatArray, shape: tuple[int, ...]) -> slice:
     """Return the columns of a region that show at least half of the lamp's height."""
     first, last = column_spans(hull, *shape)
     height = (last - first)[region.first_column : region.last_column]
-    shown = np.flatnonzero(height >= height.max() / 2)
-    return slice(int(shown[0]) + 1, int(shown[-1]))  # the outermost ones are lit in part
+    full_columns = np.flatnonzero(height >= height.max() / 2)
+    return slice(
+        int(full_columns[0]) + 1, int(full_columns[-1])
+    )  # the outermost columns are only partly lit
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -155,53 +157,53 @@ class _Light:
 def _read_lamp(
     image: ByteArray, region: Region, hull: FloatArray, room: Room, edge: int
 ) -> tuple[ReadLamp, list[str]]:
-    """Read a lamp that is cut if it comes within ``edge`` rows of the picture's; and its names."""
+    """Read a lamp and its possible names; it is cut within ``edge`` rows of the picture's edge."""
     rows, columns = image.shape
     is_cut = (
         region.first_row <= edge or region.first_column <= 1
         or region.last_row >= rows - edge or region.last_column >= columns - 1
     )  # fmt: skip
     signal = _signal(image, region, hull)
-    own_rows = image[region.first_row : region.last_row]
-    bright = own_rows.max(axis=0) > _MIN_LIT_FRACTION * signal.max()
-    lights, why = _read_codes(signal, region, room)
+    lamp_rows = image[region.first_row : region.last_row]
+    bright = lamp_rows.max(axis=0) > _MIN_LIT_FRACTION * signal.max()
+    lights, problem = _read_codes(signal, region, room)
     code = lights[0].code if lights else None
     measured = None
     if not all(sends_code(lamp) for lamp in room.lamps):
-        inner = _whole_columns(region, hull, image.shape)
-        found = measure_frequency(signal[inner], room.scene.camera.readout_time)
-        if isinstance(found, MeasuredFrequency):
-            measured = found
-            lights.append(_light_of_frequency(signal, region, found, room))
-            why = f"No lamp of the room has the frequency {found.words}."
+        inner = _full_columns(region, hull, image.shape)
+        frequency = measure_frequency(signal[inner], room.scene.camera.readout_time)
+        if isinstance(frequency, MeasuredFrequency):
+            measured = frequency
+            lights.append(_light_of_frequency(signal, region, frequency, room))
+            problem = f"No lamp of the room has the frequency {frequency.words}."
         else:
-            why = f"{why} No frequency was measured: {found}".strip()
-    cut = "It is cut by the picture's edge." if is_cut else ""
-    if not is_cut and any(_may_reach_sides(one.lit, region, bright) for one in lights):
-        is_cut, cut = True, "The picture's edge may cut it: its light is dark there."
-    codes = [(name, one.code) for one in lights for name in one.names]
-    known = [name for name, _ in codes]
+            problem = f"{problem} No frequency was measured: {frequency}".strip()
+    cut_note = "It is cut by the picture's edge." if is_cut else ""
+    if not is_cut and any(_may_reach_sides(light.lit, region, bright) for light in lights):
+        is_cut, cut_note = True, "The picture's edge may cut it: its light is dark there."
+    codes = [(name, light.code) for light in lights for name in light.names]
+    possible_names = [name for name, _ in codes]
     name = None
-    if len(known) == 1:
-        ((name, code),), why = codes, ""
-    elif known:
-        why = f"{' and '.join(known)} would look the same."
-    note = f"{why} {cut}".strip()
-    return ReadLamp(name, code, region, hull, is_cut, note, measured), known
+    if len(possible_names) == 1:
+        ((name, code),), problem = codes, ""
+    elif possible_names:
+        problem = f"{' and '.join(possible_names)} would look the same."
+    note = f"{problem} {cut_note}".strip()
+    return ReadLamp(name, code, region, hull, is_cut, note, measured), possible_names
 
 
 def _read_codes(signal: FloatArray, region: Region, room: Room) -> tuple[list[_Light], str]:
-    """Return the codes that are read with the settings of the room's lamps, and why not."""
+    """Return the codes read with the settings of the room's lamps, and why no lamp is named."""
     lights, failure = [], ""
     for scene in _settings(room):
         result = decode(signal, scene, "matched")
         if result.code is None:
             failure = failure or f"No code was read: {result.failure}"
             continue
-        sent = tuple(getattr(scene.transmitter, name) for name in _SENT)
+        settings = tuple(getattr(scene.transmitter, name) for name in _DECODER_SETTINGS)
         names = [
             lamp.name for lamp in room.lamps
-            if sends_code(lamp) and settings_of(lamp) == sent and code_sent(lamp) == result.code
+            if sends_code(lamp) and settings_of(lamp) == settings and code_sent(lamp) == result.code
         ]  # fmt: skip
         lit = None if result.model is None else _expected_light(result.model, scene, region)
         lights.append(_Light(result.code, names, lit))
@@ -209,31 +211,31 @@ def _read_codes(signal: FloatArray, region: Region, room: Room) -> tuple[list[_L
 
 
 def _light_of_frequency(
-    signal: FloatArray, region: Region, found: MeasuredFrequency, room: Room
+    signal: FloatArray, region: Region, frequency: MeasuredFrequency, room: Room
 ) -> _Light:
     camera = room.scene.camera
     names = [
         lamp.name for lamp in room.lamps
-        if not sends_code(lamp) and found.is_of(lamp, camera.readout_time)
+        if not sends_code(lamp) and frequency.is_of(lamp, camera.readout_time)
     ]  # fmt: skip
-    column = (np.arange(camera.columns) - region.first_column) % found.period
+    column = (np.arange(camera.columns) - region.first_column) % frequency.period
     return _Light(None, names, np.interp(column, np.arange(len(signal)), signal))
 
 
 def _expected_light(model: FloatArray, scene: Scene, region: Region) -> FloatArray:
     """Return the light of a code that was read in all of the picture's columns."""
-    camera, sent = scene.camera, scene.transmitter
+    camera, transmitter = scene.camera, scene.transmitter
     column = np.arange(camera.columns) - region.first_column  # columns of the signal that was read
-    chip = (scene.model.start_time + column * camera.readout_time) * sent.switching_frequency
+    chip = (scene.model.start_time + column * camera.readout_time) * transmitter.switching_frequency
     bins = len(model)
-    place = chip * (bins / len(packet(scene)))
-    return np.asarray(np.interp(place, np.arange(bins), model, period=bins))
+    position = chip * (bins / len(packet(scene)))
+    return np.asarray(np.interp(position, np.arange(bins), model, period=bins))
 
 
 def _may_reach_sides(lit: FloatArray | None, region: Region, bright: BoolArray) -> bool:
-    """Return whether the lamp may reach a side, its light being dark in all columns up to it."""
+    """Return whether the lamp may reach a side, as it would be dark in all columns up to it."""
     if lit is None:
         return False
-    lacking = (lit > _MIN_LIT_FRACTION * lit.max()) & ~bright
-    sides = lacking[: region.first_column], lacking[region.last_column :]
+    is_missing = (lit > _MIN_LIT_FRACTION * lit.max()) & ~bright
+    sides = is_missing[: region.first_column], is_missing[region.last_column :]
     return any(not side.any() for side in sides)

@@ -44,7 +44,7 @@ class PicturedLamp:
     outline: FloatArray
     region: Region  # Its bounding rectangle in the picture
     is_cut: bool  # Whether a part of it is outside the picture
-    profile: FloatArray  # Shape (columns,): the pixel value that it alone would have in each column
+    profile: FloatArray  # Shape (columns,): its pixel value in each column, without other lamps
     blur: float  # Standard deviation of the lens's blur, in pixels
 
 
@@ -55,7 +55,7 @@ class RoomFrame:
     Parameters
     ----------
     plan
-        The simulated effects: those that the picture of any of its lamps needs.
+        The simulated effects: those that the picture of at least one lamp needs.
     camera_image : ndarray of uint8, shape (rows, columns)
         The camera's picture.
     lamps
@@ -72,17 +72,17 @@ class RoomFrame:
 
     @cached_property
     def image(self) -> ByteArray:
-        """The receiver's picture: each lamp is enhanced by itself, by the scene's method."""
+        """The receiver's picture: each lamp is enhanced separately, by the scene's method."""
         image = self.camera_image.copy()
         method = self.room.scene.model.enhancement
         rows, columns = image.shape
-        for shown in self.lamps:
-            enhancement = Enhancement(shown.profile, method)
+        for lamp in self.lamps:
+            enhancement = Enhancement(lamp.profile, method)
             for band in split_into_blocks(range(rows), columns):
-                covered = Coverage(shown.outline, rows, columns, shown.blur).rows(band) >= 0.5
+                is_covered = Coverage(lamp.outline, rows, columns, lamp.blur).rows(band) >= 0.5
                 camera = self.camera_image[band.start : band.stop]
-                own = image[band.start : band.stop]
-                np.copyto(own, enhancement.enhance_bytes(camera), where=covered)
+                enhanced = image[band.start : band.stop]
+                np.copyto(enhanced, enhancement.enhance_bytes(camera), where=is_covered)
         return image
 
 
@@ -115,21 +115,22 @@ def render_room(
     settings = SimulationSettings(tolerance, observable, force or {}, noise, seed).check(NAMES)
     check_size(room.scene.camera)
     timer = StageTimer()
-    seen = lamps_in_view(room)
+    lamp_views = lamps_in_view(room)
     timer.end_stage("projection")
-    views = [one.view for one in seen] or [_dark_view(room.scene)]
-    chosen = plan_of_any(_select_extreme(views), settings)
+    views = [lamp_view.view for lamp_view in lamp_views] or [_dark_view(room.scene)]
+    effect_plan = plan_of_any(_select_extreme(views), settings)
     timer.end_stage("plan")
     if len(views) == 1:
-        frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
-        profiles, image = [expose_columns(views[0], chosen).profile], frame.camera_image
+        frame = render_plan(views[0], effect_plan, seed=seed, noise=noise, timer=timer)
+        profiles, image = [expose_columns(views[0], effect_plan).profile], frame.camera_image
     else:
-        profiles, image = _compose(views, chosen, settings, timer)
-    shown = tuple(
-        _show_lamp(one, chosen, profile) for one, profile in zip(seen, profiles, strict=False)
+        profiles, image = _compose(views, effect_plan, settings, timer)
+    pictured = tuple(
+        _make_pictured_lamp(lamp_view, effect_plan, profile)
+        for lamp_view, profile in zip(lamp_views, profiles, strict=False)
     )
-    lamps = tuple(lamp for lamp in shown if lamp is not None)
-    return RoomFrame(room, chosen, image, lamps, timer.timings)
+    lamps = tuple(lamp for lamp in pictured if lamp is not None)
+    return RoomFrame(room, effect_plan, image, lamps, timer.timings)
 
 
 def _dark_view(scene: Scene) -> PaperView:
@@ -140,76 +141,80 @@ def _select_extreme(views: Sequence[PaperView]) -> list[PaperView]:
     """Return the lamps for which an effect can be largest.
 
     They are extreme in depth (defocus), place in the picture (vignetting, distortion), tilt and
-    order (emission), light (noise), number of pixels, speed of the light's changes, or edges (and
-    in their swing, which an enhancement stretches).
+    order (emission), light (noise), number of pixels, speed of the light's changes, edge time, or
+    swing (which an enhancement stretches).
     """
 
     def features(view: PaperView) -> tuple[float, ...]:
         scene, corners = view.scene, view.corners
-        camera, sent = scene.camera, scene.transmitter
+        camera, transmitter = scene.camera, scene.transmitter
         middle = np.array([camera.columns - 1, camera.rows - 1]) / 2.0
         return (
             scene.pose.distance, float(np.hypot(*(corners - middle).T).max()),
-            float(np.ptp(corners[:, 0]) * np.ptp(corners[:, 1])) / sent.panel_width
-            / sent.panel_height, sent.luminance, _fastest_change(sent), view.swing,
-            sent.edge_time, sent.lambertian_order,
+            float(np.ptp(corners[:, 0]) * np.ptp(corners[:, 1])) / transmitter.panel_width
+            / transmitter.panel_height, transmitter.luminance, _fastest_change(transmitter),
+            view.swing, transmitter.edge_time, transmitter.lambertian_order,
             float(np.ptp(corners[:, 0])),
         )  # fmt: skip
 
     table = np.array([features(view) for view in views])
     # Differences by rounding alone must not add a lamp.
     table = np.round(table / np.maximum(np.abs(table).max(axis=0), 1e-30), 6)
-    places = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
-    return [views[place] for place in sorted(places)]
+    indices = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
+    return [views[place] for place in sorted(indices)]
 
 
-def _fastest_change(sent: Transmitter) -> float:
-    """Return how often a second a light changes where it does so most often."""
-    light = light_of(sent)
+def _fastest_change(transmitter: Transmitter) -> float:
+    """Return the frequency of a light's fastest changes, in Hz."""
+    light = light_of(transmitter)
     if isinstance(light, Cosine):
         return light.frequency
     return float(light.rate / min(light.waveform.lengths.tolist()))
 
 
-def _optics_of(view: PaperView, chosen: Plan) -> Optics:
+def _optics_of(view: PaperView, effect_plan: Plan) -> Optics:
     optics = Optics(view.corners)
-    for effect in effects_planned(chosen, OpticsEffect):
+    for effect in effects_planned(effect_plan, OpticsEffect):
         optics = effect.apply(view.scene, optics)
     return optics
 
 
 def _compose(
-    views: list[PaperView], chosen: Plan, settings: SimulationSettings, timer: StageTimer
+    views: list[PaperView], effect_plan: Plan, settings: SimulationSettings, timer: StageTimer
 ) -> tuple[list[FloatArray], ByteArray]:
     """Return the profile of each lamp, and the camera's picture of all lamps."""
     camera = views[0].scene.camera
-    columns = [expose_columns(view, chosen, timer) for view in views]
+    columns = [expose_columns(view, effect_plan, timer) for view in views]
     panels = [
-        LitPanel(_optics_of(view, chosen), own.panel)
-        for view, own in zip(views, columns, strict=True)
+        LitPanel(_optics_of(view, effect_plan), lamp_columns.panel)
+        for view, lamp_columns in zip(views, columns, strict=True)
     ]
     timer.end_stage("optics")
     bands = split_into_blocks(range(camera.rows), camera.columns)
     if all(panel.optics.is_plain for panel in panels) and camera.jpeg_quality == 0:
         level = [view.region for view in views if view.sides]
-        ends = [end for own in level for end in (own.first_row, own.last_row)]
+        ends = [
+            end for lamp_columns in level for end in (lamp_columns.first_row, lamp_columns.last_row)
+        ]
         bands = [part for band in bands for part in split_at(band, ends)]
     mean = PictureRows(camera, panels, columns[0].surroundings)
-    exposure = PixelExposure(views[0], chosen, columns[0], timer, bands, mean=mean)
+    exposure = PixelExposure(views[0], effect_plan, columns[0], timer, bands, mean=mean)
     plain = Enhancement(columns[0].profile, "none")
-    made = exposure.pictures(plain, settings.seed, settings.noise)
-    return [one.profile for one in columns], made.camera_image
+    pictures = exposure.pictures(plain, settings.seed, settings.noise)
+    return [lamp_columns.profile for lamp_columns in columns], pictures.camera_image
 
 
-def _show_lamp(seen: LampView, chosen: Plan, profile: FloatArray) -> PicturedLamp | None:
-    camera, optics = seen.view.scene.camera, _optics_of(seen.view, chosen)
+def _make_pictured_lamp(
+    lamp_view: LampView, effect_plan: Plan, profile: FloatArray
+) -> PicturedLamp | None:
+    camera, optics = lamp_view.view.scene.camera, _optics_of(lamp_view.view, effect_plan)
     outline = optics.outline
     region = region_of(outline, camera.rows, camera.columns)
     if region is None:
         return None
     column, row = outline.T
-    cut = bool(
+    is_cut = bool(
         column.min() < 0 or row.min() < 0
         or column.max() > camera.columns - 1 or row.max() > camera.rows - 1
     )  # fmt: skip
-    return PicturedLamp(seen.lamp, outline, region, cut, profile, optics.blur)
+    return PicturedLamp(lamp_view.lamp, outline, region, is_cut, profile, optics.blur)

@@ -39,7 +39,7 @@ _START = Quantity(
     unit=SECOND, low=-1e6, high=1e6, slider=(0.0, 0.02), scale="linear", default=0.0,
 )  # fmt: skip
 
-_DECLARED: dict[str, Any] = {
+_DECLARATIONS: dict[str, Any] = {
     "x": _length("x", "Place along x."),
     "y": _length("y", "Place along y."),
     "z": _length("z", "Height."),
@@ -49,9 +49,9 @@ _DECLARED: dict[str, Any] = {
 
 
 def _check_fields(value: object) -> None:
-    for name, declared in _DECLARED.items():
+    for name, declaration in _DECLARATIONS.items():
         if hasattr(value, name):
-            object.__setattr__(value, name, declared.check(getattr(value, name)))
+            object.__setattr__(value, name, declaration.check(getattr(value, name)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,8 +201,10 @@ class Room:
         ParameterError
             A name is unknown, or a value is out of range.
         """
-        own = {name: changes.pop(name) for name in ("lamps", "scene", "camera") if name in changes}
-        room = dataclasses.replace(self, **own)
+        parts = {
+            name: changes.pop(name) for name in ("lamps", "scene", "camera") if name in changes
+        }
+        room = dataclasses.replace(self, **parts)
         place = {name: changes.pop(name) for name in Place.__dataclass_fields__ if name in changes}
         for name in changes:
             if name in GROUPS["pose"]:
@@ -222,9 +224,11 @@ class Room:
         ParameterError
             A name is unknown, or a value is out of range.
         """
-        sent = {name: value for name, value in changes.items() if name in GROUPS["transmitter"]}
+        parameters = {
+            name: value for name, value in changes.items() if name in GROUPS["transmitter"]
+        }
         lamps = tuple(
-            dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced(sent))
+            dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced(parameters))
             for lamp in self.lamps
         )
         return self.replace(lamps=lamps, **changes)
@@ -233,12 +237,12 @@ class Room:
         """Return the room as the text of a room file."""
         tables = self.scene.tables()
         tables.pop("pose")
-        usual = tables["transmitter"]
+        shared = tables["transmitter"]
         lamps = []
         for lamp in self.lamps:
             row = {n: getattr(lamp, n) for n in _LAMP_KEYS}
-            sent = {n: getattr(lamp.transmitter, n) for n in GROUPS["transmitter"]}
-            lamps.append({**row, **{n: v for n, v in sent.items() if v != usual[n]}})
+            parameters = {n: getattr(lamp.transmitter, n) for n in GROUPS["transmitter"]}
+            lamps.append({**row, **{n: v for n, v in parameters.items() if v != shared[n]}})
         return toml_format.to_toml(
             {**tables, "place": dataclasses.asdict(self.camera), "lamps": lamps}  # type: ignore[dict-item]
         )
@@ -250,7 +254,7 @@ class Room:
         Its tables are those of a scene file, with ``[transmitter]`` for what all lamps share.
         ``based_on`` names a preset for everything that is not stated. ``[place]`` is the camera's
         place, and ``lamps`` a list of tables, each with a lamp's name, shape, place, angles and
-        start time, and with those parameters of its transmitter that are its own.
+        start time, and with the parameters of its transmitter that differ from the shared ones.
 
         Raises
         ------
@@ -281,19 +285,19 @@ def _read_place(value: object) -> Place:
     return Place(**table)
 
 
-def _read_lamp(row: Mapping[str, Any], usual: Transmitter, number: int) -> RoomLamp:
-    called = f"Lamp {number}"
-    _check_keys(row, (*_LAMP_KEYS, *GROUPS["transmitter"]), called)
-    own = {name: row[name] for name in _LAMP_KEYS if name in row}
-    if "name" not in own:
-        raise SceneFileError(f"{called} has no name; each lamp needs one of its own.")
-    sent = {name: value for name, value in row.items() if name not in _LAMP_KEYS}
+def _read_lamp(row: Mapping[str, Any], shared: Transmitter, number: int) -> RoomLamp:
+    label = f"Lamp {number}"
+    _check_keys(row, (*_LAMP_KEYS, *GROUPS["transmitter"]), label)
+    fields = {name: row[name] for name in _LAMP_KEYS if name in row}
+    if "name" not in fields:
+        raise SceneFileError(f"{label} has no name; each lamp needs one of its own.")
+    parameters = {name: value for name, value in row.items() if name not in _LAMP_KEYS}
     try:
-        return RoomLamp(**own, transmitter=usual.replaced(sent))
+        return RoomLamp(**fields, transmitter=shared.replaced(parameters))
     except ParameterError as error:
         if str(error).startswith("Lamp "):
             raise
-        raise error.within(f"{called} ({one_line(str(own['name']))})") from None
+        raise error.within(f"{label} ({one_line(str(fields['name']))})") from None
 
 
 def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) -> None:

@@ -1,4 +1,4 @@
-"""Find the lamps that a room's camera sees, each as a scene of its own."""
+"""Find the lamps in view of a room's camera, each as a scene of its own."""
 
 import dataclasses
 import math
@@ -19,7 +19,7 @@ from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.scene.scene import Pose, Scene, Surroundings
 
 _DISC_CORNERS = 96  # of a disc's polygon, which is within 0.06 % of the radius of the circle
-_MIN_DEPTH = 1e-3  # depth in metres below which nothing is seen
+_MIN_DEPTH = 1e-3  # depth in metres below which nothing is visible
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -57,8 +57,8 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
         angles = lamp.yaw, lamp.pitch, lamp.roll
         x, y, z = lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z
     else:
-        turned = rotation(camera).T @ rotation(lamp)
-        angles = angles_of(turned)
+        relative_rotation = rotation(camera).T @ rotation(lamp)
+        angles = angles_of(relative_rotation)
         place = [lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z]
         x, y, z = (rotation(camera).T @ place).tolist()
     pose = Pose(distance=z, offset_x=x, offset_y=y, yaw=angles[0], pitch=angles[1], roll=angles[2])
@@ -96,11 +96,11 @@ def _surroundings_of(room: Room) -> Surroundings:
     return room.scene.surroundings
 
 
-def angles_of(turned: FloatArray) -> tuple[float, float, float]:
+def angles_of(matrix: FloatArray) -> tuple[float, float, float]:
     """Return yaw, pitch and roll of a rotation, the inverse of :func:`rotation_of`."""
-    yaw = math.asin(min(1.0, max(-1.0, -float(turned[2, 0]))))
-    pitch = math.atan2(turned[2, 1], turned[2, 2])
-    return yaw, pitch, math.atan2(turned[1, 0], turned[0, 0])
+    yaw = math.asin(min(1.0, max(-1.0, -float(matrix[2, 0]))))
+    pitch = math.atan2(matrix[2, 1], matrix[2, 2])
+    return yaw, pitch, math.atan2(matrix[1, 0], matrix[0, 0])
 
 
 def lamps_in_view(room: Room) -> tuple[LampView, ...]:
@@ -110,29 +110,31 @@ def lamps_in_view(room: Room) -> tuple[LampView, ...]:
     more, or if the lens folds the picture.
     """
     frame = undistort_frame(room.scene)
-    return tuple(seen for lamp in room.lamps if (seen := _view_lamp(room, lamp, frame)) is not None)
+    return tuple(
+        lamp_view for lamp in room.lamps if (lamp_view := _view_lamp(room, lamp, frame)) is not None
+    )
 
 
 def _view_lamp(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None:
-    turned = rotation(room.camera)
-    own = [room.camera.x, room.camera.y, room.camera.z]
-    placed = (room_outline(lamp) - own) @ turned
-    facing = rotation(lamp)[:, 2] @ (np.array([lamp.x, lamp.y, lamp.z]) - own)
-    before = part_inside(placed, placed[:, 2] - _MIN_DEPTH)  # in front of the camera
-    if facing <= 0.0 or len(before) == 0:
+    camera_rotation = rotation(room.camera)
+    camera_position = [room.camera.x, room.camera.y, room.camera.z]
+    outline = (room_outline(lamp) - camera_position) @ camera_rotation
+    facing = rotation(lamp)[:, 2] @ (np.array([lamp.x, lamp.y, lamp.z]) - camera_position)
+    visible_part = part_inside(outline, outline[:, 2] - _MIN_DEPTH)  # in front of the camera
+    if facing <= 0.0 or len(visible_part) == 0:
         return None
     camera = room.scene.camera
-    corners = image_points(before[:, :2] / before[:, 2:], camera)
+    corners = image_points(visible_part[:, :2] / visible_part[:, 2:], camera)
     first, size = frame.min(axis=0), np.ptp(frame, axis=0) + 1.0
     try:
         scene = lamp_scene(room, lamp)
-        slack = 4.0 * blur_of(scene) * size.max() / max(camera.rows, camera.columns)
+        margin = 4.0 * blur_of(scene) * size.max() / max(camera.rows, camera.columns)
     except ParameterError:
-        scene, slack = None, 0.0
-    columns, rows = np.ceil(size + 2.0 * slack).astype(int).tolist()
-    if region_of(corners - first + slack, rows, columns) is None:
+        scene, margin = None, 0.0
+    columns, rows = np.ceil(size + 2.0 * margin).astype(int).tolist()
+    if region_of(corners - first + margin, rows, columns) is None:
         return None
-    if scene is None or placed[:, 2].min() < _MIN_DEPTH:
+    if scene is None or outline[:, 2].min() < _MIN_DEPTH:
         raise ProjectionError(
             f"Lamp {one_line(lamp.name)} reaches into the picture and is partly behind the camera, "
             "or its plane is turned by 90° or more from the picture's; move or turn the camera.",
@@ -159,24 +161,27 @@ def seen_outline(room: Room, height: float) -> FloatArray:
         rays = image_rays(undistort_frame(room.scene), camera)
     except ProjectionError:
         return np.empty((0, 2))
-    turned = np.column_stack([rays, np.ones(len(rays))]) @ rotation(place).T
-    above = height - place.z
-    if above <= 0.0 or turned[:, 2].min() <= _MIN_DEPTH:
+    directions = np.column_stack([rays, np.ones(len(rays))]) @ rotation(place).T
+    distance = height - place.z
+    if distance <= 0.0 or directions[:, 2].min() <= _MIN_DEPTH:
         return np.empty((0, 2))
-    return np.asarray([place.x, place.y] + turned[:, :2] / turned[:, 2:] * above)
+    return np.asarray([place.x, place.y] + directions[:, :2] / directions[:, 2:] * distance)
 
 
 def aim_of(place: Place, height: float) -> tuple[float, float]:
     """Return the point of a level plane above the camera in the middle of its picture."""
     x, y, z = rotation(place)[:, 2].tolist()
-    along = (height - place.z) / max(z, _MIN_DEPTH)
-    return place.x + along * x, place.y + along * y
+    distance = (height - place.z) / max(z, _MIN_DEPTH)
+    return place.x + distance * x, place.y + distance * y
 
 
 def aim_at(place: Place, x: float, y: float, height: float) -> Place:
     """Return a camera turned to have a point in the middle of its picture, with the same roll."""
-    away = np.array([x - place.x, y - place.y, height - place.z])
-    away /= np.linalg.norm(away)
-    about = rotation_of(Pose(roll=place.roll)).T @ away
-    pitch, yaw = -math.asin(float(about[1])), math.atan2(float(about[0]), float(about[2]))
+    direction = np.array([x - place.x, y - place.y, height - place.z])
+    direction /= np.linalg.norm(direction)
+    camera_direction = rotation_of(Pose(roll=place.roll)).T @ direction
+    pitch, yaw = (
+        -math.asin(float(camera_direction[1])),
+        math.atan2(float(camera_direction[0]), float(camera_direction[2])),
+    )
     return dataclasses.replace(place, yaw=yaw, pitch=pitch)

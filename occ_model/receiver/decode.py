@@ -25,14 +25,14 @@ from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region, RunH
 from occ_model.scene.payload import MAX_PAYLOAD_BITS, form_of, payload_of_bits
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.plugin_checks import (
-    checked_bits,
-    checked_count,
-    checked_counts,
-    checked_failure,
-    checked_number,
-    checked_numbers,
-    checked_places,
-    checked_text,
+    require_bits,
+    require_count,
+    require_counts,
+    require_failure,
+    require_number,
+    require_numbers,
+    require_places,
+    require_text,
 )
 from occ_model.transmitter.registry import MOST_CHIPS
 from occ_model.transmitter.scheme import check_code, code_of
@@ -47,9 +47,9 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
     It must have as many bits as the scene sends, and the code and payload of these bits. The caller
     adds the decoder's name and the region.
     """
-    bits = checked_bits(who, "bits", result.bits, MAX_PAYLOAD_BITS)
-    chips = checked_bits(who, "chips", result.chips, max(columns, MOST_CHIPS))
-    failure = checked_failure(who, result.failure)
+    bits = require_bits(who, "bits", result.bits, MAX_PAYLOAD_BITS)
+    chips = require_bits(who, "chips", result.chips, max(columns, MOST_CHIPS))
+    failure = require_failure(who, result.failure)
     code = None
     if failure is None:
         length = scene.transmitter.payload_length
@@ -70,12 +70,12 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
         )
 
     def number(name: str, low: float = -math.inf, high: float = math.inf) -> float | None:
-        return checked_number(who, name, getattr(result, name), low, high)
+        return require_number(who, name, getattr(result, name), low, high)
 
     def numbers(
         name: str, length: int, low: float = -math.inf, high: float = math.inf
     ) -> FloatArray | None:
-        return checked_numbers(who, name, getattr(result, name), length, low, high)
+        return require_numbers(who, name, getattr(result, name), length, low, high)
 
     farthest = _FARTHEST_CHIP * columns
     starts = numbers("chip_starts", len(chips), -farthest, farthest)
@@ -96,7 +96,7 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
         chip_length=number("chip_length", low=_SHORTEST_CHIP),
         chips=chips,
         chip_starts=starts,
-        headers=checked_places(who, "headers", result.headers, len(chips)),
+        headers=require_places(who, "headers", result.headers, len(chips)),
         correlation=number("correlation", -1.0, 1.0),
         confidence=number("confidence", 0.0, 1.0),
         folded=numbers("folded", max(bins, 1)),
@@ -113,8 +113,8 @@ def _runs(who: str, runs: object, columns: int) -> Runs | None:
     if runs is None:
         return None
     checked = of_kind(who, Runs)(runs)
-    values = checked_bits(who, "runs of values", checked.values, columns)
-    lengths = checked_counts(who, "lengths of runs", checked.lengths, columns)
+    values = require_bits(who, "runs of values", checked.values, columns)
+    lengths = require_counts(who, "lengths of runs", checked.lengths, columns)
     if len(values) != len(lengths) or lengths.sum() > columns:
         raise PluginError(f"{who} gives runs that are not those of {columns:,} columns.")
     return Runs(values, lengths)
@@ -133,12 +133,12 @@ def _histograms(
 
 def _histogram(who: str, histogram: object, columns: int) -> RunHistogram:
     checked = of_kind(who, RunHistogram)(histogram)
-    counts = checked_counts(who, "counts of runs", checked.counts, columns + 1)
+    counts = require_counts(who, "counts of runs", checked.counts, columns + 1)
     if not counts.size:
         raise PluginError(f"{who} gives an empty histogram.")
     split: object = checked.split
     if split is not None:
-        split = checked_count(who, "split", split, 0, len(counts) - 1)
+        split = require_count(who, "split", split, 0, len(counts) - 1)
     return RunHistogram(counts, split)
 
 
@@ -218,7 +218,7 @@ def _load_plugin(name: str) -> Decoder:
             raise PluginError(str(error), parameters=error.parameters) from None
 
     title = plugins.call(
-        who, "be used", lambda title: checked_text(who, "title", title), lambda: decoder.title
+        who, "be used", lambda title: require_text(who, "title", title), lambda: decoder.title
     )
     return Decoder(name, title, read)
 

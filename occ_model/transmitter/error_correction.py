@@ -12,7 +12,7 @@ if TYPE_CHECKING:  # an optional package
     from reedsolo import RSCodec
 
 PARITY_BYTES = 4  # bytes added to each block; half as many wrong bytes can be corrected
-_BLOCK_BYTES = 255 - PARITY_BYTES  # most bytes of the payload in a block
+_BLOCK_BYTES = 255 - PARITY_BYTES  # maximum bytes of the payload in a block
 
 
 def count_protected_bits(bits: int) -> int:
@@ -22,8 +22,8 @@ def count_protected_bits(bits: int) -> int:
 
 def protect(bits: ByteArray) -> ByteArray:
     """Pad a payload with zeros to whole bytes, and add the parity."""
-    sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
-    return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))
+    protected = _codec().encode(bytearray(np.packbits(bits).tobytes()))
+    return np.unpackbits(np.frombuffer(bytes(protected), dtype=np.uint8))
 
 
 def correct(bits: ByteArray, count: int) -> ByteArray | None:
@@ -32,10 +32,10 @@ def correct(bits: ByteArray, count: int) -> ByteArray | None:
     from reedsolo import ReedSolomonError
 
     try:
-        right, _, _ = codec.decode(bytearray(np.packbits(bits).tobytes()))
+        decoded, _, _ = codec.decode(bytearray(np.packbits(bits).tobytes()))
     except ReedSolomonError:
         return None
-    payload = np.unpackbits(np.frombuffer(bytes(right), dtype=np.uint8))
+    payload = np.unpackbits(np.frombuffer(bytes(decoded), dtype=np.uint8))
     # The padding of the last byte must be 0.
     return None if payload[count:].any() else payload[:count]
 

@@ -13,11 +13,11 @@ from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
 from occ_model.transmitter.plugin_checks import (
-    checked_bits,
-    checked_count,
-    checked_failure,
-    checked_places,
-    checked_text,
+    require_bits,
+    require_count,
+    require_failure,
+    require_places,
+    require_text,
 )
 
 _Kind = TypeVar("_Kind")
@@ -25,7 +25,7 @@ _Kind = TypeVar("_Kind")
 
 @dataclass(frozen=True, eq=False)
 class Registry(Generic[_Kind]):
-    """The objects among which a parameter chooses, each imported when first needed."""
+    """The objects among which a parameter chooses; each is imported when first needed."""
 
     parameter: str  # The parameter, whose declaration names the built-in ones
     kind: type[_Kind]
@@ -61,57 +61,57 @@ def _guard_line_code(offered: LineCode) -> LineCode:
     """Wrap a plug-in's line code so that its faults become sentences."""
     who = plugins.describe(plugins.LINE_CODES, offered.name)
 
-    def declared(code: LineCode) -> LineCode:
-        preamble = checked_text(who, "preamble", code.preamble)
+    def check_declaration(code: LineCode) -> LineCode:
+        preamble = require_text(who, "preamble", code.preamble)
         if set(preamble) - {"0", "1"}:
             raise PluginError(f"{who} gives preamble = {quote(preamble)}; allowed: zeros and ones.")
         run, disparity = code.longest_run, code.disparity
         return LineCode(
             code.name,
-            checked_text(who, "title", code.title),
-            checked_count(who, "block_bits", code.block_bits, 1, MOST_CHIPS),
-            checked_count(who, "block_chips", code.block_chips, 1, MOST_CHIPS),
-            None if run is None else checked_count(who, "longest_run", run, 1, MOST_CHIPS),
+            require_text(who, "title", code.title),
+            require_count(who, "block_bits", code.block_bits, 1, MOST_CHIPS),
+            require_count(who, "block_chips", code.block_chips, 1, MOST_CHIPS),
+            None if run is None else require_count(who, "longest_run", run, 1, MOST_CHIPS),
             None
             if disparity is None
-            else checked_count(who, "disparity", disparity, 0, MOST_CHIPS),
+            else require_count(who, "disparity", disparity, 0, MOST_CHIPS),
             bool(code.finds_wrong_chip),
             code.encode,
             code.decode,
             preamble,
         )
 
-    own = plugins.call(who, "be used", declared, lambda: offered)
+    checked_code = plugins.call(who, "be used", check_declaration, lambda: offered)
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
-        count = own.chips_for(len(bits))
+        count = checked_code.chips_for(len(bits))
 
         def check(chips: object) -> ByteArray:
-            found = checked_bits(who, "chips", chips, MOST_CHIPS)
-            if len(found) != count:
-                raise PluginError(f"{who} gives {len(found)} chips in place of {count}.")
-            return found
+            array = require_bits(who, "chips", chips, MOST_CHIPS)
+            if len(array) != count:
+                raise PluginError(f"{who} gives {len(array)} chips in place of {count}.")
+            return array
 
-        return plugins.call(who, "encode", check, own.encode, bits.copy(), level)
+        return plugins.call(who, "encode", check, checked_code.encode, bits.copy(), level)
 
     def decode(chips: ByteArray, level: int) -> Decoded:
-        blocks, rest = divmod(len(chips), own.block_chips)
-        most = (blocks + 1) * own.block_bits
+        blocks, rest = divmod(len(chips), checked_code.block_chips)
+        most = (blocks + 1) * checked_code.block_bits
 
         def check(read: object) -> Decoded:
             read = plugins.of_kind(who, Decoded)(read)
-            failure = checked_failure(who, read.failure)
-            bits = checked_bits(who, "bits", read.bits, most)
-            if failure is None and rest == 0 and len(bits) != blocks * own.block_bits:
+            failure = require_failure(who, read.failure)
+            bits = require_bits(who, "bits", read.bits, most)
+            if failure is None and rest == 0 and len(bits) != blocks * checked_code.block_bits:
                 raise PluginError(
-                    f"{who} gives {len(bits)} bits in place of {blocks * own.block_bits}."
+                    f"{who} gives {len(bits)} bits in place of {blocks * checked_code.block_bits}."
                 )
-            places = checked_places(who, "violations", read.violations, len(bits))
+            places = require_places(who, "violations", read.violations, len(bits))
             return Decoded(bits, places, failure)
 
-        return plugins.call(who, "decode", check, own.decode, chips.copy(), level)
+        return plugins.call(who, "decode", check, checked_code.decode, chips.copy(), level)
 
-    return replace(own, encode=encode, decode=decode)
+    return replace(checked_code, encode=encode, decode=decode)
 
 
 LINE_CODES = Registry(  # the line codes among which a scene chooses
@@ -133,43 +133,43 @@ def _guard_framing(offered: Framing) -> Framing:
     """Wrap a plug-in's framing so that its faults become sentences."""
     who = plugins.describe(plugins.FRAMINGS, offered.name)
 
-    def declared(framing: Framing) -> Framing:
-        title = checked_text(who, "title", framing.title)
+    def check_declaration(framing: Framing) -> Framing:
+        title = require_text(who, "title", framing.title)
         return Framing(framing.name, title, bool(framing.checks), framing.encode, framing.decode)
 
-    own = plugins.call(who, "be used", declared, lambda: offered)
+    checked_framing = plugins.call(who, "be used", check_declaration, lambda: offered)
     lengths: dict[tuple[str, str, int], int] = {}
 
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
         def check(chips: object) -> ByteArray:
-            found = checked_bits(who, "chips", chips, MOST_CHIPS)
-            # As many for every payload, on which all that reads it relies.
+            array = require_bits(who, "chips", chips, MOST_CHIPS)
+            # Every payload must have the same number of chips, on which its readers rely.
             key = form.line_code.name, form.preamble, form.bits
-            length = lengths.setdefault(key, len(found))
-            if not found.size:
+            length = lengths.setdefault(key, len(array))
+            if not array.size:
                 raise PluginError(f"{who} gives no chips.")
-            if len(found) != length:
+            if len(array) != length:
                 raise PluginError(
-                    f"{who} gives {len(found)} chips for one payload, {length} for another."
+                    f"{who} gives {len(array)} chips for one payload, {length} for another."
                 )
-            return found
+            return array
 
-        return plugins.call(who, "encode", check, own.encode, bits.copy(), form)
+        return plugins.call(who, "encode", check, checked_framing.encode, bits.copy(), form)
 
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
         def check(read: object) -> Framed:
             read = plugins.of_kind(who, Framed)(read)
-            failure = checked_failure(who, read.failure)
-            bits = checked_bits(who, "bits", read.bits, form.bits)
+            failure = require_failure(who, read.failure)
+            bits = require_bits(who, "bits", read.bits, form.bits)
             if failure is None and len(bits) != form.bits:
                 raise PluginError(
                     f"{who} gives {len(bits)} bits in place of {form.bits}, and no failure."
                 )
-            return Framed(checked_places(who, "headers", read.headers, len(chips)), bits, failure)
+            return Framed(require_places(who, "headers", read.headers, len(chips)), bits, failure)
 
-        return plugins.call(who, "decode", check, own.decode, chips.copy(), form)
+        return plugins.call(who, "decode", check, checked_framing.decode, chips.copy(), form)
 
-    return replace(own, encode=encode, decode=decode)
+    return replace(checked_framing, encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(  # the framings among which a scene chooses

@@ -44,7 +44,7 @@ class Scheme:
 
     @property
     def is_papers(self) -> bool:
-        """Whether it is the paper's: differential Manchester after the header 1 1 1 0."""
+        """Whether it is the paper's scheme: differential Manchester after the header 1 1 1 0."""
         return (self.line_code.name, self.framing.name, self.correction) == _PAPER_SCHEME
 
     @property
@@ -83,7 +83,7 @@ class Scheme:
         Raises
         ------
         ParameterError
-            Line code and framing do not go together, or a package is missing.
+            Line code and framing cannot be combined, or a package is missing.
         PluginError
             A plug-in fails.
         """
@@ -103,32 +103,32 @@ class Scheme:
         Returns
         -------
         Framed
-            With ``bits`` bits, or with a sentence that says why not.
+            With ``bits`` bits, or with a sentence that states why not.
         """
-        read = self.framing.decode(chips, self.form)
-        if self.correction == "none" or len(read.bits) != self.form.bits:
-            return read
-        payload = error_correction.correct(read.bits, self.bits)
-        failure = read.failure if self.framing.checks else None
+        framed = self.framing.decode(chips, self.form)
+        if self.correction == "none" or len(framed.bits) != self.form.bits:
+            return framed
+        payload = error_correction.correct(framed.bits, self.bits)
+        failure = framed.failure if self.framing.checks else None
         if payload is None:
             failure = (
                 f"More than {error_correction.PARITY_BYTES // 2} bytes of a block are wrong: the "
                 "error correction cannot tell which."
             )
         if payload is None or failure is not None:
-            payload = read.bits[: self.bits]
-        return Framed(read.headers, payload, failure)
+            payload = framed.bits[: self.bits]
+        return Framed(framed.headers, payload, failure)
 
     @cached_property
     def form(self) -> FrameFormat:
-        """What the framing gets: line code, preamble, bits in a frame, and their correction."""
+        """The format given to the framing: line code, preamble, bits in a frame, correction."""
         bits = self.bits
         if self.correction != "none":
             bits = error_correction.count_protected_bits(bits)
         return FrameFormat(self.line_code, self.preamble, bits, self._correct_frame)
 
     def _correct_frame(self, bits: ByteArray) -> ByteArray:
-        """Correct the bits of a frame by the error correction, if there is one and it can."""
+        """Correct the bits of a frame by the error correction, if possible; else return them."""
         if self.correction == "none" or len(bits) != self.form.bits:
             return bits
         payload = error_correction.correct(bits, self.bits)
@@ -224,7 +224,7 @@ def _payload_chips(
 
 
 def sends_paper_code(transmitter: Transmitter) -> bool:
-    """Whether a code is sent by the paper's scheme, rather than a pattern or a payload."""
+    """Return whether a code is sent by the paper's scheme, not a pattern or a payload."""
     return not (transmitter.pattern or transmitter.payload) and scheme_of(transmitter).is_papers
 
 

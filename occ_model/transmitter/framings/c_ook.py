@@ -1,11 +1,11 @@
 """C-OOK, camera on-off keying of IEEE 802.15.7-2018 (PHY V), with sub-packets.
 
-A sub-packet is a preamble that no payload contains, and then, line-coded, asynchronous bits, a part
-of the payload, and the same asynchronous bits again. If the picture's edges cut every sub-packet,
-one is joined from a start at the last edge and an end at the first, if their asynchronous bits
-agree. The standard has one asynchronous bit, which changes from packet to packet; here these bits
-number the sub-packets of a long payload, so that a single picture shows their order. A payload of
-up to 16 bits is one sub-packet.
+A sub-packet is a preamble that no payload contains, followed by line-coded bits: asynchronous bits,
+a part of the payload, and the same asynchronous bits again. If the picture's edges cut every
+sub-packet, one is joined from the start at the last edge and the end at the first, if their
+asynchronous bits agree. The standard has one asynchronous bit, which changes from packet to packet;
+here these bits number the sub-packets of a long payload, so that a single picture shows their
+order. A payload of up to 16 bits is one sub-packet.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from occ_model.transmitter.framings.framing import (
     own_preamble,
 )
 
-_PART_BITS = 16  # most bits of the payload in a sub-packet: two characters
+_PART_BITS = 16  # maximum bits of the payload in a sub-packet: two characters
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class _SubPacketLayout:
     def bits(self) -> int:
         return self.part_bits + 2 * self.asynchronous
 
-    def number(self, part: int) -> ByteArray:
+    def encode_number(self, part: int) -> ByteArray:
         places = reversed(range(self.asynchronous))
         return np.array([part >> place & 1 for place in places], dtype=np.uint8)
 
@@ -50,17 +50,17 @@ def count_sub_packets(bits: int) -> int:
 
 
 def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray, str | None]:
-    """Read a sub-packet from its preamble on: its number, its payload bits, and any problem."""
-    preamble, division = own_preamble(form.line_code), _SubPacketLayout.of(form.bits)
+    """Read a sub-packet's number and payload bits from its preamble on, and state any problem."""
+    preamble, layout = own_preamble(form.line_code), _SubPacketLayout.of(form.bits)
     if not np.array_equal(chips[: len(preamble)], preamble):
         return 0, chips[:0], "A sub-packet does not start with its preamble."
-    data = chips[len(preamble) : len(preamble) + form.line_code.chips_for(division.bits)]
-    read = form.line_code.decode(data, int(preamble[-1]))
-    number, problem = _check_number(read.bits, division)
-    first = division.asynchronous
-    part = read.bits[first : first + division.part_bits]
-    left = form.bits - number * division.part_bits
-    return number, part[: max(left, 0)], read.failure or problem
+    data = chips[len(preamble) : len(preamble) + form.line_code.chips_for(layout.bits)]
+    decoded = form.line_code.decode(data, int(preamble[-1]))
+    number, problem = _check_number(decoded.bits, layout)
+    start = layout.asynchronous
+    part = decoded.bits[start : start + layout.part_bits]
+    bits_left = form.bits - number * layout.part_bits
+    return number, part[: max(bits_left, 0)], decoded.failure or problem
 
 
 def read_numbers_beside(
@@ -68,78 +68,78 @@ def read_numbers_beside(
 ) -> tuple[int | None, int | None]:
     """Read the numbers of the sub-packets after and before a preamble; None if unknown."""
     code, preamble = form.line_code, own_preamble(form.line_code)
-    division = _SubPacketLayout.of(form.bits)
-    if division.parts == 1:
+    layout = _SubPacketLayout.of(form.bits)
+    if layout.parts == 1:
         return 0, 0
     # Only whole blocks of the line code can be read; the last one is padded.
-    length = code.chips_for(division.asynchronous)
+    length = code.chips_for(layout.asynchronous)
     start = preamble_at + len(preamble)
-    after = _read_number(chips[start : start + length], length, int(preamble[-1]), 0, form)
-    bits = -(-division.bits // code.block_bits) * code.block_bits
-    within = division.bits - division.asynchronous
-    first_block = within // code.block_bits
-    begin = preamble_at - code.chips_for(bits) + first_block * code.block_chips
-    level = int(chips[begin - 1]) if begin > 0 else 0
-    part = chips[max(begin, 0) : preamble_at] if begin > 0 else chips[:0]
-    skipped = within - first_block * code.block_bits
+    number_after = _read_number(chips[start : start + length], length, int(preamble[-1]), 0, form)
+    bits = -(-layout.bits // code.block_bits) * code.block_bits
+    number_start = layout.bits - layout.asynchronous
+    first_block = number_start // code.block_bits
+    block_start = preamble_at - code.chips_for(bits) + first_block * code.block_chips
+    level = int(chips[block_start - 1]) if block_start > 0 else 0
+    last_blocks = chips[max(block_start, 0) : preamble_at] if block_start > 0 else chips[:0]
+    skipped = number_start - first_block * code.block_bits
     length = code.chips_for(bits) - first_block * code.block_chips
-    return after, _read_number(part, length, level, skipped, form)
+    return number_after, _read_number(last_blocks, length, level, skipped, form)
 
 
 def _read_number(
     chips: ByteArray, length: int, level: int, skipped: int, form: FrameFormat
 ) -> int | None:
     """Read a number from some blocks of chips, after a number of ``skipped`` bits."""
-    division = _SubPacketLayout.of(form.bits)
+    layout = _SubPacketLayout.of(form.bits)
     if len(chips) < length:
         return None
-    read = form.line_code.decode(chips, level)
-    bits = read.bits[skipped : skipped + division.asynchronous]
-    if read.failure is not None or len(bits) < division.asynchronous:
+    decoded = form.line_code.decode(chips, level)
+    bits = decoded.bits[skipped : skipped + layout.asynchronous]
+    if decoded.failure is not None or len(bits) < layout.asynchronous:
         return None
     number = int("".join(map(str, bits.tolist())), 2)
-    return number if number < division.parts else None
+    return number if number < layout.parts else None
 
 
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
-    preamble, division = own_preamble(form.line_code), _SubPacketLayout.of(len(bits))
-    missing = division.parts * division.part_bits - len(bits)
-    parts = np.pad(np.asarray(bits, dtype=np.uint8), (0, missing))
-    sent = []
-    for place, part in enumerate(parts.reshape(division.parts, -1)):
-        number = division.number(place)
-        data = np.concatenate([number, part, number])
-        sent += [preamble, form.line_code.encode(data, int(preamble[-1]))]
-    return np.concatenate(sent)
+    preamble, layout = own_preamble(form.line_code), _SubPacketLayout.of(len(bits))
+    padding = layout.parts * layout.part_bits - len(bits)
+    parts = np.pad(np.asarray(bits, dtype=np.uint8), (0, padding))
+    pieces = []
+    for part_number, part in enumerate(parts.reshape(layout.parts, -1)):
+        number_bits = layout.encode_number(part_number)
+        data = np.concatenate([number_bits, part, number_bits])
+        pieces += [preamble, form.line_code.encode(data, int(preamble[-1]))]
+    return np.concatenate(pieces)
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    preamble, division = own_preamble(form.line_code), _SubPacketLayout.of(form.bits)
+    preamble, layout = own_preamble(form.line_code), _SubPacketLayout.of(form.bits)
     headers = find_preambles(chips, preamble)
-    length = form.line_code.chips_for(division.bits)
+    length = form.line_code.chips_for(layout.bits)
     parts: dict[int, ByteArray] = {}
     failure = None
     for data in _join_sub_packets(chips, headers, len(preamble), length):
-        read = form.line_code.decode(data, int(preamble[-1]))
-        number, problem = _check_number(read.bits, division)
-        problem = read.failure or problem
-        part = read.bits[division.asynchronous : division.asynchronous + division.part_bits]
+        decoded = form.line_code.decode(data, int(preamble[-1]))
+        number, problem = _check_number(decoded.bits, layout)
+        problem = decoded.failure or problem
+        part = decoded.bits[layout.asynchronous : layout.asynchronous + layout.part_bits]
         if problem is None and not np.array_equal(parts.setdefault(number, part), part):
             problem = (
                 f"Two sub-packets {number + 1} differ: some chips were misread, or another payload "
                 "follows."
             )
         failure = failure or problem
-    missing = [place for place in range(division.parts) if place not in parts]
+    missing = [place for place in range(layout.parts) if place not in parts]
     if missing:
         reason = failure or _too_few_chips(len(headers), len(chips), len(preamble) + length)
         if parts:
             reason = (
-                f"{len(parts)} of {division.parts} sub-packets were read; the first missing is "
+                f"{len(parts)} of {layout.parts} sub-packets were read; the first missing is "
                 f"number {missing[0] + 1}. {reason}"
             )
         return Framed.nothing(reason, headers)
-    bits = np.concatenate([parts[place] for place in range(division.parts)])
+    bits = np.concatenate([parts[place] for place in range(layout.parts)])
     if failure is None and bits[form.bits :].any():
         failure = (
             "The bits that fill the last sub-packet are not 0: some chips were misread, or another "
@@ -151,7 +151,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 def _join_sub_packets(
     chips: ByteArray, headers: tuple[int, ...], preamble: int, length: int
 ) -> list[ByteArray]:
-    """Cut out the whole sub-packets; if there are none, join one from both edges of the picture."""
+    """Return the whole sub-packets; if there are none, join one from both edges of the picture."""
     starts = [header + preamble for header in headers]
     whole = [chips[start : start + length] for start in starts if start + length <= len(chips)]
     if whole or not headers:
@@ -163,22 +163,24 @@ def _join_sub_packets(
     return [np.concatenate([start, chips[headers[0] - missing : headers[0]]])]
 
 
-def _check_number(bits: ByteArray, division: _SubPacketLayout) -> tuple[int, str | None]:
-    first, last = bits[: division.asynchronous], bits[division.bits - division.asynchronous :]
-    last = last[: division.asynchronous]
+def _check_number(bits: ByteArray, layout: _SubPacketLayout) -> tuple[int, str | None]:
+    first, last = bits[: layout.asynchronous], bits[layout.bits - layout.asynchronous :]
+    last = last[: layout.asynchronous]
     if not np.array_equal(first, last):
         return 0, "The asynchronous bits at a sub-packet's start and end differ."
-    if bits[division.bits :].any():
+    if bits[layout.bits :].any():
         return 0, "The bits that fill a sub-packet's last block are not 0."
     number = int("".join(map(str, first.tolist())), 2)
-    if number >= division.parts:
-        return 0, f"A sub-packet has the number {number + 1} of {division.parts}."
+    if number >= layout.parts:
+        return 0, f"A sub-packet has the number {number + 1} of {layout.parts}."
     return number, None
 
 
 def _too_few_chips(headers: int, chips: int, sub_packet: int) -> str:
-    found = f"{headers} preambles" if headers != 1 else "One preamble"
-    return f"{found} and no whole sub-packet, which has {sub_packet} chips, among {chips} chips."
+    preambles = f"{headers} preambles" if headers != 1 else "One preamble"
+    return (
+        f"{preambles} and no whole sub-packet, which has {sub_packet} chips, among {chips} chips."
+    )
 
 
 FRAMING = Framing(

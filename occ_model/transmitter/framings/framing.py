@@ -25,8 +25,8 @@ class Framed:
     headers
         Indices of the chips at which headers start.
     bits : ndarray of uint8
-        The bits read, empty if none. With a failure there can still be bits, which break the line
-        code or a check.
+        The bits read, empty if none. A result with a failure may contain bits, which break the line
+        code or fail a check.
     failure
         None, or a sentence that says why no payload was read.
     """
@@ -43,7 +43,7 @@ class Framed:
 
 @dataclass(frozen=True, slots=True)
 class FrameFormat:
-    """What transmitter and receiver have agreed.
+    """What transmitter and receiver have agreed on.
 
     Parameters
     ----------
@@ -66,16 +66,15 @@ class FrameFormat:
 
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """A rule that lets chips show where a payload starts.
+    """A rule by which chips show where a payload starts.
 
     Parameters
     ----------
     name
         Its identifier, as in a scene file.
     checks
-        Whether it checks the payload by itself, as with a check sum. Its failure is then final, so
-        that ``decode`` must correct the bits with :attr:`FrameFormat.correct` before it checks
-        them.
+        Whether it checks the payload itself, for example by a check sum. Its failure is then final,
+        so ``decode`` must correct the bits with :attr:`FrameFormat.correct` before it checks them.
     encode
         Turns bits into chips, one period of what is sent repeatedly.
     decode
@@ -125,7 +124,7 @@ def _chips_of(text: str) -> ByteArray:
 
 
 def is_unique(preamble: ByteArray, line_code: LineCode) -> bool:
-    """Whether no payload contains a preamble: it is the code's own, or contains too long a run."""
+    """Return whether no payload contains a preamble: the code's own, or one with too long a run."""
     if line_code.preamble and np.array_equal(preamble, _chips_of(line_code.preamble)):
         return True
     if line_code.longest_run is None:
@@ -138,7 +137,7 @@ def find_preambles(chips: ByteArray, preamble: ByteArray) -> tuple[int, ...]:
     count = len(chips) - len(preamble) + 1
     if count < 1:
         return ()
-    fits = np.ones(count, dtype=bool)
-    for place, chip in enumerate(preamble.tolist()):
-        fits &= chips[place : place + count] == chip
-    return tuple(np.flatnonzero(fits).tolist())
+    is_start = np.ones(count, dtype=bool)
+    for offset, chip in enumerate(preamble.tolist()):
+        is_start &= chips[offset : offset + count] == chip
+    return tuple(np.flatnonzero(is_start).tolist())

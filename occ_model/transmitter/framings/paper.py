@@ -24,7 +24,7 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def is_header_unique(line_code: LineCode) -> bool:
-    """Return whether no data hold a header's ones, so that two headers bound a packet."""
+    """Return whether no data contain a header's ones, so that two headers bound a packet."""
     return line_code.longest_run is not None and line_code.longest_run < HEADER_ONES
 
 

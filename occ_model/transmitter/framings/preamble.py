@@ -27,9 +27,9 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 
 def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     """Read a payload of known length from the chips after a preamble that ends with ``level``."""
-    read = form.line_code.decode(data[: form.line_code.chips_for(form.bits)], level)
-    bits, padding = read.bits[: form.bits], read.bits[form.bits :]
-    failure = read.failure
+    decoded = form.line_code.decode(data[: form.line_code.chips_for(form.bits)], level)
+    bits, padding = decoded.bits[: form.bits], decoded.bits[form.bits :]
+    failure = decoded.failure
     if failure is None and padding.any():
         failure = (
             "The bits that fill the last block are not 0: some chips were misread, or another "
@@ -47,47 +47,46 @@ FRAMING = Framing(
 )
 
 
-_MAX_WHOLE_FRAMES = (
-    32  # preambles above which the line code is checked before a whole frame is read
-)
+# Number of preambles above which the line code is checked before a whole frame is read
+_MAX_WHOLE_FRAMES = 32
 
-_CHECKED_CHIPS = 120  # chips that are then checked: whole blocks of 2, 6, 10 and 12
+_CHECKED_CHIPS = 120  # number of chips that are then checked: whole blocks of 2, 6, 10 and 12
 # Reads the chips after a preamble, at least one period, given the preamble's last chip
 ReadData = Callable[[ByteArray, int, FrameFormat], Framed]
 
 
 def read_repeated(
-    chips: ByteArray, preamble: ByteArray, bits: int, form: FrameFormat, read: ReadData
+    chips: ByteArray, preamble: ByteArray, bits: int, form: FrameFormat, read_data: ReadData
 ) -> Framed:
     """Read the frame, a preamble and line-coded bits, from chips.
 
-    Preambles with a whole frame after them are tried first; then, as the frame repeats, those whose
+    Preambles followed by a whole frame are tried first; then, as the frame repeats, those whose
     frame continues before them. If a payload can contain the preamble, all are tried.
     """
     length = len(preamble) + form.line_code.chips_for(bits)
     headers = find_preambles(chips, preamble)
-    unique = is_unique(preamble, form.line_code)
+    is_preamble_unique = is_unique(preamble, form.line_code)
     if len(chips) < length:
         return Framed.nothing(
             f"Less than one packet: {inflect(len(chips), 'chip')} of its {length}.", headers
         )
-    failed: list[Framed] = []
-    found: dict[bytes, Framed] = {}
-    for wrapped, data in _list_candidates(chips, preamble, length, form):
-        if wrapped and unique and found:
+    failures: list[Framed] = []
+    payloads: dict[bytes, Framed] = {}
+    for is_joined, data in _list_candidates(chips, preamble, length, form):
+        if is_joined and is_preamble_unique and payloads:
             break
-        one = read(data, int(preamble[-1]), form)
-        if one.failure is None:
-            found[one.bits.tobytes()] = one
+        frame = read_data(data, int(preamble[-1]), form)
+        if frame.failure is None:
+            payloads[frame.bits.tobytes()] = frame
         else:
-            failed.append(one)
-    if len(found) == 1:
-        (one,) = found.values()
-        return Framed(headers, one.bits)
-    if found:
-        return Framed.nothing(_ambiguous_payloads(len(found)), headers)
-    if failed:
-        return Framed(headers, failed[0].bits, failed[0].failure)
+            failures.append(frame)
+    if len(payloads) == 1:
+        (frame,) = payloads.values()
+        return Framed(headers, frame.bits)
+    if payloads:
+        return Framed.nothing(_ambiguous_payloads(len(payloads)), headers)
+    if failures:
+        return Framed(headers, failures[0].bits, failures[0].failure)
     return Framed.nothing(
         f"No preamble found among {inflect(len(chips), 'chip')}, of which a frame has {length}.",
         headers,
@@ -97,28 +96,28 @@ def read_repeated(
 def _list_candidates(
     chips: ByteArray, preamble: ByteArray, length: int, form: FrameFormat
 ) -> Iterator[tuple[bool, ByteArray]]:
-    """Yield the distinct chips after preambles, and whether they are joined from two parts.
+    """Yield whether the chips after a preamble are joined from two parts, and the distinct chips.
 
-    If there are very many preambles, only those followed by valid line code count.
+    Of very many preambles, only those followed by valid line code count.
     """
     headers = find_preambles(chips, preamble)
-    many = len(headers) > _MAX_WHOLE_FRAMES
-    tried: set[bytes] = set()
+    has_many = len(headers) > _MAX_WHOLE_FRAMES
+    contents: set[bytes] = set()
     frames = (
         _cut_whole_frames(chips, preamble, length, headers),
         _join_frame_ends(chips, preamble, length),
     )
-    for wrapped, datas in enumerate(frames):
-        for data in datas:
+    for is_joined, candidates in enumerate(frames):
+        for data in candidates:
             content = data[: length - len(preamble)].tobytes()
-            is_new = content not in tried
-            tried.add(content)
-            if is_new and (not many or _obeys_line_code(data[:_CHECKED_CHIPS], preamble, form)):
-                yield bool(wrapped), data
+            is_new = content not in contents
+            contents.add(content)
+            if is_new and (not has_many or _obeys_line_code(data[:_CHECKED_CHIPS], preamble, form)):
+                yield bool(is_joined), data
 
 
 def _obeys_line_code(chips: ByteArray, preamble: ByteArray, form: FrameFormat) -> bool:
-    """Whether the first chips after a preamble obey the line code."""
+    """Return whether the first chips after a preamble obey the line code."""
     whole = len(chips) - len(chips) % form.line_code.block_chips
     return form.line_code.decode(chips[:whole], int(preamble[-1])).failure is None
 

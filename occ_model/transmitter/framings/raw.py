@@ -48,14 +48,14 @@ def _binary_digits(number: int, places: int) -> ByteArray:
 
 
 def check_sum(body: ByteArray) -> ByteArray:
-    """Return the CRC-16/IBM-3740 of any number of bits; our libraries take only whole bytes."""
-    rest = _START
+    """Return the CRC-16/IBM-3740 of any number of bits; libraries take only whole bytes."""
+    remainder = _START
     for bit in body.tolist():
-        is_divided = rest >> _CRC_BITS - 1 ^ bit
-        rest = rest << 1 & 0xFFFF
+        is_divided = remainder >> _CRC_BITS - 1 ^ bit
+        remainder = remainder << 1 & 0xFFFF
         if is_divided:
-            rest ^= _POLYNOMIAL
-    return _binary_digits(rest, _CRC_BITS)
+            remainder ^= _POLYNOMIAL
+    return _binary_digits(remainder, _CRC_BITS)
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
@@ -64,24 +64,24 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 
 
 def _read_frame(data: ByteArray, level: int, form: FrameFormat) -> Framed:
-    """Read the frame at the start of the chips, of the length that it states."""
+    """Read the frame at the start of the chips, whose length it states."""
     code = form.line_code
-    head = code.decode(data[: code.chips_for(_LONG_LENGTH_BITS)], level).bits
-    if len(head) < _LONG_LENGTH_BITS:
+    length_field = code.decode(data[: code.chips_for(_LONG_LENGTH_BITS)], level).bits
+    if len(length_field) < _LONG_LENGTH_BITS:
         return Framed.nothing("The frame ends inside its number of bits.")
-    is_long = bool(head[0])
+    is_long = bool(length_field[0])
     start = _LONG_LENGTH_BITS if is_long else _SHORT_LENGTH_BITS
-    count = int("".join(map(str, head[is_long:start].tolist())), 2)
-    whole = start + count + _CRC_BITS
-    if code.chips_for(whole) > len(data):
+    count = int("".join(map(str, length_field[is_long:start].tolist())), 2)
+    frame_bits = start + count + _CRC_BITS
+    if code.chips_for(frame_bits) > len(data):
         return Framed.nothing(
             f"The frame states a length of {inflect(count, 'bit')}, for which {len(data)} chips "
             "are too few: some chips were misread, or a longer frame is sent."
         )
-    read = code.decode(data[: code.chips_for(whole)], level).bits
-    body, check = read[: start + count], read[start + count : whole]
+    decoded = code.decode(data[: code.chips_for(frame_bits)], level).bits
+    body, stated_check_sum = decoded[: start + count], decoded[start + count : frame_bits]
     bits = form.correct(body[start:])
-    if not np.array_equal(check_sum(np.concatenate([body[:start], bits])), check):
+    if not np.array_equal(check_sum(np.concatenate([body[:start], bits])), stated_check_sum):
         return Framed((), bits, "The check sum (CRC-16) does not match: some chips were misread.")
     return Framed((), bits)
 

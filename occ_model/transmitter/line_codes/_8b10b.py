@@ -33,10 +33,7 @@ _SIX = tuple(
 _FOUR = ("1011", "1001", "0101", "1100", "1101", "1010", "0110", "1110")
 
 _ALTERNATE = "0111"  # for HGF = 111, if the usual word would end a run of five
-_ALTERNATE_AFTER = {
-    -1: (17, 18, 20),
-    1: (11, 13, 14),
-}  # EDCBA before it, by disparity
+_ALTERNATE_AFTER = {-1: (17, 18, 20), 1: (11, 13, 14)}  # EDCBA before it, by disparity
 _COMPLEMENT = str.maketrans("01", "10")
 
 _K28 = "001111"
@@ -61,8 +58,8 @@ def encode_byte(byte: int, disparity: int) -> tuple[str, int]:
     low, high = byte & 31, byte >> 5
     six = _choose_form(_SIX[low], disparity)
     disparity += _disparity(six)
-    alternate = high == 7 and low in _ALTERNATE_AFTER[disparity]
-    four = _choose_form(_ALTERNATE if alternate else _FOUR[high], disparity)
+    is_alternate = high == 7 and low in _ALTERNATE_AFTER[disparity]
+    four = _choose_form(_ALTERNATE if is_alternate else _FOUR[high], disparity)
     return six + four, disparity + _disparity(four)
 
 
@@ -74,20 +71,22 @@ def control_word(name: str, disparity: int = -1) -> str:
 
 @lru_cache(maxsize=1)
 def _tabulate_words() -> tuple[ByteArray, ByteArray]:
-    """Tabulate all words by the running disparity before (-1, 1) and the byte, and that after."""
-    both = [[encode_byte(byte, disparity) for byte in range(256)] for disparity in (-1, 1)]
-    words = np.array([[[*map(int, word)] for word, _ in row] for row in both], dtype=np.uint8)
-    after = np.array([[int(end > 0) for _, end in row] for row in both], dtype=np.uint8)
+    """Tabulate the words and the disparities after them, by disparity before (-1, 1) and byte."""
+    encoded_bytes = [[encode_byte(byte, disparity) for byte in range(256)] for disparity in (-1, 1)]
+    words = np.array(
+        [[[*map(int, word)] for word, _ in row] for row in encoded_bytes], dtype=np.uint8
+    )
+    after = np.array([[int(end > 0) for _, end in row] for row in encoded_bytes], dtype=np.uint8)
     return words, after
 
 
 def _encode(bits: ByteArray, _level: int) -> ByteArray:
     words, after = _tabulate_words()
-    state, sent = 0, []
+    state, encoded = 0, []
     for byte in read_numbers(pad_bits(bits, 8)).tolist():
-        sent.append(words[state, byte])
+        encoded.append(words[state, byte])
         state = int(after[state, byte])
-    return np.concatenate(sent) if sent else np.empty(0, dtype=np.uint8)
+    return np.concatenate(encoded) if encoded else np.empty(0, dtype=np.uint8)
 
 
 def _decode(chips: ByteArray, _level: int) -> Decoded:
@@ -96,32 +95,32 @@ def _decode(chips: ByteArray, _level: int) -> Decoded:
         return refuse_partial_block(len(chips), 10)
     words, after = _tabulate_words()
     # The distance of every received word to that of every byte, for both disparities.
-    seen = chips.reshape(-1, 10).astype(np.int32)
+    received = chips.reshape(-1, 10).astype(np.int32)
     ones = words.astype(np.int32)
     distances = (
-        seen.sum(axis=1)[:, None, None]
+        received.sum(axis=1)[:, None, None]
         + ones.sum(axis=2)
-        - 2 * np.tensordot(seen, ones, axes=([1], [2]))
+        - 2 * np.tensordot(received, ones, axes=([1], [2]))
     )
-    state, values, wrong = 0, [], []
-    for place, distance in enumerate(distances):
+    state, values, wrong_words = 0, [], []
+    for index, distance in enumerate(distances):
         byte = int(distance[state].argmin())
         if distance[state, byte]:
-            wrong.append(place)
-            other = 1 - state
+            wrong_words.append(index)
+            other_state = 1 - state
             # A word of the other disparity is valid by itself: an earlier error shows only here.
-            if not distance[other].min():
-                state, byte = other, int(distance[other].argmin())
+            if not distance[other_state].min():
+                state, byte = other_state, int(distance[other_state].argmin())
         values.append(byte)
         state = int(after[state, byte])
     bits = np.unpackbits(np.array(values, dtype=np.uint8))
-    if not wrong:
+    if not wrong_words:
         return Decoded(bits)
     failure = (
-        f"Word {wrong[0] + 1} of {len(seen)} is not an 8B10B word of its running disparity: "
-        f"{len(wrong)} of {len(seen)} words break the line code."
+        f"Word {wrong_words[0] + 1} of {len(received)} is not an 8B10B word of its running "
+        f"disparity: {len(wrong_words)} of {len(received)} words break the line code."
     )
-    return Decoded(bits, tuple(8 * place for place in wrong), failure)
+    return Decoded(bits, tuple(8 * index for index in wrong_words), failure)
 
 
 LINE_CODE = LineCode(

@@ -13,23 +13,23 @@ from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, refuse
 
 def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
     """Turn bits, shape (..., bits), into twice as many chips; ``level`` is the chip before."""
-    # A bit 0 has two transitions, which leave the level as it was; a bit 1 inverts it.
-    after = np.bitwise_xor.accumulate(np.asarray(bits, dtype=np.uint8), axis=-1) ^ np.uint8(level)
-    chips = np.stack([1 - after, after], axis=-1)
-    return chips.reshape(*after.shape[:-1], 2 * after.shape[-1])
+    # A bit 0 has two transitions, which leave the level unchanged; a bit 1 inverts it.
+    second = np.bitwise_xor.accumulate(np.asarray(bits, dtype=np.uint8), axis=-1) ^ np.uint8(level)
+    chips = np.stack([1 - second, second], axis=-1)
+    return chips.reshape(*second.shape[:-1], 2 * second.shape[-1])
 
 
 def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
     """Return the bits of chips, and the indices of bits without a transition in their middle."""
     first = chips[0::2]
     second = chips[1::2]
-    before = np.concatenate([[np.uint8(level)], second[:-1]])
-    bits = (first == before).astype(np.uint8)
+    previous = np.concatenate([[np.uint8(level)], second[:-1]])
+    bits = (first == previous).astype(np.uint8)
     return bits, np.flatnonzero(first == second).tolist()
 
 
-def missing_transitions(violations: list[int], bits: int) -> str | None:
-    """Word the failure of bits without a transition in their middle; None if there are none."""
+def describe_missing_transitions(violations: list[int], bits: int) -> str | None:
+    """Describe the failure of bits without a transition in their middle; None if there are none."""
     if not violations:
         return None
     return (
@@ -42,7 +42,7 @@ def _decode(chips: ByteArray, level: int) -> Decoded:
     if len(chips) % 2:
         return refuse_partial_block(len(chips), 2)
     bits, violations = decode(chips, level)
-    return Decoded(bits, tuple(violations), missing_transitions(violations, len(bits)))
+    return Decoded(bits, tuple(violations), describe_missing_transitions(violations, len(bits)))
 
 
 LINE_CODE = LineCode(

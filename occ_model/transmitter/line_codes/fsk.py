@@ -2,8 +2,8 @@
 
 A symbol carries two bits. It is twelve chips of a square wave whose half period is 1, 2, 3 or 6
 chips, so that the frequencies are f/2, f/4, f/6 and f/12. Each symbol has whole periods, starts
-dark and ends lit. Light is switched at a frequency as in UFSOOK and RS-FSK (IEEE 802.15.7-2018),
-but a picture shows several symbols, where theirs shows one frequency.
+dark and ends lit. As in UFSOOK and RS-FSK (IEEE 802.15.7-2018), light is switched at a frequency,
+but a picture shows several symbols instead of one frequency.
 """
 
 import numpy as np

@@ -28,7 +28,7 @@ class Decoded:
     ----------
     bits : ndarray of uint8
         The bits in the order sent, with the padding of the last block. Where chips break the code,
-        these are the likeliest bits; if the number of chips does, there are none.
+        these are the likeliest bits; empty if the number of chips breaks it.
     violations
         Indices of the bits at which the chips break the code.
     failure
@@ -54,7 +54,7 @@ class LineCode:
     block_bits, block_chips
         Bits and chips of a block.
     longest_run
-        Most equal consecutive chips in any payload; None if there is no limit.
+        Maximum number of equal consecutive chips in any payload; None if there is no limit.
     disparity
         Largest difference between the numbers of ones and zeros in any payload; None if there is no
         limit. With 0 all payloads are equally bright.
@@ -143,20 +143,20 @@ class WordTable:
         length = self.words.shape[1]
         if len(chips) % length:
             return refuse_partial_block(len(chips), length)
-        seen = chips.reshape(-1, 1, length)
-        distance = (seen != self.words).sum(axis=2)
+        received = chips.reshape(-1, 1, length)
+        distance = (received != self.words).sum(axis=2)
         nearest = distance.argmin(axis=1)
         places = np.arange(self._bits)[::-1]
         bits = (nearest[:, None] >> places & 1).astype(np.uint8).reshape(-1)
-        wrong = np.flatnonzero(distance.min(axis=1, initial=length) > self.corrected)
-        if not wrong.size:
+        wrong_words = np.flatnonzero(distance.min(axis=1, initial=length) > self.corrected)
+        if not wrong_words.size:
             return Decoded(bits)
-        first = int(wrong[0])
+        first = int(wrong_words[0])
         failure = (
             f"Chips {first * length + 1} to {(first + 1) * length} are not a {self.noun}: "
-            f"{wrong.size} of {len(seen)} words break the line code."
+            f"{wrong_words.size} of {len(received)} words break the line code."
         )
-        return Decoded(bits, tuple((wrong * self._bits).tolist()), failure)
+        return Decoded(bits, tuple((wrong_words * self._bits).tolist()), failure)
 
     @property
     def _bits(self) -> int:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.transmitter.line_codes.differential_manchester import missing_transitions
+from occ_model.transmitter.line_codes.differential_manchester import describe_missing_transitions
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, refuse_partial_block
 
 
@@ -17,7 +17,9 @@ def _decode(chips: ByteArray, _level: int) -> Decoded:
         return refuse_partial_block(len(chips), 2)
     bits, second = chips[0::2], chips[1::2]
     violations = np.flatnonzero(bits == second).tolist()
-    return Decoded(bits.copy(), tuple(violations), missing_transitions(violations, len(bits)))
+    return Decoded(
+        bits.copy(), tuple(violations), describe_missing_transitions(violations, len(bits))
+    )
 
 
 LINE_CODE = LineCode(

@@ -16,11 +16,11 @@ from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.period import correlated_columns
 
 _SHIFTS = np.linspace(-0.75, 0.75, 5)  # chips, because decoders count from different ends
-_BESIDE = 4  # chips on either side of the known ones, which equal the outermost ones
+_ADDED_CHIPS = 4  # number of chips added on either side, equal to the outermost ones
 
 _MIN_NOISE = 1e-6  # minimum variance of a column, as a fraction of the squared swing
 _MAX_LOG_LIKELIHOOD_RATIO = 50.0  # maximum of a chip, since no model is more certain
-_MIN_COLUMNS_PER_RIM = 8  # at most one in this many columns is omitted at either end
+_MIN_COLUMNS_PER_RIM = 8  # total columns for each column that is omitted at either end
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -58,24 +58,24 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
     columns, values = len(light), start.values
     if values.size == 0 or values.min() == values.max():
         return None
-    exposure, before = max(start.exposure, SHORTEST_EXPOSURE), start.first - _BESIDE
-    middles = start.middle(columns) - before + _SHIFTS
-    tried = [Timing(start.step, exposure, middle, 1.0) for middle in middles.tolist()]
+    exposure, first_number = max(start.exposure, SHORTEST_EXPOSURE), start.first - _ADDED_CHIPS
+    middles = start.middle(columns) - first_number + _SHIFTS
+    timings = [Timing(start.step, exposure, middle, 1.0) for middle in middles.tolist()]
     model = _model(light, values, start.step)
-    timing = min(tried, key=lambda one: float(np.sum((light - model.levels(one)[2]) ** 2)))
-    fitted = _fit_inner(light, values, timing)
-    if fitted is None:
+    timing = min(timings, key=lambda each: float(np.sum((light - model.levels(each)[2]) ** 2)))
+    fit = _fit_inner(light, values, timing)
+    if fit is None:
         return None
-    found = _describe(light, values, *fitted, before)
-    likelier = (found.ratios > 0.0).astype(np.uint8)
-    if (likelier == values).all():
-        return found
-    fitted = _fit_inner(light, likelier, fitted[0])
-    return None if fitted is None else _describe(light, likelier, *fitted, before)
+    chip_timing = _to_chip_timing(light, values, *fit, first_number)
+    likelier_values = (chip_timing.ratios > 0.0).astype(np.uint8)
+    if (likelier_values == values).all():
+        return chip_timing
+    fit = _fit_inner(light, likelier_values, fit[0])
+    return None if fit is None else _to_chip_timing(light, likelier_values, *fit, first_number)
 
 
 def _model(light: FloatArray, values: ByteArray, step: float) -> StripeModel:
-    return StripeModel(light, np.pad(values, _BESIDE, mode="edge"), None, step)
+    return StripeModel(light, np.pad(values, _ADDED_CHIPS, mode="edge"), None, step)
 
 
 def _fit_inner(
@@ -83,8 +83,9 @@ def _fit_inner(
 ) -> tuple[Timing, FloatArray] | None:
     """Fit a timing to the columns without the outermost chips; return the covariance as well.
 
-    The outermost chips are cut off at the panel's rim. A bright one there is seen further out than
-    a dark one, which would lengthen all chips. The covariance is that of the middle and the step.
+    The outermost chips are cut off at the panel's rim. A bright one appears to extend further out
+    than a dark one, which would lengthen all chips. The covariance is that of the middle and the
+    step.
     """
     if values.min() == values.max():
         return None
@@ -95,22 +96,26 @@ def _fit_inner(
     if not float(np.median(model.levels(fit.timing)[1])) > 0.0:
         return None
     covariance = fit.covariance[np.ix_([2, 0], [2, 0])]
-    return fit.timing, covariance + _unseen_edges(fit.timing, values, len(inner))
+    return fit.timing, covariance + _edge_covariance(fit.timing, values, len(inner))
 
 
-def _describe(
-    light: FloatArray, values: ByteArray, timing: Timing, covariance: FloatArray, before: int
+def _to_chip_timing(
+    light: FloatArray, values: ByteArray, timing: Timing, covariance: FloatArray, first_number: int
 ) -> ChipTiming:
-    """Return a timing with the chips' ratios; ``before``: the chip from which it counts."""
+    """Return a timing with the chips' ratios; ``first_number``: the chip from which it counts."""
     columns = len(light)
     _, swing, profile = _model(light, values, timing.step).levels(timing)
     residual = light - profile
     lattice = ChipLattice(
-        timing.step, timing.start(columns) + before, timing.exposure, before + _BESIDE, values
+        timing.step,
+        timing.start(columns) + first_number,
+        timing.exposure,
+        first_number + _ADDED_CHIPS,
+        values,
     )
     return ChipTiming(
         lattice=lattice,
-        middle=timing.middle + before,
+        middle=timing.middle + first_number,
         middle_error=float(np.sqrt(covariance[0, 0])),
         step_error=float(np.sqrt(covariance[1, 1])),
         ratios=chip_ratios(lattice, swing, residual),
@@ -118,11 +123,11 @@ def _describe(
     )
 
 
-def _unseen_edges(timing: Timing, values: ByteArray, count: int) -> FloatArray:
+def _edge_covariance(timing: Timing, values: ByteArray, count: int) -> FloatArray:
     """Return the covariance of middle and step due to edges between short exposures."""
-    left_out = max(timing.step - timing.exposure, 0.0)
+    gap = max(timing.step - timing.exposure, 0.0)
     edges = max(1, int(np.count_nonzero(np.diff(values.astype(np.int64)))))
-    variance = left_out**2 / 12.0 / edges
+    variance = gap**2 / 12.0 / edges
     # For edges spread evenly, the variance of a slope is 12 / n^2 of that of the mean.
     return np.diag([variance, 12.0 * variance / count**2])
 
@@ -150,11 +155,13 @@ def chip_ratios(lattice: ChipLattice, swing: FloatArray, residual: FloatArray) -
     weight = np.maximum(overlap, 0.0) * (swing / lattice.exposure)[:, None]
     inside = (chip >= 0) & (chip < chips)
     weight = np.where(inside, weight, 0.0).ravel()
-    place: IndexArray = np.clip(chip, 0, chips - 1).ravel()
-    power = np.bincount(place, weight**2, minlength=chips)
-    along = np.bincount(place, weight * np.repeat(residual, reach), minlength=chips)
+    chip_indices: IndexArray = np.clip(chip, 0, chips - 1).ravel()
+    power = np.bincount(chip_indices, weight**2, minlength=chips)
+    correlation = np.bincount(chip_indices, weight * np.repeat(residual, reach), minlength=chips)
     lit: BoolArray = lattice.values == 1
     # For a lit chip: the distance if it were dark, minus the present distance.
-    margin = np.where(lit, power + 2.0 * along, -(power - 2.0 * along))
+    distance_increase = np.where(lit, power + 2.0 * correlation, -(power - 2.0 * correlation))
     noise = noise_of(swing, residual, lattice.step)
-    return np.clip(margin / (2.0 * noise), -_MAX_LOG_LIKELIHOOD_RATIO, _MAX_LOG_LIKELIHOOD_RATIO)
+    return np.clip(
+        distance_increase / (2.0 * noise), -_MAX_LOG_LIKELIHOOD_RATIO, _MAX_LOG_LIKELIHOOD_RATIO
+    )

@@ -22,7 +22,7 @@ _GRID_POINTS_PER_TURN = 8.0  # frequencies tried while the last phase turns by a
 _MAX_TRIED = 2**17  # maximum number of frequencies tried; the part of the film is shortened to it
 
 _MAX_ALIASES = 64  # with more, for example of frames far apart, no frequency is stated
-_TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies of which none is coherent by chance
+_TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies too small for coherence by chance
 
 _MIN_RELATIVE_COHERENCE = 0.8  # fraction of the best coherence from which an alias is fitted
 _MIN_COHERENCE = 0.5  # minimum coherence of phases with the frame times
@@ -34,26 +34,27 @@ READOUT_TOLERANCE = 0.01  # maximum relative error of the given rough readout ti
 MOST_READOUT_TOLERANCE = 0.5
 _MAX_READOUT_EXCESS = 1e-3  # fraction of the frame period by which the readout may exceed it
 _MIN_FRAMES = 3  # minimum number of frames for a clock
-_MAX_OUTLIER_FRACTION = 0.1  # fraction of outliers among the phases from which they are reported
+_MAX_OUTLIER_FRACTION = 0.1  # fraction of the phases above which outliers are reported
 _MAX_NAMED_FREQUENCIES = 5  # maximum number of alternative frequencies in a sentence
 
-_MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames, for wandering
+_MIN_WANDER_RATIO = 3.0  # of all phases' scatter to that between frames, for a wandering clock
 
 
 def fit_clock(phases: FramePhases, low: float, high: float) -> tuple[ClockFit, ...]:
     """Return the frequencies from ``low`` to ``high`` in Hz that fit the phases, best first."""
     step, _ = mean_step(phases)
-    turned = np.mod(phases.places - step * phases.columns, phases.period)
-    followed = [
-        _follow_phase(phases, turned, one) for one in _find_aliases(phases, turned, low, high)
+    reduced_phases = np.mod(phases.places - step * phases.columns, phases.period)
+    all_fits = [
+        _follow_phase(phases, reduced_phases, alias)
+        for alias in _find_aliases(phases, reduced_phases, low, high)
     ]
-    fits = _drop_repeated([fit for fit in followed if low <= fit.frequency <= high])
+    fits = _drop_repeated([fit for fit in all_fits if low <= fit.frequency <= high])
     if not fits:
         return ()
     best = fits[0]
-    free = max(1, int(best.kept.sum()) - 3)
+    freedom = max(1, int(best.kept.sum()) - 3)
     # The scatter includes the jitter of the frame times, which the best fit shows.
-    scale = max(1.0, best.chi_squared / free)
+    scale = max(1.0, best.chi_squared / freedom)
     return tuple(
         fit for fit in fits
         if fit.chi_squared - best.chi_squared <= _MAX_CHI_SQUARED_EXCESS * scale
@@ -63,37 +64,41 @@ def fit_clock(phases: FramePhases, low: float, high: float) -> tuple[ClockFit, .
 
 def _drop_repeated(fits: list[ClockFit]) -> list[ClockFit]:
     """Sort fits by the numbers of jumps and outliers, and drop repeated frequencies."""
-    ordered = sorted(
+    sorted_fits = sorted(
         fits, key=lambda fit: (len(fit.jumps), int((~fit.kept).sum()) // 2, fit.chi_squared)
     )
-    kept: list[ClockFit] = []
-    for fit in ordered:
-        apart = 3.0 * fit.frequency_error
-        if all(abs(fit.frequency - other.frequency) > apart for other in kept):
-            kept.append(fit)
-    return kept
+    distinct_fits: list[ClockFit] = []
+    for fit in sorted_fits:
+        min_distance = 3.0 * fit.frequency_error
+        if all(abs(fit.frequency - other.frequency) > min_distance for other in distinct_fits):
+            distinct_fits.append(fit)
+    return distinct_fits
 
 
-def _find_aliases(phases: FramePhases, turned: FloatArray, low: float, high: float) -> list[float]:
+def _find_aliases(
+    phases: FramePhases, reduced_phases: FloatArray, low: float, high: float
+) -> list[float]:
     """Return the frequencies at which the phases of the first frames are coherent."""
-    count = min(len(turned), _FIRST_FRAMES)
+    count = min(len(reduced_phases), _FIRST_FRAMES)
     while count > 2 and _grid_size(phases.times[:count], low, high, phases.period) > _MAX_TRIED:
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
-    number = _grid_size(times, low, high, phases.period)
+    tried_count = _grid_size(times, low, high, phases.period)
     # The mean of ``count`` random phasors is longer than r with probability exp(-count r^2).
-    by_chance = math.sqrt(2.0 * math.log(max(number / _TRIED_WITHOUT_CHANCE, 1.0)) / count)
-    if number > _MAX_TRIED or by_chance >= 1.0:
+    chance_coherence = math.sqrt(
+        2.0 * math.log(max(tried_count / _TRIED_WITHOUT_CHANCE, 1.0)) / count
+    )
+    if tried_count > _MAX_TRIED or chance_coherence >= 1.0:
         return []
-    tried = np.linspace(low, high, number)
-    coherent = _coherence(turned[:count], times, tried, phases.period)
-    best = float(coherent.max())
-    if best < max(_MIN_COHERENCE, 1.2 / math.sqrt(count), by_chance) and count > 2:
+    frequencies = np.linspace(low, high, tried_count)
+    coherences = _coherence(reduced_phases[:count], times, frequencies, phases.period)
+    best = float(coherences.max())
+    if best < max(_MIN_COHERENCE, 1.2 / math.sqrt(count), chance_coherence) and count > 2:
         return []
-    padded = np.concatenate([[-1.0], coherent, [-1.0]])
+    padded = np.concatenate([[-1.0], coherences, [-1.0]])
     peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:])
-    chosen = np.flatnonzero(peaks & (coherent >= _MIN_RELATIVE_COHERENCE * best))
-    return [float(tried[place]) for place in chosen] if len(chosen) <= _MAX_ALIASES else []
+    indices = np.flatnonzero(peaks & (coherences >= _MIN_RELATIVE_COHERENCE * best))
+    return [float(frequencies[place]) for place in indices] if len(indices) <= _MAX_ALIASES else []
 
 
 def _grid_size(times: FloatArray, low: float, high: float, period: float) -> int:
@@ -101,27 +106,29 @@ def _grid_size(times: FloatArray, low: float, high: float, period: float) -> int
 
 
 def _coherence(
-    turned: FloatArray, times: FloatArray, tried: FloatArray, period: float
+    reduced_phases: FloatArray, times: FloatArray, frequencies: FloatArray, period: float
 ) -> FloatArray:
     """Return the magnitude of the mean phase factor at each frequency."""
-    coherent = np.empty(len(tried))
-    for start in range(0, len(tried), 4096):
+    coherences = np.empty(len(frequencies))
+    for start in range(0, len(frequencies), 4096):
         part = slice(start, start + 4096)
-        angle = (turned - tried[part, None] * times) * (2.0 * np.pi / period)
-        coherent[part] = np.abs(np.exp(1j * angle).mean(axis=1))
-    return coherent
+        angle = (reduced_phases - frequencies[part, None] * times) * (2.0 * np.pi / period)
+        coherences[part] = np.abs(np.exp(1j * angle).mean(axis=1))
+    return coherences
 
 
-def _follow_phase(phases: FramePhases, turned: FloatArray, frequency: float) -> ClockFit:
+def _follow_phase(phases: FramePhases, reduced_phases: FloatArray, frequency: float) -> ClockFit:
     """Unwrap the phase over the whole film, starting from a frequency, and fit it."""
-    count, total = min(len(turned), _FIRST_FRAMES), len(turned)
+    count, total = min(len(reduced_phases), _FIRST_FRAMES), len(reduced_phases)
     times = phases.times - phases.times[0]
-    angle = np.exp(2j * np.pi * (turned[:count] - frequency * times[:count]) / phases.period)
+    angle = np.exp(
+        2j * np.pi * (reduced_phases[:count] - frequency * times[:count]) / phases.period
+    )
     start = float(np.angle(angle.mean())) / (2.0 * np.pi) * phases.period
     predicted = start + frequency * times
     while True:
-        rounds = np.rint((predicted[:count] - turned[:count]) / phases.period)
-        fit = fit_parabola(phases.first(count), turned[:count] + rounds * phases.period)
+        rounds = np.rint((predicted[:count] - reduced_phases[:count]) / phases.period)
+        fit = fit_parabola(phases.first(count), reduced_phases[:count] + rounds * phases.period)
         if count == total:
             return fit
         count = min(total, max(count + 1, int(count * _PART_GROWTH)))
@@ -151,7 +158,7 @@ def describe_clock(
 ) -> Clock:
     """Return a film's clock for one part of its times, from fits sorted by likelihood.
 
-    ``chips_of_cycle``: how many chips of the phases make a cycle of a lamp; 0 of a code.
+    ``chips_of_cycle``: the number of chips in a lamp's cycle; 0 for a code.
     """
     best = fits[0]
     readout = best.step / best.frequency
@@ -159,7 +166,7 @@ def describe_clock(
     readout_error = readout * float(relative)
     gap = times.period.value - columns * readout
     has_drift = best.drift_error > 0.0
-    only = [f"The clock is that of frames {part.first} to {part.end - 1}."]
+    clock_part = [f"The clock is that of frames {part.first} to {part.end - 1}."]
     return Clock(
         switching_frequency=MeasuredValue(best.frequency, best.frequency_error),
         drift=MeasuredValue(best.drift, best.drift_error) if has_drift else None,
@@ -171,7 +178,7 @@ def describe_clock(
         alternatives=tuple((fit.frequency, fit.step / fit.frequency) for fit in fits[1:]),
         problems=(
             *times.problems,
-            *(only if len(times.parts) > 1 else ()),
+            *(clock_part if len(times.parts) > 1 else ()),
             *_describe_problems(fits, phases, chips_of_cycle or 1),
         ),
         chips_of_cycle=chips_of_cycle,
@@ -179,7 +186,7 @@ def describe_clock(
 
 
 def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases, chips: int) -> list[str]:
-    """Say what does not fit; ``chips``: how many a stated frequency counts as one."""
+    """Describe what does not fit; ``chips``: the number that a stated frequency counts as one."""
     best = fits[0]
     problems = [
         f"At {SECOND.format(jump.time)} the stripes jump by "
@@ -188,17 +195,17 @@ def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases, chips: i
         for jump in best.jumps
     ]
     if len(fits) > 1:
-        named = [HERTZ.format(fit.frequency / chips) for fit in fits[: 1 + _MAX_NAMED_FREQUENCIES]]
+        texts = [HERTZ.format(fit.frequency / chips) for fit in fits[: 1 + _MAX_NAMED_FREQUENCIES]]
         others = ", ".join(
             f"{frequency} ({SECOND.format(fit.step / fit.frequency)} a column)"
-            for frequency, fit in zip(named[1:], fits[1:], strict=False)
+            for frequency, fit in zip(texts[1:], fits[1:], strict=False)
         ) + (
             f" and {len(fits) - 1 - _MAX_NAMED_FREQUENCIES} more"
             if len(fits) > 1 + _MAX_NAMED_FREQUENCIES
             else ""
         )
         problems.append(
-            f"Several frequencies fit the frames equally well: {named[0]}, which is stated, and "
+            f"Several frequencies fit the frames equally well: {texts[0]}, which is stated, and "
             f"{others}; a more accurate readout time or a longer packet would distinguish them."
         )
     outliers = int((~best.kept).sum())
@@ -209,10 +216,10 @@ def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases, chips: i
         )
     residuals = best.residuals[best.kept]
     if len(residuals) >= 16:
-        steps = float(np.sqrt(np.mean(np.diff(residuals) ** 2) / 2.0))
+        step_scatter = float(np.sqrt(np.mean(np.diff(residuals) ** 2) / 2.0))
         scatter = float(np.std(residuals))
-        least = float(np.median(phases.errors))
-        if scatter > _MIN_WANDER_RATIO * max(steps, least):
+        stated_error = float(np.median(phases.errors))
+        if scatter > _MIN_WANDER_RATIO * max(step_scatter, stated_error):
             problems.append(
                 "The stripes drift back and forth relative to the frame times by "
                 f"{SECOND.format(scatter / best.frequency)}: the film was stabilised, its frame "

@@ -1,4 +1,4 @@
-"""Find the period of the times that a film states for its frames, and irregularities in them."""
+"""Find the period of a film's stated frame times, and their irregularities."""
 
 from dataclasses import dataclass
 
@@ -39,7 +39,7 @@ class FrameTimes:
     problems: tuple[str, ...]
 
     def is_jump(self, interval: float) -> bool:
-        """Return whether an interval leads back, or is so long that a new part begins after it."""
+        """Return whether an interval is negative, or so long that a new part begins after it."""
         return interval > LEAST_BREAK * self.period.value or interval < -_MIN_INTERVAL
 
     @property
@@ -48,14 +48,14 @@ class FrameTimes:
         return len(self.parts) == 1 or len(self.numbers) >= _MIN_FRAMES_PER_PART * len(self.parts)
 
     def part_of(self, frame: int) -> Part:
-        """Return the part that contains a frame; the last one for frames added since."""
+        """Return the part that contains a frame; the last one for frames added later."""
         return next((part for part in self.parts if frame < part.end), self.parts[-1])
 
     def elapsed(self, frame: int) -> float:
-        """Return the time that the film has run at the end of a frame's period, in seconds."""
-        here = self.part_of(frame)
-        before = sum(part.duration for part in self.parts if part.end <= here.first)
-        return before + float(self.numbers[frame] + 1) * self.period.value
+        """Return the duration of the film up to the end of a frame's period, in seconds."""
+        current = self.part_of(frame)
+        earlier = sum(part.duration for part in self.parts if part.end <= current.first)
+        return earlier + float(self.numbers[frame] + 1) * self.period.value
 
 
 def fit_frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
@@ -64,27 +64,30 @@ def fit_frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | 
     ``rounded_to``: the step in seconds of which they are multiples.
     """
     intervals = np.diff(times)
-    ahead = intervals[intervals > _MIN_INTERVAL]
-    if ahead.size == 0:
+    forward_intervals = intervals[intervals > _MIN_INTERVAL]
+    if forward_intervals.size == 0:
         return None
-    usual = float(np.median(ahead))
+    usual = float(np.median(forward_intervals))
     jumps = (intervals > LEAST_BREAK * usual) | (intervals < -_MIN_INTERVAL)
     counts = np.where(jumps, 0, np.rint(intervals / usual)).astype(np.int64)
     firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])
     sizes = np.diff(np.append(firsts, len(times)))
-    counted = np.concatenate([[0], np.cumsum(counts)])
-    numbers = counted - np.repeat(counted[firsts], sizes)
+    period_numbers = np.concatenate([[0], np.cumsum(counts)])
+    numbers = period_numbers - np.repeat(period_numbers[firsts], sizes)
     # Parts begin at arbitrary times, so only steps within one show the period.
-    steps, later = (
+    steps, centred_times = (
         values - np.repeat(np.add.reduceat(values, firsts) / sizes, sizes)
         for values in (numbers.astype(np.float64), times)
     )
-    power, free = float(steps @ steps), len(times) - len(firsts) - 1
-    period = MeasuredValue(float(steps @ later) / power, rounded_to)
+    power, freedom = (
+        float(steps @ steps),
+        len(times) - len(firsts) - 1,
+    )
+    period = MeasuredValue(float(steps @ centred_times) / power, rounded_to)
     problems = _describe_problems(np.where(jumps, 1.0, intervals / usual), counts + jumps, usual)
-    if free > 0:
-        residuals = later - steps * period.value
-        scatter = float(residuals @ residuals) / free
+    if freedom > 0:
+        residuals = centred_times - steps * period.value
+        scatter = float(residuals @ residuals) / freedom
         error = np.sqrt(max(scatter, rounded_to**2 / 12.0) / power)
         period = MeasuredValue(period.value, float(error))
         if np.sqrt(scatter) > max(_MAX_TIME_DEVIATION * usual, rounded_to):
@@ -128,11 +131,11 @@ def _describe_problems(steps: FloatArray, counts: IndexArray, usual: float) -> l
         problems.append(
             f"The frame times do not increase after {_list_frames(backward)}: frames are doubled."
         )
-    odd = np.flatnonzero((np.abs(steps - counts) > _MAX_INTERVAL_DEVIATION) & (steps > 0.0))
-    if odd.size:
+    uneven = np.flatnonzero((np.abs(steps - counts) > _MAX_INTERVAL_DEVIATION) & (steps > 0.0))
+    if uneven.size:
         problems.append(
-            f"The frame rate is not constant: {len(odd)} of {len(steps)} intervals are not a "
-            f"whole number of {SECOND.format(usual)}, the first after {_list_frames(odd[:1])}."
+            f"The frame rate is not constant: {len(uneven)} of {len(steps)} intervals are not a "
+            f"whole number of {SECOND.format(usual)}, the first after {_list_frames(uneven[:1])}."
         )
     return problems
 

@@ -30,7 +30,7 @@ class JoinedChips:
     def __init__(self, period: SentPeriod) -> None:
         self._period = period
         self._votes = np.zeros(period.length)
-        self._counts = np.zeros(period.length, dtype=np.int64)
+        self._views = np.zeros(period.length, dtype=np.int64)
         scheme = period.scheme
         self._fraction = 1.0 if scheme is None else float(1 / scheme.line_code.chips_a_bit)
 
@@ -42,7 +42,7 @@ class JoinedChips:
     @property
     def seen(self) -> BoolArray:
         """The chips that at least one frame shows whole."""
-        return np.asarray(self._counts > 0)
+        return np.asarray(self._views > 0)
 
     @property
     def known(self) -> BoolArray:
@@ -59,31 +59,31 @@ class JoinedChips:
         """Find the place of a frame's first chip; None if none is far more likely than the others.
 
         ``predicted`` and ``deviation``: the place by the clock and its standard deviation, in
-        chips. ``part_unknown``: whether places are correct except for a whole number of parts.
+        chips. ``part_unknown``: whether places are known only up to a whole number of parts.
         """
         length = self._period.length
         first, last = frame.whole
         if last <= first:
             return None
-        likelihood = by_chips = self._likelihood(frame)
+        likelihood = likelihood_by_chips = self._likelihood(frame)
         if predicted is not None:
-            off = np.mod(np.arange(length) - predicted + 0.5 * length, length) - 0.5 * length
-            likelihood = likelihood - 0.5 * (off / max(deviation, _MIN_DEVIATION)) ** 2
-        shown = self._period.places(frame.chips[first:last])
-        places = np.array([(place - first) % length for place in shown], dtype=np.int64)
+            offsets = np.mod(np.arange(length) - predicted + 0.5 * length, length) - 0.5 * length
+            likelihood = likelihood - 0.5 * (offsets / max(deviation, _MIN_DEVIATION)) ** 2
+        header_places = self._period.places(frame.chips[first:last])
+        places = np.array([(place - first) % length for place in header_places], dtype=np.int64)
         if part_unknown and len(places) and self._period.parts > 1:
             parts = self._period.part_length * np.arange(self._period.parts)
             places = (places[0] + parts) % length
         if len(places) == 1:
             place = int(places[0])
-            return place if by_chips[place] > _CONTRADICTING_LOG_LIKELIHOOD else None
+            return place if likelihood_by_chips[place] > _CONTRADICTING_LOG_LIKELIHOOD else None
         if len(places):
-            elsewhere = np.full(length, -np.inf)
-            elsewhere[places] = likelihood[places]
-            likelihood = elsewhere
+            restricted = np.full(length, -np.inf)
+            restricted[places] = likelihood[places]
+            likelihood = restricted
         best = int(likelihood.argmax())
         if (
-            by_chips[best] < _CONTRADICTING_LOG_LIKELIHOOD
+            likelihood_by_chips[best] < _CONTRADICTING_LOG_LIKELIHOOD
             or _log_odds(likelihood, best) < _MIN_LOG_ODDS
         ):
             return None
@@ -92,13 +92,13 @@ class JoinedChips:
     def add(self, frame: FrameReading, place: int) -> None:
         length = self._period.length
         ratios = np.clip(frame.ratios.astype(np.float64), -_MAX_FRAME_RATIO, _MAX_FRAME_RATIO)
-        at = (place + np.arange(len(ratios))) % length
-        np.add.at(self._votes, at, ratios)
-        np.add.at(self._counts, at[slice(*frame.whole)], 1)
+        chip_indices = (place + np.arange(len(ratios))) % length
+        np.add.at(self._votes, chip_indices, ratios)
+        np.add.at(self._views, chip_indices[slice(*frame.whole)], 1)
 
     def rotate(self, shift: int) -> None:
-        """Move all chips to places ``shift`` later."""
-        self._votes, self._counts = np.roll(self._votes, shift), np.roll(self._counts, shift)
+        """Move all chips by ``shift`` places."""
+        self._votes, self._views = np.roll(self._votes, shift), np.roll(self._views, shift)
 
     def _likelihood(self, frame: FrameReading) -> FloatArray:
         """Return the log-likelihood of each place, 0 without any information."""
@@ -107,16 +107,17 @@ class JoinedChips:
             (ratios > _KNOWN_CHIP_RATIO).astype(np.float64),
             (ratios < -_KNOWN_CHIP_RATIO).astype(np.float64),
         )
-        sureness = np.tanh(
+        certainty = np.tanh(
             0.5 * np.clip(frame.ratios.astype(np.float64), -_MAX_FRAME_RATIO, _MAX_FRAME_RATIO)
         )
-        folded = np.zeros((2, length))
-        at = np.arange(len(sureness)) % length
-        for row, agreed in enumerate((np.log1p(sureness), np.log1p(-sureness))):
+        log_likelihoods = np.zeros((2, length))
+        chip_indices = np.arange(len(certainty)) % length
+        for row, agreement in enumerate((np.log1p(certainty), np.log1p(-certainty))):
             # Chips of a line code depend on each other, so agreement counts by bits only.
-            np.add.at(folded[row], at, np.where(agreed > 0.0, self._fraction * agreed, agreed))
-        spectrum = np.fft.rfft(lit) * np.conj(np.fft.rfft(folded[0]))
-        spectrum += np.fft.rfft(dark) * np.conj(np.fft.rfft(folded[1]))
+            terms = np.where(agreement > 0.0, self._fraction * agreement, agreement)
+            np.add.at(log_likelihoods[row], chip_indices, terms)
+        spectrum = np.fft.rfft(lit) * np.conj(np.fft.rfft(log_likelihoods[0]))
+        spectrum += np.fft.rfft(dark) * np.conj(np.fft.rfft(log_likelihoods[1]))
         return np.asarray(np.fft.irfft(spectrum, length))
 
 
@@ -125,5 +126,5 @@ def _log_odds(likelihood: FloatArray, place: int) -> float:
     others = np.delete(likelihood, place)
     if not others.size:
         return np.inf
-    most = float(others.max())
-    return float(likelihood[place]) - most - float(np.log(np.exp(others - most).sum()))
+    largest = float(others.max())
+    return float(likelihood[place]) - largest - float(np.log(np.exp(others - largest).sum()))

@@ -28,9 +28,9 @@ from occ_model.video.file.decoder_process import (
 from occ_model.video.file.note import read_note
 from occ_model.video.file.source import CHANNELS, StoredFrame
 
-_SAME_TIME = 1e-6  # seconds by which a frame's time may differ from the stated one
-_MAX_DECODED_AHEAD = 10  # frames; one further ahead is found by its time
-_STEPS_LEFT = 2.0  # distance of a complete film's last frame from its end, in longest steps
+_TIME_TOLERANCE = 1e-6  # seconds by which a frame's time may differ from the stated one
+_MAX_DECODED_AHEAD = 10  # frames; frames further ahead are found by their times
+_MAX_END_STEPS = 2.0  # from a complete film's last frame to its end, in longest frame steps
 _SCAN_AXIS_FRAMES = 5  # frames at a film's start from which the scan axis is found
 
 
@@ -38,7 +38,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
     """Open a film.
 
     Its frames are read on demand, in a separate process that ends with this one; only the current
-    one is kept.
+    frame is kept.
 
     Parameters
     ----------
@@ -78,21 +78,21 @@ class VideoFile(Video):
     def __init__(self, path: Path, scan_axis: str, channel: str) -> None:
         self.path = path
         self.title = path.name
-        self._shown = one_line(str(path))
+        self._name = one_line(str(path))
         self._channel = channel
         try:
             start = read_start(path, FIRST_BYTES)
-        except SceneFileError as error:  # in words for any file
+        except SceneFileError as error:  # its text suits any file
             raise VideoError(str(error)) from None
         self._container = container_of(path, start)
         self.time_step = self._container.time_step
         self._problem: str | None = None
         self._times: list[float] = []
-        # The decoder positioned after the last requested frame, and that frame.
-        self._stepping: tuple[DecoderProcess, VideoFrame] | None = None
+        # The last requested frame, and the decoder, which is positioned after it.
+        self._current: tuple[DecoderProcess, VideoFrame] | None = None
         self._lock = threading.Lock()
         self._read_first_frames(scan_axis)
-        self._take_note()
+        self._read_note()
 
     @property
     def problem(self) -> str | None:
@@ -111,7 +111,7 @@ class VideoFile(Video):
                 yield self._make_frame(index, stored)
                 index += 1
         except DecoderStoppedError as error:
-            self._problem = f"{self._shown} ends early: frame {index} cannot be read: {error}."
+            self._problem = f"{self._name} ends early: frame {index} cannot be read: {error}."
         finally:
             put_back(decoder)
 
@@ -120,80 +120,80 @@ class VideoFile(Video):
             self.close()
 
     def frame(self, index: int) -> VideoFrame:
-        """Read one frame: the last one again, or by its time, or from the start."""
+        """Read one frame: the current one, or by its time, or from the start."""
         check_count("index", index, 0)
         with self._lock:
-            return self._read_one(int(index))
+            return self._read_frame(int(index))
 
-    def _read_one(self, index: int) -> VideoFrame:
-        if self._stepping is not None and self._stepping[1].index == index:
-            return self._stepping[1]
+    def _read_frame(self, index: int) -> VideoFrame:
+        if self._current is not None and self._current[1].index == index:
+            return self._current[1]
         stored, decoder = self._find_frame(index)
         if stored is None:
             put_back(decoder)
             raise ParameterError.of("index", f"{index}", "the number of an existing frame")
         frame = self._make_frame(index, stored)
-        self._stepping = decoder, frame
+        self._current = decoder, frame
         return frame
 
     def close(self) -> None:
         """Close the file; it is opened again for the next requested frame."""
-        if self._stepping is not None:
-            put_back(self._stepping[0])
-            self._stepping = None
+        if self._current is not None:
+            put_back(self._current[0])
+            self._current = None
 
     def _find_frame(self, index: int) -> tuple[StoredFrame | None, DecoderProcess]:
         """Find one frame: shortly after the current one, else by its time, else from the start."""
-        stepping, self._stepping = self._stepping, None
+        current, self._current = self._current, None
         try:
-            decoder = stepping[0] if stepping is not None else self._open_decoder()[0]
-            passed = -1 if stepping is None else index - stepping[1].index - 1
-            if 0 <= passed < _MAX_DECODED_AHEAD:
+            decoder = current[0] if current is not None else self._open_decoder()[0]
+            skipped = -1 if current is None else index - current[1].index - 1
+            if 0 <= skipped < _MAX_DECODED_AHEAD:
                 return (
-                    self._read_next(decoder, index) if decoder.skip(passed) == passed else None
+                    self._read_next(decoder, index) if decoder.skip(skipped) == skipped else None
                 ), decoder
-            found = self._seek(decoder, index)
-            if found is not None:
-                return found, decoder
+            frame = self._seek(decoder, index)
+            if frame is not None:
+                return frame, decoder
             self._open(decoder)
-            passed = decoder.skip(index)
-            return (self._read_next(decoder, index) if passed == index else None), decoder
+            skipped = decoder.skip(index)
+            return (self._read_next(decoder, index) if skipped == index else None), decoder
         except DecoderStoppedError as error:
-            raise VideoError(f"Frame {index} of {self._shown} cannot be read: {error}.") from None
+            raise VideoError(f"Frame {index} of {self._name} cannot be read: {error}.") from None
 
     def _seek(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
         """Find a frame by its time, which was read earlier or follows from the frame rate."""
         if index < len(self._times):
-            return decoder.seek(index, self._times[index], _SAME_TIME)
+            return decoder.seek(index, self._times[index], _TIME_TOLERANCE)
         if self.frame_rate is None or self.frame_count is None or index >= self.frame_count:
             return None
         time = self._first_time + index / self.frame_rate
-        return decoder.seek(index, time, (self.time_step or 0.0) / 2 + _SAME_TIME)
+        return decoder.seek(index, time, (self.time_step or 0.0) / 2 + _TIME_TOLERANCE)
 
     def _read_next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
-        """Read the next frame, which has this number; note its time, or how the film ends."""
+        """Read the next frame, which has this number; note its time, or why the film ends."""
         try:
             stored = decoder.read()
         except VideoError as error:
-            self._problem = f"{self._shown} ends early: frame {index} cannot be read: {error}"
+            self._problem = f"{self._name} ends early: frame {index} cannot be read: {error}"
             return None
         if stored is None:
             self._note_end(index)
             if self._problem is not None and decoder.is_full:
                 self._problem = (
-                    f"{self._shown} ends early, after {inflect(index, 'frame')}: {NO_MEMORY}"
+                    f"{self._name} ends early, after {inflect(index, 'frame')}: {NO_MEMORY}"
                 )
             return None
         if stored.pixels.shape != self._stored_shape:
             lines, columns = stored.pixels.shape
             self._problem = (
-                f"{self._shown} ends early: frame {index} has {columns} x {lines} pixels, "
+                f"{self._name} ends early: frame {index} has {columns} x {lines} pixels, "
                 "another size than the first."
             )
             return None
         if not abs(stored.time - self._first_time) <= LATEST_TIME:
             self._problem = (
-                f"{self._shown} ends early: the time of frame {index} is "
+                f"{self._name} ends early: the time of frame {index} is "
                 f"{stored.time - self._first_time:.3g} s; "
                 f"allowed: {-LATEST_TIME:g} to {LATEST_TIME:g} s."
             )
@@ -209,7 +209,7 @@ class VideoFile(Video):
             return
         if self._container.states_frame_count:
             self._problem = (
-                f"{self._shown} contains {frames} of the {stated} frames that it states: it may be "
+                f"{self._name} contains {frames} of the {stated} frames that it states: it may be "
                 "cut off or damaged."
             )
             return
@@ -218,9 +218,9 @@ class VideoFile(Video):
         times = np.array(self._times[:frames])
         end = float(times[-1] - self._first_time) if frames else 0.0
         longest = float(np.diff(times).max()) if frames > 1 else 0.0
-        if end + _STEPS_LEFT * longest < length:
+        if end + _MAX_END_STEPS * longest < length:
             self._problem = (
-                f"{self._shown} ends after {end:.3g} s of the {length:.3g} s that it states: it "
+                f"{self._name} ends after {end:.3g} s of the {length:.3g} s that it states: it "
                 "may be cut off or damaged."
             )
         else:
@@ -228,8 +228,8 @@ class VideoFile(Video):
 
     def _read_first_frames(self, scan_axis: str) -> None:
         """Read the size, the first time and the scan axis from the first frames."""
-        decoder, opened = self._open_decoder()
-        self.frame_rate, self.frame_count = opened
+        decoder, stated = self._open_decoder()
+        self.frame_rate, self.frame_count = stated
         try:
             first = decoder.read()
             if first is None:
@@ -247,8 +247,8 @@ class VideoFile(Video):
         self.shape = (columns, lines) if self.turned else (lines, columns)
         put_back(decoder)
 
-    def _take_note(self) -> None:
-        """Take the scene and the recording of a simulated film from its file, if they are in it."""
+    def _read_note(self) -> None:
+        """Read the scene and the recording of a simulated film from its file, if present."""
         note = read_note(self.path)
         with suppress(SceneFileError, ParameterError):
             self.scene = first_scene_in(note)
@@ -292,4 +292,4 @@ class VideoFile(Video):
     def _refuse(self, decoder: DecoderProcess, error: Exception) -> VideoError:
         put_back(decoder)
         ending = str(error) if isinstance(error, VideoError) else f"{error}."
-        return VideoError(f"{self._shown} cannot be read: {ending}")
+        return VideoError(f"{self._name} cannot be read: {ending}")

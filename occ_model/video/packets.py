@@ -1,4 +1,4 @@
-"""Count the packets sent during a film, which of them frames show, and how they are read."""
+"""Count the packets sent during a film, and read those that its frames show."""
 
 import math
 from collections.abc import Sequence
@@ -40,34 +40,34 @@ def count_packets(
     """
     film_parts: list[FilmPart] = []
     packets: list[PacketReading] = []
-    length, sent, earlier = period.part_length, _framed_bits(period, bits), 0
+    length, framed_bits, earlier_packets = period.part_length, _framed_bits(period, bits), 0
     step = length / frequency
     for part in parts:
         first, end = math.ceil(part.span[0] / length), math.floor(part.span[1] / length)
         count = max(end - first, 0)
-        begin = (first * length - part.span[0]) / frequency
+        first_start = (first * length - part.span[0]) / frequency
         film_parts.append(
-            FilmPart(part.start, part.duration, count, begin, step, first % period.parts)
+            FilmPart(part.start, part.duration, count, first_start, step, first % period.parts)
         )
         frame_of, bits_of = _read_packets(part.frames, period)
         for number, chips in sorted(_count_visible_chips(part.frames, length).items()):
             if not first <= number < end:
                 continue
-            read, place = bits_of.get(number), number - first
+            packet_bits, packet_index = bits_of.get(number), number - first
             packets.append(
                 PacketReading(
-                    number=earlier + place,
+                    number=earlier_packets + packet_index,
                     part=number % period.parts,
-                    time=part.start + begin + place * step,
+                    time=part.start + first_start + packet_index * step,
                     frame=frame_of.get(number),
                     seen=chips / length,
-                    bits=read,
+                    bits=packet_bits,
                     wrong_bits=_count_wrong(
-                        read, sent, period.slice_of_part(number % period.parts)
+                        packet_bits, framed_bits, period.slice_of_part(number % period.parts)
                     ),
                 )
             )
-        earlier += count
+        earlier_packets += count
     return SentPackets(tuple(film_parts), tuple(packets), period.parts)
 
 
@@ -75,25 +75,25 @@ def _count_wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) ->
     """Count the bits of a packet that differ from those sent."""
     if read is None or sent is None:
         return None
-    own = sent[part]
-    return int((read != own).sum()) if len(read) == len(own) else len(own)
+    part_bits = sent[part]
+    return int((read != part_bits).sum()) if len(read) == len(part_bits) else len(part_bits)
 
 
 def _count_visible_chips(frames: list[PlacedFrame], length: int) -> dict[int, int]:
     """Count the chips of each packet that frames show whole, by the packet's number."""
-    whole = sorted(
+    whole_ranges = sorted(
         (frame.first + frame.reading.whole[0], frame.first + frame.reading.whole[1])
         for frame in frames
     )
     counts: dict[int, int] = {}
-    reached: int | None = None
-    for start, end in whole:
-        begin = start if reached is None else max(start, reached)
+    counted_until: int | None = None
+    for start, end in whole_ranges:
+        begin = start if counted_until is None else max(start, counted_until)
         for number in range(begin // length, -(-end // length)):
             chips = min(end, (number + 1) * length) - max(begin, number * length)
             if chips > 0:
                 counts[number] = counts.get(number, 0) + chips
-        reached = end if reached is None else max(reached, end)
+        counted_until = end if counted_until is None else max(counted_until, end)
     return counts
 
 

@@ -15,7 +15,7 @@ from occ_model.video.joining import JoinedChips
 from occ_model.video.period import SentPeriod
 from occ_model.video.read_frame import TimedFrame
 
-UNKNOWN = "·"  # stands for a letter, byte or bit that has not been in view
+UNKNOWN = "·"  # stands for a letter, byte or bit that no frame shows
 
 _MIN_CERTAINTY = 0.9  # minimum probability that all bits are correct for a payload to be read
 
@@ -41,10 +41,10 @@ def _bits_of_parts(chips: ByteArray, known: BoolArray, period: SentPeriod) -> In
     assert period.scheme is not None  # noqa: S101 - the caller has checked
     bits = np.full(period.scheme.bits, -1, dtype=np.int64)
     for part in range(period.parts):
-        here = slice(part * period.part_length, (part + 1) * period.part_length)
-        found = period.read_part(chips[here]) if known[here].all() else None
-        if found is not None and found[0] == part:
-            bits[period.slice_of_part(part)] = found[1]
+        chip_range = slice(part * period.part_length, (part + 1) * period.part_length)
+        number_and_bits = period.read_part(chips[chip_range]) if known[chip_range].all() else None
+        if number_and_bits is not None and number_and_bits[0] == part:
+            bits[period.slice_of_part(part)] = number_and_bits[1]
     return bits
 
 
@@ -57,15 +57,15 @@ def _bits_of_blocks(chips: ByteArray, known: BoolArray, period: SentPeriod) -> I
     code = scheme.line_code
     data = chips[start:]
     blocks = len(data) // code.block_chips
-    read = code.decode(data[: blocks * code.block_chips], int(chips[start - 1]))
-    of_chips = known[start : start + blocks * code.block_chips]
-    of_block = np.asarray(of_chips.reshape(blocks, -1).all(axis=1))
+    decoded = code.decode(data[: blocks * code.block_chips], int(chips[start - 1]))
+    chips_known = known[start : start + blocks * code.block_chips]
+    blocks_known = np.asarray(chips_known.reshape(blocks, -1).all(axis=1))
     # A block may depend on the chip before it.
-    of_block &= np.concatenate([[known[start - 1]], of_block[:-1]])
-    of_bits = np.repeat(of_block, code.block_bits)[: len(read.bits)]
-    skipped = count_length_bits(scheme.bits) if scheme.framing.name == RAW.name else 0
-    own = read.bits[: len(of_bits)].astype(np.int64)
-    values = np.where(of_bits, own, -1)[skipped : skipped + scheme.bits]
+    blocks_known &= np.concatenate([[known[start - 1]], blocks_known[:-1]])
+    bits_known = np.repeat(blocks_known, code.block_bits)[: len(decoded.bits)]
+    length_bits = count_length_bits(scheme.bits) if scheme.framing.name == RAW.name else 0
+    decoded_bits = decoded.bits[: len(bits_known)].astype(np.int64)
+    values = np.where(bits_known, decoded_bits, -1)[length_bits : length_bits + scheme.bits]
     bits[: len(values)] = values
     return bits
 
@@ -86,10 +86,11 @@ def format_bits(bits: IndexArray, scene: Scene) -> str:
 
 
 def certainty_of(soft: SoftFrame | None, period: SentPeriod) -> float:
-    """Return the probability that all bits are correct, by the votes and the code's own check.
+    """Return the probability that all bits are correct, by the chips and the code's own check.
 
     With c the probability that no chip is wrong, -ln c is the expected number of wrong ones. A code
-    that detects any single wrong chip has excluded exactly one; none, or two and more, remain.
+    that detects any single wrong chip has excluded exactly one wrong chip; none, or two and more,
+    remain possible.
     """
     if soft is None or soft.framed.failure is not None or period.scheme is None:
         return 0.0
@@ -103,18 +104,20 @@ def explain_unplaced(frames: Sequence[TimedFrame]) -> str:
     """Explain why no frame could be placed, by the failure of the first one."""
     if not frames:
         return "The film contains no frames."
-    read = [frame for frame in frames if frame.is_read]
-    if not read:
+    read_frames = [frame for frame in frames if frame.is_read]
+    if not read_frames:
         why = frames[0].reading.failure
         return f"None of {inflect(len(frames), 'frame')} shows chips. The first one: {why}"
-    why = read[0].problem
-    rest = (
+    why = read_frames[0].problem
+    explanation = (
         "No header shows it, and the chips fit no place."
         if why is None
         else f"The first one: {why}"
     )
-    frames_read = inflect(len(read), "frame")
-    return f"The place in the packet is not known for any of {frames_read} with chips. {rest}"
+    frames_read = inflect(len(read_frames), "frame")
+    return (
+        f"The place in the packet is not known for any of {frames_read} with chips. {explanation}"
+    )
 
 
 def explain_unread(soft: SoftFrame | None, joined: JoinedChips, period: SentPeriod) -> str | None:
@@ -135,12 +138,12 @@ def explain_unread(soft: SoftFrame | None, joined: JoinedChips, period: SentPeri
 
 
 def _explain_incomplete(joined: JoinedChips, period: SentPeriod) -> str:
-    unseen = ~joined.known
+    unknown = ~joined.known
     text = (
-        f"{int(unseen.sum())} of {period.length} chips are in no frame whose place in the packet "
+        f"{int(unknown.sum())} of {period.length} chips are in no frame whose place in the packet "
         "is known; a longer film may show them."
     )
     if period.parts > 1:
-        missing = np.flatnonzero(unseen.reshape(period.parts, -1).any(axis=1))
+        missing = np.flatnonzero(unknown.reshape(period.parts, -1).any(axis=1))
         text += f" The first incomplete sub-packet is number {int(missing[0]) + 1}."
     return text

@@ -1,4 +1,4 @@
-"""The repeated period of what is sent: its length, its parts, and places that chips show."""
+"""The repeated period of the chips sent: its length, its parts, and places of headers in it."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -26,9 +26,9 @@ _SAMPLES = 8  # number of payloads compared to find the chips that are the same 
 
 @dataclass(frozen=True)
 class SentPeriod:
-    """One period of what is sent, as far as a receiver knows it before reading."""
+    """One period of the chips sent, as far as a receiver knows it before reading."""
 
-    # Only its scheme and number of bits are used, not its payload; of a raw pattern all is
+    # Only its scheme and number of bits are used, not its payload; a raw pattern is used completely
     transmitter: Transmitter
 
     @cached_property
@@ -87,8 +87,8 @@ class SentPeriod:
         payloads = random.integers(0, 2, (_SAMPLES, self.scheme.bits), dtype=np.uint8)
         payloads[:2] = [[0], [1]]
         periods = np.array([self.scheme.encode(payload) for payload in payloads])
-        same = (periods == periods[0]).all(axis=0)
-        return tuple(periods[0][: int(np.argmin(same))].tolist())
+        is_same = (periods == periods[0]).all(axis=0)
+        return tuple(periods[0][: int(np.argmin(is_same))].tolist())
 
     @property
     def data_start(self) -> int | None:
@@ -103,11 +103,10 @@ class SentPeriod:
         return None
 
     def places(self, chips: ByteArray) -> tuple[int, ...]:
-        """Return the possible places of a frame's first chip in the period, according to headers.
+        """Return the places of a frame's first chip in the period that its headers allow.
 
-        There is one place if a header determines it and several if it may be any of them. There is
-        none if no header is in view, or if headers contradict each other. All ``chips`` must be
-        whole.
+        One place if a header determines it, several if it may be any of them, and none if no header
+        is in view or headers contradict each other. All ``chips`` must be whole.
         """
         if self.scheme is None:
             return ()
@@ -120,34 +119,36 @@ class SentPeriod:
     ) -> tuple[int, ...]:
         if framing == PAPER.name:
             longest = form.line_code.longest_run
-            unique = longest is not None and longest < sum(HEADER)
-            found = find_headers(chips) if unique else ()
+            is_header_unique = longest is not None and longest < sum(HEADER)
+            headers = find_headers(chips) if is_header_unique else ()
             # A run of ones at the end of the view may continue beyond it.
-            found = tuple(at for at in found if at + len(HEADER) <= len(chips))
+            headers = tuple(header for header in headers if header + len(HEADER) <= len(chips))
         elif framing in (PREAMBLE.name, RAW.name):
             preamble = preamble_of(form)
-            unique = is_unique(preamble, form.line_code) or len(preamble) >= _MIN_PREAMBLE_CHIPS
-            found = find_preambles(chips, preamble) if unique else ()
+            is_header_unique = (
+                is_unique(preamble, form.line_code) or len(preamble) >= _MIN_PREAMBLE_CHIPS
+            )
+            headers = find_preambles(chips, preamble) if is_header_unique else ()
         else:
             return ()
-        places = {-at % self.length for at in found}
+        places = {-header % self.length for header in headers}
         return tuple(places) if len(places) == 1 else ()
 
     def _places_of_sub_packets(self, chips: ByteArray, form: FrameFormat) -> tuple[int, ...]:
         length = self.part_length
-        found = find_preambles(chips, own_preamble(form.line_code))
-        if not found or len({at % length for at in found}) > 1:
+        preambles = find_preambles(chips, own_preamble(form.line_code))
+        if not preambles or len({preamble % length for preamble in preambles}) > 1:
             return ()
-        numbered = set()
-        for at in found:
-            after, before = c_ook.read_numbers_beside(chips, at, form)
+        places = set()
+        for preamble in preambles:
+            after, before = c_ook.read_numbers_beside(chips, preamble, form)
             if after is not None:
-                numbered.add((after * length - at) % self.length)
+                places.add((after * length - preamble) % self.length)
             if before is not None:
-                numbered.add(((before + 1) * length - at) % self.length)
-        if numbered:
-            return tuple(numbered) if len(numbered) == 1 else ()
-        return tuple((part * length - found[0]) % self.length for part in range(self.parts))
+                places.add(((before + 1) * length - preamble) % self.length)
+        if places:
+            return tuple(places) if len(places) == 1 else ()
+        return tuple((part * length - preambles[0]) % self.length for part in range(self.parts))
 
     def read_part(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
         """Read one part by itself; return its number and its bits, or None if it is not read."""
@@ -156,10 +157,10 @@ class SentPeriod:
         if self.parts > 1:
             number, bits, problem = c_ook.read_sub_packet(chips, self.scheme.form)
             return None if problem is not None else (number, bits)
-        read = self.scheme.decode(np.tile(chips, 3))
-        if read.failure is not None or len(read.bits) != self.scheme.bits:
+        framed = self.scheme.decode(np.tile(chips, 3))
+        if framed.failure is not None or len(framed.bits) != self.scheme.bits:
             return None
-        return 0, read.bits
+        return 0, framed.bits
 
     def slice_of_part(self, part: int) -> slice:
         """Return the slice of the framing's input bits that a part carries."""

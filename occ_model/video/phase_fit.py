@@ -9,7 +9,7 @@ from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.photo.stripes.period import correlated_columns
 
 _MIN_FOR_DRIFT = 6  # minimum number of frames to fit a drift as well
-_OUTLIER_DEVIATIONS = 6.0  # from which a phase is an outlier, such as of a misread packet
+_OUTLIER_DEVIATIONS = 6.0  # standard deviations from which a phase is an outlier (misread packet)
 _JUMP_DEVIATIONS = 10.0  # standard deviations from which a change between two frames is a jump
 _MIN_JUMP = 0.1  # smallest jump in chips, because the picture itself may shift the phase by less
 
@@ -75,17 +75,17 @@ class ClockFit:
 
     def at_start(self, times: FloatArray) -> FloatArray:
         """Return the unwrapped phase in column 0 of frames at some times, in chips."""
-        later = np.asarray(times, dtype=np.float64) - self.middle
-        phase = self.start + self.frequency * later + 0.5 * self.drift * later**2
+        elapsed = np.asarray(times, dtype=np.float64) - self.middle
+        phase = self.start + self.frequency * elapsed + 0.5 * self.drift * elapsed**2
         for jump in self.jumps:
             phase = phase + jump.chips * (np.asarray(times) >= jump.time)
         return np.asarray(phase)
 
     def phase_error(self, time: float) -> float:
         """Return the standard deviation of a predicted phase at a time, in chips."""
-        later = time - self.middle
-        drifted = 0.5 * self.drift_error * later**2
-        error = np.hypot(np.hypot(self.noise, self.frequency_error * later), drifted)
+        elapsed = time - self.middle
+        drift_error = 0.5 * self.drift_error * elapsed**2
+        error = np.hypot(np.hypot(self.noise, self.frequency_error * elapsed), drift_error)
         # A few frames may agree by chance.
         return float(error) * (1.0 + 3.0 / max(int(self.kept.sum()) - 3, 1))
 
@@ -107,85 +107,87 @@ def mean_step(phases: FramePhases) -> tuple[float, float]:
     return mean, math.sqrt(max(scatter, stated)) / total
 
 
-def fit_parabola(phases: FramePhases, counted: FloatArray) -> ClockFit:
-    kept = np.ones(len(counted), dtype=bool)
+def fit_parabola(phases: FramePhases, unwrapped_phases: FloatArray) -> ClockFit:
+    is_kept = np.ones(len(unwrapped_phases), dtype=bool)
     jumps: list[int] = []
-    solution = _solve(phases, counted, kept, jumps)
+    solution = _solve(phases, unwrapped_phases, is_kept, jumps)
     for _ in range(_MAX_JUMPS + 3):
-        spread = local_spread(solution.residuals[kept], phases.errors[kept])
-        jump = _largest_jump(solution.residuals, kept, spread, jumps)
-        off = np.abs(solution.residuals)
-        typical = _SIGMA_OF_MEDIAN * float(np.median(off))
-        outlying = kept & (off > _OUTLIER_DEVIATIONS * max(spread, typical))
+        spread = estimate_local_spread(solution.residuals[is_kept], phases.errors[is_kept])
+        jump = _find_largest_jump(solution.residuals, is_kept, spread, jumps)
+        deviations = np.abs(solution.residuals)
+        typical = _SIGMA_OF_MEDIAN * float(np.median(deviations))
+        is_outlier = is_kept & (deviations > _OUTLIER_DEVIATIONS * max(spread, typical))
         if jump is not None and len(jumps) < _MAX_JUMPS:
             jumps.append(jump)
-        elif outlying.any() and (kept & ~outlying).sum() >= max(2, len(kept) // 2):
-            kept = kept & ~outlying
+        elif is_outlier.any() and (is_kept & ~is_outlier).sum() >= max(2, len(is_kept) // 2):
+            is_kept = is_kept & ~is_outlier
         else:
             break
-        solution = _solve(phases, counted, kept, jumps)
+        solution = _solve(phases, unwrapped_phases, is_kept, jumps)
     return solution
 
 
-def _solve(phases: FramePhases, counted: FloatArray, kept: BoolArray, jumps: list[int]) -> ClockFit:
+def _solve(
+    phases: FramePhases, unwrapped_phases: FloatArray, is_kept: BoolArray, jumps: list[int]
+) -> ClockFit:
     times = phases.times
-    middle = float(times[kept].mean())
-    later = times - middle
-    extent = max(float(np.ptp(later)), 1e-12)
-    has_drift = int(kept.sum()) >= _MIN_FOR_DRIFT + len(jumps)
-    parts = [np.ones(len(times)), later]
+    middle = float(times[is_kept].mean())
+    elapsed = times - middle
+    extent = max(float(np.ptp(elapsed)), 1e-12)
+    has_drift = int(is_kept.sum()) >= _MIN_FOR_DRIFT + len(jumps)
+    basis = [np.ones(len(times)), elapsed]
     if has_drift:
-        # The bend's mean is subtracted so that the frequency is that of the middle.
-        bend = 0.5 * later**2
-        parts.append(bend - float(bend[kept].mean()))
-    parts += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
-    design = np.column_stack(parts)
+        # The quadratic's mean is subtracted, so that the frequency is that of the middle.
+        quadratic = 0.5 * elapsed**2
+        basis.append(quadratic - float(quadratic[is_kept].mean()))
+    basis += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
+    design = np.column_stack(basis)
     scale = np.array([1.0, extent, extent**2][: 2 + has_drift] + [1.0] * len(jumps))
     errors = np.maximum(phases.errors, _MIN_DEVIATION)
     jitter = 0.0
     for _ in range(8):
-        weights = np.where(kept, 1.0 / (errors**2 + jitter**2), 0.0)
+        weights = np.where(is_kept, 1.0 / (errors**2 + jitter**2), 0.0)
         products = (design * scale**-1.0).T * weights @ (design / scale)
         inverse = np.linalg.pinv(products, rcond=1e-13)
-        found = inverse @ ((design / scale).T @ (weights * counted)) / scale
-        residuals = counted - design @ found
-        free = max(1, int(kept.sum()) - design.shape[1])
-        excess = float(weights @ residuals**2) / free
-        before = jitter
+        coefficients = inverse @ ((design / scale).T @ (weights * unwrapped_phases)) / scale
+        residuals = unwrapped_phases - design @ coefficients
+        freedom = max(1, int(is_kept.sum()) - design.shape[1])
+        excess = float(weights @ residuals**2) / freedom
+        previous_jitter = jitter
         # The jitter that explains the size of the residuals.
-        jitter = float(
-            np.sqrt(max(0.0, float((residuals[kept] ** 2 - errors[kept] ** 2).sum()) / free))
-        )
-        if abs(jitter - before) <= 1e-3 * max(jitter, _MIN_DEVIATION):
+        unexplained = float((residuals[is_kept] ** 2 - errors[is_kept] ** 2).sum())
+        jitter = math.sqrt(max(0.0, unexplained / freedom))
+        if abs(jitter - previous_jitter) <= 1e-3 * max(jitter, _MIN_DEVIATION):
             break
-    # Frames may agree better than their own errors imply if a part of these errors is common, such
-    # as that of the sensor's fixed pattern. That part still moves the fit.
+    # Frames may agree better than their own errors imply if they share a part of these errors, such
+    # as that of the sensor's fixed pattern. That part still shifts the fit.
     scatter = max(1.0, excess)
-    if jitter > 0.0 and free > 2:
-        scatter *= free / (free - 2.0)  # a few may agree by chance: variance of Student's t
-    covariance = inverse * scatter * _correlated_count(residuals[kept]) / np.outer(scale, scale)
-    noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))
+    if jitter > 0.0 and freedom > 2:
+        # A few may agree by chance: variance of Student's t
+        scatter *= freedom / (freedom - 2.0)
+    covariance = inverse * scatter * _correlated_count(residuals[is_kept]) / np.outer(scale, scale)
+    noise = float(np.sqrt(residuals[is_kept] @ residuals[is_kept] / freedom))
     if has_drift:
-        # Undo the subtraction of the bend's mean in the phase of the middle.
-        found = found.copy()
-        found[0] -= found[2] * float((0.5 * later[kept] ** 2).mean())
+        # Undo the subtraction of the quadratic's mean in the phase of the middle.
+        coefficients = coefficients.copy()
+        coefficients[0] -= coefficients[2] * float((0.5 * elapsed[is_kept] ** 2).mean())
     step, step_error = mean_step(phases)
     deviations = np.sqrt(np.diag(covariance))
-    chi = residuals[kept] / errors[kept]
+    chi = residuals[is_kept] / errors[is_kept]
     return ClockFit(
-        frequency=float(found[1]),
+        frequency=float(coefficients[1]),
         frequency_error=float(deviations[1]),
-        drift=float(found[2]) if has_drift else 0.0,
+        drift=float(coefficients[2]) if has_drift else 0.0,
         drift_error=float(deviations[2]) if has_drift else 0.0,
         step=step,
         step_error=step_error,
         middle=middle,
-        start=float(found[0]),
+        start=float(coefficients[0]),
         residuals=residuals,
-        kept=kept,
+        kept=is_kept,
         jumps=tuple(
             PhaseJump(frame, float(phases.times[frame]), height)
-            for frame, height in zip(jumps, found[2 + has_drift :].tolist(), strict=True)
+            for frame, height in zip(jumps, coefficients[2 + has_drift :].tolist(), strict=True)
         ),
         chi_squared=float(chi @ chi),
         noise=noise,
@@ -206,8 +208,8 @@ def _correlated_count(residuals: FloatArray) -> float:
     )
 
 
-def local_spread(residuals: FloatArray, errors: FloatArray) -> float:
-    """Return the standard deviation of phases without slow changes, from their steps."""
+def estimate_local_spread(residuals: FloatArray, errors: FloatArray) -> float:
+    """Return the standard deviation of phases without slow changes, from their differences."""
     least = float(np.median(errors))
     if len(residuals) < 3:
         return max(least, _MIN_DEVIATION)
@@ -215,7 +217,7 @@ def local_spread(residuals: FloatArray, errors: FloatArray) -> float:
     return max(_SIGMA_OF_MEDIAN / math.sqrt(2.0) * float(np.median(steps)), least, _MIN_DEVIATION)
 
 
-def _largest_jump(
+def _find_largest_jump(
     residuals: FloatArray, kept: BoolArray, spread: float, jumps: list[int]
 ) -> int | None:
     """Find the largest lasting jump of the residuals, confirmed by the frames on either side."""
@@ -224,12 +226,12 @@ def _largest_jump(
         return None
     values = residuals[frames]
     heights = np.abs(np.diff(values))
-    for place in np.argsort(heights)[::-1][:4].tolist():
-        if heights[place] < max(_JUMP_DEVIATIONS * spread, _MIN_JUMP):
+    for index in np.argsort(heights)[::-1][:4].tolist():
+        if heights[index] < max(_JUMP_DEVIATIONS * spread, _MIN_JUMP):
             return None
-        frame = int(frames[place + 1])
-        before, after = values[max(0, place - 2) : place + 1], values[place + 1 : place + 4]
-        lasts = abs(float(np.median(after)) - float(np.median(before))) > 0.6 * heights[place]
-        if lasts and len(before) > 2 and len(after) > 2 and frame not in jumps:
+        frame = int(frames[index + 1])
+        before, after = values[max(0, index - 2) : index + 1], values[index + 1 : index + 4]
+        is_lasting = abs(float(np.median(after)) - float(np.median(before))) > 0.6 * heights[index]
+        if is_lasting and len(before) > 2 and len(after) > 2 and frame not in jumps:
             return frame
     return None

@@ -1,7 +1,7 @@
 """Place the frames of a film in the period that is sent, and fit the clock that predicts places.
 
-Headers place the first frames, whose phases give the clock. The clock and the chips known by then
-place other frames, whose phases improve the clock.
+Headers place the first frames, whose phases determine the clock. The clock and the chips known so
+far place further frames, whose phases improve the clock.
 """
 
 from collections.abc import Iterable, Sequence
@@ -41,14 +41,14 @@ class PlacedFrames:
         self.columns = 0
         self.frames: list[TimedFrame] = []
         self.placed = 0
-        self.part_unknown = False  # whether places are correct except for a number of sub-packets
+        self.part_unknown = False  # whether places are known only up to a number of sub-packets
         self._period = period
         self._readout_time, self._tolerance = readout_time, tolerance
         self._places: list[int | None] = []
         self._fits: tuple[ClockFit, ...] = ()
         self._next_fit, self._next_try = FIRST_FIT, _MIN_PREDICTING_FRAMES
         self._times: FrameTimes | None = None
-        self._clock_from = 0
+        self._clock_first_frame = 0
 
     def add(self, timed: TimedFrame) -> bool:
         """Add the next frame; return whether the clock was fitted again."""
@@ -100,26 +100,26 @@ class PlacedFrames:
         return [self._count_part(fit, part) for part in times.parts]
 
     def _count_part(self, fit: ClockFit, part: Part) -> CountedPart:
-        """Count the chips of a part by the clock, aligned to it if fitted to another part."""
+        """Count the chips of a part by the clock, aligned to the part if fitted to another one."""
         length = self._period.length
-        both = [
+        placed_frames = [
             (self.frames[number], place)
             for number in range(part.first, part.end)
             if (place := self._places[number]) is not None
         ]
-        begins, inside, places = _starts_and_places(fit, both)
-        if part.first <= self._clock_from < part.end:
-            starts = fit.at_start(begins)
+        start_times, offsets, places = _starts_and_places(fit, placed_frames)
+        if part.first <= self._clock_first_frame < part.end:
+            starts = fit.at_start(start_times)
             start, end = fit.at_start(np.array([part.start, part.start + part.duration])).tolist()
         else:
-            starts = fit.frequency * (begins - part.start)
-            turns = np.exp(2j * np.pi * (places - starts - inside) / length).sum()
-            start = float(np.angle(turns)) / (2.0 * np.pi) * length
+            starts = fit.frequency * (start_times - part.start)
+            phasor = np.exp(2j * np.pi * (places - starts - offsets) / length).sum()
+            start = float(np.angle(phasor)) / (2.0 * np.pi) * length
             starts, end = starts + start, start + fit.frequency * part.duration
-        firsts = unwrap_places(places, starts + inside, length).tolist()
+        firsts = unwrap_places(places, starts + offsets, length).tolist()
         frames = [
             PlacedFrame(timed.reading, first)
-            for (timed, _), first in zip(both, firsts, strict=True)
+            for (timed, _), first in zip(placed_frames, firsts, strict=True)
         ]
         return CountedPart(frames, part.start, part.duration, (start, end))
 
@@ -149,7 +149,7 @@ class PlacedFrames:
         if times is None:
             return False
         known = min(number, len(times.numbers) - 1)
-        if times.part_of(known).first != self._clock_from:
+        if times.part_of(known).first != self._clock_first_frame:
             return False
         since = [timed.reading.time for timed in self.frames[known : number + 1]]
         return not any(times.is_jump(after - before) for before, after in pairwise(since))
@@ -223,13 +223,19 @@ class PlacedFrames:
         self._fits, self.clock, times = (), None, self.times()
         if times is None or not times.are_consecutive:
             return
-        placed = [(n, place) for n, place in enumerate(self._places) if place is not None]
-        part = _fullest_part(times, (number for number, _ in placed))
-        both = [(self.frames[n], chip) for n, chip in placed if part.first <= n < part.end]
-        if len(both) < FIRST_FIT:
+        placed_numbers = [
+            (number, place) for number, place in enumerate(self._places) if place is not None
+        ]
+        part = _fullest_part(times, (number for number, _ in placed_numbers))
+        part_frames = [
+            (self.frames[number], chip)
+            for number, chip in placed_numbers
+            if part.first <= number < part.end
+        ]
+        if len(part_frames) < FIRST_FIT:
             return
-        phases, period = _frame_phases(both, self._period.length), times.period.value
-        self._times, self._clock_from = times, part.first
+        phases, period = _frame_phases(part_frames, self._period.length), times.period.value
+        self._times, self._clock_first_frame = times, part.first
         self._fits = fit_film_clock(
             phases, self._readout_time, self._tolerance, self.columns, period
         )
@@ -251,17 +257,17 @@ def _next_count(count: int) -> int:
 
 
 def _starts_and_places(
-    fit: ClockFit, both: Sequence[tuple[TimedFrame, int]]
+    fit: ClockFit, placed_frames: Sequence[tuple[TimedFrame, int]]
 ) -> tuple[FloatArray, FloatArray, IndexArray]:
-    """Return the frames' start times, the chips from there to their first chip, and its place."""
+    """Return the frames' start times, the chips from each to the first chip, and its place."""
     return (
-        np.array([timed.reading.time for timed, _ in both]),
-        np.array([fit.step * timed.column - timed.middle for timed, _ in both]),
-        np.array([place for _, place in both], dtype=np.int64),
+        np.array([timed.reading.time for timed, _ in placed_frames]),
+        np.array([fit.step * timed.column - timed.middle for timed, _ in placed_frames]),
+        np.array([place for _, place in placed_frames], dtype=np.int64),
     )
 
 
-def _frame_phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> FramePhases:
+def _frame_phases(placed_frames: Sequence[tuple[TimedFrame, int]], period: int) -> FramePhases:
     """Return the phases of frames, given the places of their first chips in a period."""
     rows = [
         (
@@ -272,7 +278,7 @@ def _frame_phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> FrameP
             timed.step,
             timed.step_error,
         )
-        for timed, place in both
+        for timed, place in placed_frames
     ]
     times, columns, places, errors, steps, step_errors = np.array(rows).T
     return FramePhases(times, columns, places, errors, steps, step_errors, float(period))

@@ -21,8 +21,8 @@ from occ_model.transmitter.registry import MOST_CHIPS
 from occ_model.video.chip_timing import ChipLattice, ChipTiming, fit_timing
 
 _MAX_UNEXPLAINED = 0.3  # maximum fraction of the variance that the chips leave unexplained
-_REMEMBERED_REGIONS = 5  # earlier frames that show where the panel ends, since it moves little
-_MAX_DARK = 6.0  # most dark chips in a row at an end of the panel, more than any line code has
+_REMEMBERED_REGIONS = 5  # earlier frames that show the panel's ends, since it moves little
+_MAX_DARK_CHIPS = 6.0  # in a row at an end of the panel, more than any line code allows
 
 _MOTION_MARGIN = 0.5  # chips by which the panel may have moved since those frames
 _ROUNDING_CHIPS = 1e-6  # rounding error in chips that does not cut a chip off
@@ -97,30 +97,38 @@ class FrameReader:
         reading = FrameReading(frame.index, frame.time, result.region)
         if result.region is None:
             return TimedFrame(replace(reading, failure=result.failure))
-        white = 0.0 if result.signal is None else float(np.mean(result.signal >= _WHITE_MEAN))
+        white_fraction = (
+            0.0 if result.signal is None else float(np.mean(result.signal >= _WHITE_MEAN))
+        )
         region = self._widen_by_dark_ends(result.region, scene)
         light = convert_to_light(column_means(frame.image, region), scene).values
-        before = result.region.first_column - region.first_column
-        tried = [_fit_timing(result, column_means(frame.image, region), light, before, scene)]
+        columns_before = result.region.first_column - region.first_column
+        attempts = [
+            _fit_timing(result, column_means(frame.image, region), light, columns_before, scene)
+        ]
         if result.failure is not None and self.enhanced.model.enhancement != "none":
-            tried.append(self._read_enhanced(frame, result.region, region, light))
-        timing, problem = min(tried, key=lambda one: 1.0 if one[0] is None else one[0].unexplained)
+            attempts.append(self._read_enhanced(frame, result.region, region, light))
+        timing, problem = min(
+            attempts, key=lambda each: 1.0 if each[0] is None else each[0].unexplained
+        )
         if timing is None:
-            return TimedFrame(replace(reading, failure=problem), problem=problem, white=white)
-        after = region.last_column - result.region.last_column
-        timed = _time_frame(reading, region, (before > 0, after > 0), timing)
-        return replace(timed, problem=problem, white=white)
+            return TimedFrame(
+                replace(reading, failure=problem), problem=problem, white=white_fraction
+            )
+        columns_after = region.last_column - result.region.last_column
+        timed = _time_frame(reading, region, (columns_before > 0, columns_after > 0), timing)
+        return replace(timed, problem=problem, white=white_fraction)
 
     def _read_enhanced(
-        self, frame: VideoFrame, found: Region, region: Region, light: FloatArray
+        self, frame: VideoFrame, panel: Region, region: Region, light: FloatArray
     ) -> tuple[ChipTiming | None, str | None]:
         """Read the chips of the enhanced picture, and fit their timing to the camera's light."""
         scene = self._with_exposure_of(self.enhanced, frame)
         signal = enhance_panel(frame.image, region, scene.model.enhancement).mean(axis=0)
-        before = found.first_column - region.first_column
-        part = signal[before : before + found.columns]
-        result = read_with(self.decoder, part, scene)
-        return _fit_timing(result, signal, light, before, scene)
+        columns_before = panel.first_column - region.first_column
+        panel_signal = signal[columns_before : columns_before + panel.columns]
+        result = read_with(self.decoder, panel_signal, scene)
+        return _fit_timing(result, signal, light, columns_before, scene)
 
     @staticmethod
     def _with_exposure_of(scene: Scene, frame: VideoFrame) -> Scene:
@@ -130,25 +138,25 @@ class FrameReader:
     def _widen_by_dark_ends(self, region: Region, scene: Scene) -> Region:
         """Widen a region by columns of earlier frames, which dark chips at its ends may hide."""
         first, last = region.first_column, region.last_column
-        most = round(
-            _MAX_DARK / (scene.camera.readout_time * scene.transmitter.switching_frequency)
+        most_columns = round(
+            _MAX_DARK_CHIPS / (scene.camera.readout_time * scene.transmitter.switching_frequency)
         )
         self._spans.append((first, last))
-        earliest = max(min(span[0] for span in self._spans), first - most, 0)
-        latest = min(max(span[1] for span in self._spans), last + most)
+        earliest = max(min(span[0] for span in self._spans), first - most_columns, 0)
+        latest = min(max(span[1] for span in self._spans), last + most_columns)
         return replace(region, first_column=earliest, last_column=latest)
 
 
 def _fit_timing(
-    result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
+    result: DecodeResult, signal: FloatArray, light: FloatArray, columns_before: int, scene: Scene
 ) -> tuple[ChipTiming | None, str | None]:
-    """Fit the timing of a decoder's chips; the second value tells why they give no payload."""
+    """Fit the timing of a decoder's chips; the second value states why they give no payload."""
     if result.signal is None or result.chip_starts is None:
         return (
             None,
             result.failure or "The decoder gives no chips, which are needed to join frames.",
         )
-    lattice = fit_lattice(result, signal, before, scene)
+    lattice = fit_lattice(result, signal, columns_before, scene)
     if lattice is None:
         failure = result.failure or "The stripes show no regular chips."
         return None, blame_short_chips(failure, scene)
@@ -171,8 +179,10 @@ def _time_frame(
         min(int(np.floor(end + _ROUNDING_CHIPS)), len(lattice.values)),
     )
     ratios = timing.ratios.copy()
-    for dark, outside in zip(dark_ends, (slice(0, whole[0]), slice(whole[1], None)), strict=True):
-        if dark:  # they may lie beside the panel
+    for is_dark_end, outside in zip(
+        dark_ends, (slice(0, whole[0]), slice(whole[1], None)), strict=True
+    ):
+        if is_dark_end:  # these chips may lie beside the panel
             ratios[outside] = 0.0
     return TimedFrame(
         replace(
@@ -191,18 +201,18 @@ def _time_frame(
 
 
 def fit_lattice(
-    result: DecodeResult, signal: FloatArray, before: int, scene: Scene
+    result: DecodeResult, signal: FloatArray, columns_before: int, scene: Scene
 ) -> ChipLattice | None:
     """Place the chips of a decoder on a regular lattice; None if no lattice is found.
 
     There is none if chips are shorter than a column, or an exposure is longer than all columns.
-    ``before``: the number of the signal's columns before the result's region. The scene's exposure
-    time and switching frequency are a first guess.
+    ``columns_before``: the number of the signal's columns before the result's region. The scene's
+    exposure time and switching frequency are a first guess.
     """
     edges = np.flatnonzero(np.diff(result.chips.astype(np.int64))) + 1
     if result.chip_starts is None or len(edges) < _MIN_EDGES:
         return None
-    starts = result.chip_starts + before
+    starts = result.chip_starts + columns_before
     exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
     places, numbers = starts[edges], edges.astype(np.float64)
     rising = result.chips[edges] == 1
@@ -218,7 +228,7 @@ def fit_lattice(
     # Far more chips than columns can show, or an exposure longer than all columns.
     if not exposure <= step * len(signal) <= MOST_CHIPS:
         return None
-    # A chip is read in the column at the middle of whose exposure it lies.
+    # A chip is read in the column whose exposure has its middle within the chip.
     middle = float(np.mean(numbers - places * step))
     phase = middle - 0.5 * exposure
     lattice = _lay_out_chips(len(signal), step, phase, exposure)
@@ -231,19 +241,21 @@ def _fit_line(
     places: FloatArray, numbers: FloatArray, rising: BoolArray
 ) -> tuple[float, FloatArray]:
     """Fit a line through edges; return its chips per column, and each edge's deviation in chips."""
-    parts = np.column_stack([np.ones(len(places)), numbers, np.where(rising, 0.5, -0.5)])
-    found = np.linalg.lstsq(parts, places, rcond=None)[0]
-    if found[1] * MOST_CHIPS <= 1.0:  # not even a fraction of a column each
+    design = np.column_stack([np.ones(len(places)), numbers, np.where(rising, 0.5, -0.5)])
+    coefficients = np.linalg.lstsq(design, places, rcond=None)[0]
+    if coefficients[1] * MOST_CHIPS <= 1.0:  # not even a fraction of a column each
         return 0.0, np.zeros(len(places))
-    return float(1.0 / found[1]), np.asarray((places - parts @ found) / found[1])
+    return float(1.0 / coefficients[1]), np.asarray(
+        (places - design @ coefficients) / coefficients[1]
+    )
 
 
 def _find_most_coherent(edges: Edges, expected: float) -> float:
     """Return the chips per column, near the expected number, whose lattice fits edges best."""
     extent = max(float(np.ptp(edges.places)), 1.0)
-    reach = max(_SEARCHED_FRACTION * expected, 1.0 / extent)
-    count = int(np.ceil(2.0 * reach * extent * _STEPS_A_TURN)) + 1
-    steps = expected + np.linspace(-reach, reach, count)
+    search_range = max(_SEARCHED_FRACTION * expected, 1.0 / extent)
+    count = int(np.ceil(2.0 * search_range * extent * _STEPS_A_TURN)) + 1
+    steps = expected + np.linspace(-search_range, search_range, count)
     return float(steps[int(np.argmax(coherence(edges, steps)))])
 
 
@@ -260,5 +272,5 @@ def _read_values(
     nearest = np.clip(np.rint(middles), 0, len(signal) - 1).astype(np.int64)
     if result.threshold is not None:
         return np.asarray(signal[nearest] > result.threshold, dtype=np.uint8)
-    place = np.clip(np.searchsorted(starts, nearest, side="right") - 1, 0, len(starts) - 1)
-    return np.asarray(result.chips[place])
+    indices = np.clip(np.searchsorted(starts, nearest, side="right") - 1, 0, len(starts) - 1)
+    return np.asarray(result.chips[indices])

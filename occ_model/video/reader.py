@@ -1,4 +1,4 @@
-"""Read a film frame by frame as the frames come, and as a whole at the end."""
+"""Read a film frame by frame as the frames arrive, and as a whole at the end."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -70,9 +70,9 @@ def decode_video(
     reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
     reader.time_step = video.time_step or 0.0
     for frame in video:
-        known = reader.add(frame)
+        film_progress = reader.add(frame)
         if progress is not None:
-            progress(known)
+            progress(film_progress)
     return reader.reading()
 
 
@@ -83,7 +83,7 @@ def decode_frames(
     *,
     readout_tolerance: float = READOUT_TOLERANCE,
 ) -> Iterator[FilmProgress]:
-    """Read frames as they come; yield what is known after each.
+    """Read frames as they arrive; yield what is known after each.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def decode_frames(
 
 
 class VideoReader:
-    """Reads a film as its frames come.
+    """Reads a film as its frames arrive.
 
     It keeps the chips of each frame, about 2 kB, but not its picture.
 
@@ -127,17 +127,17 @@ class VideoReader:
             raise ParameterError.of(
                 "readout_tolerance", quote(readout_tolerance), f"above 0 up to {most:g}"
             )
-        self._scene, self._reads = scene, FrameReader(scene, decoder)
+        self._scene, self._frame_reader = scene, FrameReader(scene, decoder)
         self._period = SentPeriod(scene.transmitter)
         readout = scene.camera.readout_time
         self._placed = PlacedFrames(self._period, readout, readout_tolerance)
         self._joined = self._placed.joined
         self._readout_tolerance = readout_tolerance
         self._without_packets = WithoutPackets()
-        self._seen = -1
+        self._chips_in_view = -1
         self._shape: tuple[int, ...] | None = None
         self._white: float | None = None  # the value of white in the first frame
-        self._complete_with: int | None = None
+        self._completing_frame: int | None = None
         self._payload, self._faults = "", Faults()
 
     @property
@@ -165,11 +165,11 @@ class VideoReader:
         """
         frame, white = self._check_frame(frame)
         with self._faults.counting():
-            timed = self._reads.read(frame)
+            timed = self._frame_reader.read(frame)
         self._shape, self._placed.columns = frame.image.shape, frame.image.shape[1]
         self._white = white
         if self._placed.add(timed):
-            self._seen = -1
+            self._chips_in_view = -1
         if self._placed.placed == 0:
             self._without_packets.add(frame.time, frame.image, timed.reading.region)
         self._update_payload()
@@ -180,7 +180,7 @@ class VideoReader:
             placed=0 if self._placed.part_unknown else self._placed.placed,
             payload=self._payload,
             known=float(self._joined.known.mean()),
-            complete=self._complete_with is not None,
+            complete=self._completing_frame is not None,
             clock=self._placed.clock,
         )
 
@@ -188,7 +188,7 @@ class VideoReader:
         """Return the result of all frames so far together."""
         placed = self._placed
         placed.settle()
-        self._seen = -1
+        self._chips_in_view = -1
         self._update_payload()
         soft = self._read_soft_frame()
         failure = self._explain_failure(soft)
@@ -199,7 +199,7 @@ class VideoReader:
         if placed.placed == 0 and placed.columns:
             readout, tolerance = self._scene.camera.readout_time, self._readout_tolerance
             clock = self._without_packets.fit_clock(times, readout, tolerance, placed.columns)
-        number = self._complete_with if failure is None else None
+        number = self._completing_frame if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),
             packets=self._count_packets(bits),
@@ -219,36 +219,36 @@ class VideoReader:
         )
 
     def _describe_overexposure(self) -> str:
-        """State that the frames are overexposed if they are, which may not be the cause."""
+        """State that frames are overexposed, if they are; this need not be the cause."""
         white = float(np.mean([frame.white for frame in self._placed.frames] or [0.0]))
         return f" {overexposed_text(white)}" if white else ""
 
     def _describe_problems(self, times: FrameTimes | None) -> tuple[str, ...]:
         """Report irregular times of frames that do not determine a clock."""
         placed = self._placed
-        found = () if times is None else times.problems
+        problems = () if times is None else times.problems
         if times is None and len(placed.frames) > 1:
-            found = ("The frame times do not increase.",)
-        return (*found, NO_CLOCK) if placed.placed >= FIRST_FIT else found
+            problems = ("The frame times do not increase.",)
+        return (*problems, NO_CLOCK) if placed.placed >= FIRST_FIT else problems
 
     def _check_frame(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
-        """Return a frame in bytes, and the value of white; refuse one unlike the earlier ones."""
+        """Return a frame in bytes and the value of white; refuse one unlike the earlier frames."""
         if not isinstance(frame, VideoFrame):
             raise ParameterError.of("frame", quote(frame), "a VideoFrame")
         check_count("index of a frame", frame.index, 0)
         image: object = frame.image
-        what = f"image of frame {frame.index}"
+        name = f"image of frame {frame.index}"
         if not isinstance(image, np.ndarray) or image.ndim != 2:
             kind = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else quote(image)
-            raise ParameterError.of(what, kind, "pixels (rows, columns)")
+            raise ParameterError.of(name, kind, "pixels (rows, columns)")
         if self._shape not in (None, image.shape):
             raise ParameterError(
-                f"{what} has the shape {image.shape}; allowed: that of the first frame, "
+                f"{name} has the shape {image.shape}; allowed: that of the first frame, "
                 f"{self._shape}."
             )
         try:
-            white = self._white or white_of(image, what)
-            pixels = bytes_of(image, what, white)
+            white = self._white or white_of(image, name)
+            pixels = bytes_of(image, name, white)
         except DecodeInputError as error:
             raise ParameterError(str(error)) from None
         time: object = frame.time
@@ -262,15 +262,15 @@ class VideoReader:
 
     def _update_payload(self) -> None:
         """Read the payload again if more chips have come into view."""
-        seen = int(self._joined.seen.sum())
-        if seen == self._seen or self._period.scheme is None:
+        chips_in_view = int(self._joined.seen.sum())
+        if chips_in_view == self._chips_in_view or self._period.scheme is None:
             return
-        self._seen = seen
+        self._chips_in_view = chips_in_view
         soft = self._read_soft_frame()
         if soft is not None and self._explain_failure(soft) is None:
             self._payload = self._format_payload(soft.framed.bits)
-            if self._complete_with is None:
-                self._complete_with = len(self._placed.frames) - 1
+            if self._completing_frame is None:
+                self._completing_frame = len(self._placed.frames) - 1
         else:
             self._payload = format_bits(known_bits(self._joined, self._period), self._scene)
 
@@ -282,12 +282,12 @@ class VideoReader:
 
     def _explain_failure(self, soft: SoftFrame | None) -> str | None:
         if self._placed.placed == 0:
-            described = self._without_packets.describe(self._scene.camera.readout_time)
-            if not described:
+            description = self._without_packets.describe(self._scene.camera.readout_time)
+            if not description:
                 return explain_unplaced(self._placed.frames)
             if self._without_packets.may_be_packets:
-                return f"{described} {explain_unplaced(self._placed.frames)}"
-            return f"{described} No frame contains packets as the scene sends them."
+                return f"{description} {explain_unplaced(self._placed.frames)}"
+            return f"{description} No frame contains packets as the scene sends them."
         if self._placed.part_unknown:
             return PART_UNKNOWN
         return explain_unread(soft, self._joined, self._period)

@@ -93,7 +93,7 @@ class SimulatedVideo(Video):
         rows = len(range(0, scene.camera.rows, rows_step))
         self.shape = (rows, scene.camera.columns)
         self._rows_step = rows_step
-        self._clocks = _apply_drift(scene, recording)
+        self._drifted_scene = _apply_drift(scene, recording)
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:
         """Simulate the frames in order, from the one with the number ``first``."""
@@ -139,25 +139,27 @@ class SimulatedVideo(Video):
         """Return the exact scene that a frame shows: see :class:`occ_model.VideoFrame`.
 
         Whole periods of the light are subtracted from the start time in exact arithmetic, so that
-        its phase in one is as exact after days as at the start; the phase of the mains is kept.
+        its phase is as exact after days as at the start; the phase of the mains is kept.
         """
-        scene, recording = self._clocks, self.recording
+        drifted_scene, recording = self._drifted_scene, self.recording
         start = self.start_of(index)
-        within = float(start % light_period(scene.transmitter))
-        changes = {"start_time": within, **self._pose_changes(index)}
+        time_in_period = float(start % light_period(drifted_scene.transmitter))
+        changes = {"start_time": time_in_period, **self._pose_changes(index)}
         if recording.exposure_times:
-            exposure = Fraction(recording.exposure_time(scene, index))
+            exposure = Fraction(recording.exposure_time(drifted_scene, index))
             changes["exposure_time"] = float(exposure / (1 + Fraction(recording.camera_drift)))
-        if scene.surroundings.flicker_depth:
-            cycles = (start - Fraction(within)) * Fraction(scene.surroundings.flicker_frequency)
-            phase = scene.surroundings.flicker_phase + 2.0 * math.pi * float(cycles % 1)
+        if drifted_scene.surroundings.flicker_depth:
+            cycles = (start - Fraction(time_in_period)) * Fraction(
+                drifted_scene.surroundings.flicker_frequency
+            )
+            phase = drifted_scene.surroundings.flicker_phase + 2.0 * math.pi * float(cycles % 1)
             changes["flicker_phase"] = math.remainder(phase, 2.0 * math.pi)
-        return scene.replace(**changes)
+        return drifted_scene.replace(**changes)
 
     def _pose_changes(self, index: int) -> dict[str, float]:
         pose = self.scene.pose
         motion = self.recording.motion(float(self._clock(index) - self._clock(0)))
-        changes = {name: getattr(pose, name) + moved for name, moved in motion.items()}
+        changes = {name: getattr(pose, name) + shift for name, shift in motion.items()}
         try:
             self.scene.replace(**changes)
         except ParameterError as error:
@@ -171,8 +173,8 @@ class SimulatedVideo(Video):
         if not jitter:
             return nominal
         random = np.random.default_rng(_spawn_seed(self.settings.seed, index, _JITTER))
-        most = self.recording.gap(self.scene) / 2.0
-        return nominal + Fraction(min(max(jitter * random.standard_normal(), -most), most))
+        largest = self.recording.gap(self.scene) / 2.0
+        return nominal + Fraction(min(max(jitter * random.standard_normal(), -largest), largest))
 
 
 def _spawn_seed(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
@@ -182,27 +184,30 @@ def _spawn_seed(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
 
 def _apply_drift(scene: Scene, recording: Recording) -> Scene:
     """Return the scene with its true times and frequencies."""
-    camera, led = 1 + Fraction(recording.camera_drift), 1 + Fraction(recording.transmitter_drift)
+    camera_rate, led_rate = (
+        1 + Fraction(recording.camera_drift),
+        1 + Fraction(recording.transmitter_drift),
+    )
     return scene.replace(
-        **_sent_by_clock(scene.transmitter, led),
-        exposure_time=float(Fraction(scene.camera.exposure_time) / camera),
-        readout_time=float(Fraction(scene.camera.readout_time) / camera),
+        **_apply_clock(scene.transmitter, led_rate),
+        exposure_time=float(Fraction(scene.camera.exposure_time) / camera_rate),
+        readout_time=float(Fraction(scene.camera.readout_time) / camera_rate),
     )
 
 
-def _sent_by_clock(sent: Transmitter, clock: Fraction) -> dict[str, ParameterValue]:
-    """Return the frequencies and times of a light by a clock that runs faster by a factor."""
+def _apply_clock(transmitter: Transmitter, clock: Fraction) -> dict[str, ParameterValue]:
+    """Return the frequencies and times of a light whose clock runs faster by a factor."""
     changes: dict[str, ParameterValue] = {}
-    for name, declared in sent.declarations().items():
-        # The rest, such as the LED's edges, is set by no clock.
-        if isinstance(declared, Quantity) and sent.light in declared.lights:
-            value = Fraction(getattr(sent, name))
-            if declared.unit is HERTZ:
+    for name, declaration in transmitter.declarations().items():
+        # No clock determines the other parameters, such as the LED's edges.
+        if isinstance(declaration, Quantity) and transmitter.light in declaration.lights:
+            value = Fraction(getattr(transmitter, name))
+            if declaration.unit is HERTZ:
                 changes[name] = float(value * clock)
-            elif declared.unit is SECOND:
+            elif declaration.unit is SECOND:
                 changes[name] = float(value / clock)
-    if sent.light == "waveform" and sent.waveform_file and clock != 1:
-        seconds, levels = samples_of(sent.waveform_file)
+    if transmitter.light == "waveform" and transmitter.waveform_file and clock != 1:
+        seconds, levels = samples_of(transmitter.waveform_file)
         changes["waveform_file"] = text_of_samples(
             [float(Fraction(second) / clock) for second in seconds], levels
         )

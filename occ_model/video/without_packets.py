@@ -18,7 +18,7 @@ from occ_model.video.clock import describe_clock, fit_film_clock
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.phase_fit import FramePhases
 
-_HALVES = 2  # a lamp's phase is counted in halves of its cycle, as limits in chips suit these
+_HALF_CYCLES = 2  # a lamp's phase is counted in half cycles, for which limits in chips are suitable
 
 _MIN_PERIODS = 3.0  # minimum in a frame, because two may be equal by chance
 _MAX_UNREPEATED = 0.1  # of the stripes' variance that a repeated wave may leave unexplained
@@ -48,40 +48,42 @@ class WithoutPackets:
     """Analyses the frames of a film in which no packet is found."""
 
     def __init__(self) -> None:
-        self._looks: list[_FrameStripes] = []
+        self._frames: list[_FrameStripes] = []
 
     def add(self, time: float, image: ByteArray, region: Region | None) -> None:
         region = region or Region(0, image.shape[0], 0, image.shape[1])
-        even = remove_trend(column_means(image, region))
-        self._looks.append(_analyse_frame(time, float(image.mean()), even, region.first_column))
+        levels = remove_trend(column_means(image, region))
+        self._frames.append(_analyse_frame(time, float(image.mean()), levels, region.first_column))
 
     def fit_clock(
         self, times: FrameTimes | None, readout_time: float, tolerance: float, columns: int
     ) -> Clock | None:
-        seen = [look for look in self._looks if look.is_pulse]
+        pulses = [frame for frame in self._frames if frame.is_pulse]
         if (
             times is None
             or len(times.parts) != 1
-            or len(seen) < _MIN_SAME_FRACTION * len(self._looks)
+            or len(pulses) < _MIN_SAME_FRACTION * len(self._frames)
         ):
             return None
         phases = FramePhases(
-            times=np.array([look.time for look in seen]),
-            columns=np.array([look.column for look in seen]),
-            places=np.array([look.place for look in seen]),
-            errors=np.array([look.place_error for look in seen]),
-            steps=np.array([_HALVES / look.period for look in seen]),
-            step_errors=np.array([_HALVES / look.period**2 * look.period_error for look in seen]),
-            period=float(_HALVES),
+            times=np.array([frame.time for frame in pulses]),
+            columns=np.array([frame.column for frame in pulses]),
+            places=np.array([frame.place for frame in pulses]),
+            errors=np.array([frame.place_error for frame in pulses]),
+            steps=np.array([_HALF_CYCLES / frame.period for frame in pulses]),
+            step_errors=np.array(
+                [_HALF_CYCLES / frame.period**2 * frame.period_error for frame in pulses]
+            ),
+            period=float(_HALF_CYCLES),
         )
         fits = fit_film_clock(phases, readout_time, tolerance, columns, times.period.value)
         if not fits:
             return None
-        clock = describe_clock(fits, phases, times, times.parts[0], columns, _HALVES)
+        clock = describe_clock(fits, phases, times, times.parts[0], columns, _HALF_CYCLES)
         # The lamp's shape shifts the stripes of all frames equally, which causes no scatter.
-        readout, shared = clock.readout_time, self._period_error(seen)
-        error = math.hypot(readout.error, shared * readout.value)
-        gap_error = math.hypot(clock.gap.error, columns * shared * readout.value)
+        readout, shared_error = clock.readout_time, self._period_error(pulses)
+        error = math.hypot(readout.error, shared_error * readout.value)
+        gap_error = math.hypot(clock.gap.error, columns * shared_error * readout.value)
         return replace(
             clock,
             readout_time=MeasuredValue(readout.value, error),
@@ -89,80 +91,82 @@ class WithoutPackets:
         )
 
     @staticmethod
-    def _period_error(seen: Sequence[_FrameStripes]) -> float:
-        """Return the relative error of a period; many frames do not reduce that of one of them."""
-        return float(np.median([look.period_error / look.period for look in seen]))
+    def _period_error(repeating: Sequence[_FrameStripes]) -> float:
+        """Return the relative error of a period, which more frames do not reduce."""
+        return float(np.median([frame.period_error / frame.period for frame in repeating]))
 
     def describe(self, readout_time: float) -> str:
         """Describe what the frames show, using a rough readout time; empty if they show nothing."""
-        seen = [look for look in self._looks if look.repeats]
-        count = len(self._looks)
-        if not seen:
+        frames = [frame for frame in self._frames if frame.repeats]
+        count = len(self._frames)
+        if not frames:
             return self._describe_levels()
-        pulses, what = _select_pulses(seen), "The stripes repeat"
+        pulses, what = _select_pulses(frames), "The stripes repeat"
         if pulses:
-            seen, what = pulses, "A lamp is lit once in each period: its stripes repeat"
-        period = float(np.median([look.period for look in seen]))
-        columns = Unit("columns").format_estimate(period, period * self._period_error(seen))
+            frames, what = pulses, "A lamp is lit once in each period: its stripes repeat"
+        period = float(np.median([frame.period for frame in frames]))
+        columns = Unit("columns").format_estimate(period, period * self._period_error(frames))
         text = (
             f"{what} after {columns}, or at {HERTZ.format(1.0 / (period * readout_time), 4)} for "
             f"a readout time of {SECOND.format(readout_time)}."
         )
-        if len(seen) >= _MIN_SAME_FRACTION * count:
+        if len(frames) >= _MIN_SAME_FRACTION * count:
             return text
-        return f"{text} Only {len(seen)} of {count} frames show them."
+        return f"{text} Only {len(frames)} of {count} frames show them."
 
     @property
     def may_be_packets(self) -> bool:
         """Whether the stripes may be those of a code: they repeat and are not a lamp's."""
-        seen = [look for look in self._looks if look.repeats]
-        return bool(seen) and not _select_pulses(seen)
+        repeating = [frame for frame in self._frames if frame.repeats]
+        return bool(repeating) and not _select_pulses(repeating)
 
     def _describe_levels(self) -> str:
         """Describe frames that are bright or dark as a whole."""
-        levels = np.array([look.level for look in self._looks])
+        levels = np.array([frame.level for frame in self._frames])
         low, high = (float(level) for level in np.quantile(levels, (0.1, 0.9)))
         if len(levels) < 3 or high - low < _MIN_CHANGE * high:
             return ""
         bright = levels > 0.5 * (low + high)
         changes = int(np.count_nonzero(bright[1:] != bright[:-1]))
-        lasts = self._looks[-1].time - self._looks[0].time
+        seconds = self._frames[-1].time - self._frames[0].time
         return (
             f"Whole frames are bright or dark: {int(bright.sum())} of {len(levels)} are bright, "
-            f"and that changes {inflect(changes, 'time')} in {SECOND.format(lasts, 3)}. No frame "
+            f"and that changes {inflect(changes, 'time')} in {SECOND.format(seconds, 3)}. No frame "
             "shows stripes that repeat."
         )
 
 
-def _select_pulses(seen: Sequence[_FrameStripes]) -> list[_FrameStripes]:
+def _select_pulses(frames: Sequence[_FrameStripes]) -> list[_FrameStripes]:
     """Return the frames that show a plain pulse; none if many show other stripes."""
-    pulses = [look for look in seen if look.is_pulse]
-    return pulses if len(pulses) >= _MIN_SAME_FRACTION * len(seen) else []
+    pulses = [frame for frame in frames if frame.is_pulse]
+    return pulses if len(pulses) >= _MIN_SAME_FRACTION * len(frames) else []
 
 
-def _analyse_frame(time: float, level: float, even: FloatArray, first_column: int) -> _FrameStripes:
+def _analyse_frame(
+    time: float, level: float, levels: FloatArray, first_column: int
+) -> _FrameStripes:
     """Find repeated stripes and the phase of their first harmonic in the middle."""
-    columns = len(even)
-    found = repeat_period(even) if columns > 2 and float(np.ptp(even)) > 0.0 else None
-    if found is None or found[0] * _MIN_PERIODS > columns:
+    columns = len(levels)
+    estimate = repeat_period(levels) if columns > 2 and float(np.ptp(levels)) > 0.0 else None
+    if estimate is None or estimate[0] * _MIN_PERIODS > columns:
         return _FrameStripes(time, level)
-    period, error = found
-    left = unrepeated_fraction(even, period)
-    if left > _MAX_UNREPEATED:
+    period, error = estimate
+    unrepeated = unrepeated_fraction(levels, period)
+    if unrepeated > _MAX_UNREPEATED:
         return _FrameStripes(time, level)
     middle = 0.5 * (columns - 1)
     window = np.hanning(columns + 2)[1:-1]
-    turned = np.exp(-2j * np.pi * (np.arange(columns) - middle) / period)
-    phase = float(np.angle((window * even) @ turned))
-    # For a wave mostly in its first harmonic, by the number of independent columns.
-    independent = columns / correlated_columns(even)
-    rising = int(np.count_nonzero((even[1:] > 0.0) & (even[:-1] <= 0.0)))
+    phasors = np.exp(-2j * np.pi * (np.arange(columns) - middle) / period)
+    phase = float(np.angle((window * levels) @ phasors))
+    # For a wave that is mostly its first harmonic, from the number of independent columns.
+    independent = columns / correlated_columns(levels)
+    rising = int(np.count_nonzero((levels[1:] > 0.0) & (levels[:-1] <= 0.0)))
     return _FrameStripes(
         time,
         level,
         period,
-        _HALVES * (phase / (2.0 * math.pi) % 1.0),
-        _HALVES / (2.0 * math.pi) * math.sqrt(left / max(independent, 1.0)),
+        _HALF_CYCLES * (phase / (2.0 * math.pi) % 1.0),
+        _HALF_CYCLES / (2.0 * math.pi) * math.sqrt(unrepeated / max(independent, 1.0)),
         error,
         first_column + middle,
         is_pulse=rising <= columns / period + 1.0,

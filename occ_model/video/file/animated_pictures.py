@@ -31,7 +31,7 @@ _MAX_DELAY_PART = 65_535  # largest numerator or denominator of a frame's delay
 def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
     """Write grey or coloured pictures, with a note as the comment; return their number.
 
-    Times are rounded to 1/100 s, not steps between frames, so that errors do not add up.
+    Times, not the steps between frames, are rounded to 1/100 s, so that errors do not add up.
     """
     count = 0
     with path.open("wb") as file:
@@ -44,7 +44,7 @@ def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str)
                 )
             if count == 0:
                 file.write(b"GIF89a" + struct.pack("<HHBBB", columns, lines, 0, 0, 0))
-                file.write(_LOOP_EXTENSION + b"\x21\xfe" + _blocks(note.encode()))
+                file.write(_LOOP_EXTENSION + b"\x21\xfe" + _split_into_blocks(note.encode()))
             step = round((count + 1) * 100 / rate) - round(count * 100 / rate)
             file.write(struct.pack("<BBBBHBB", 0x21, 0xF9, 4, 4, step, 0, 0))
             file.write(_encode_gif(picture))
@@ -53,8 +53,8 @@ def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str)
     return count
 
 
-def _blocks(content: bytes) -> bytes:
-    parts = [content[place : place + _BLOCK] for place in range(0, len(content), _BLOCK)]
+def _split_into_blocks(content: bytes) -> bytes:
+    parts = [content[start : start + _BLOCK] for start in range(0, len(content), _BLOCK)]
     return b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
 
 
@@ -62,28 +62,28 @@ def _encode_gif(picture: ByteArray) -> bytes:
     from PIL import Image
 
     buffer = BytesIO()
-    shown = Image.fromarray(picture)
-    (shown if picture.ndim == 2 else shown.quantize()).save(buffer, "GIF")
+    picture_to_save = Image.fromarray(picture)
+    (picture_to_save if picture.ndim == 2 else picture_to_save.quantize()).save(buffer, "GIF")
     content = buffer.getvalue()
     # The file's table of colours, of 2^(size + 1) times three bytes, becomes the picture's own.
     size = content[10] & 7
-    place = _HEAD_BYTES + 3 * 2 ** (size + 1)
-    description = bytearray(content[place : place + _DESCRIPTION_BYTES])
+    table_end = _HEAD_BYTES + 3 * 2 ** (size + 1)
+    description = bytearray(content[table_end : table_end + _DESCRIPTION_BYTES])
     description[9] |= 0x80 | size
-    table, pixels = content[_HEAD_BYTES:place], content[place + _DESCRIPTION_BYTES : -1]
+    table, pixels = content[_HEAD_BYTES:table_end], content[table_end + _DESCRIPTION_BYTES : -1]
     return bytes(description) + table + pixels
 
 
 def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
     """Write grey or coloured pictures, with a note as text ``Description``; return their number."""
     delay = (1 / Fraction(rate)).limit_denominator(_MAX_DELAY_PART)
-    count = sequence = place = 0
+    count = sequence = count_position = 0
     with path.open("wb") as file:
         for picture in pictures:
             header, data = _encode_png(picture)
             if count == 0:
                 file.write(_SIGNATURE + _chunk(b"IHDR", header))
-                place = file.tell()
+                count_position = file.tell()
                 file.write(_frame_count_chunk(1))
                 file.write(_chunk(b"iTXt", b"Description\0\0\0\0\0" + note.encode()))
             size = header[:8]
@@ -98,7 +98,7 @@ def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str)
                 sequence += 1
             count += 1
         file.write(_chunk(b"IEND", b""))
-        file.seek(place)
+        file.seek(count_position)
         file.write(_frame_count_chunk(count))
     return count
 
@@ -116,13 +116,13 @@ def _encode_png(picture: ByteArray) -> tuple[bytes, bytes]:
     """Encode one picture; return the contents of its header and its compressed pixels."""
     bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR) if picture.ndim == 3 else picture
     encoded = cv2.imencode(".png", bgr)[1].tobytes()
-    place, header, data = len(_SIGNATURE), b"", b""
-    while place < len(encoded):
-        size, name = struct.unpack_from(">I4s", encoded, place)
-        content = encoded[place + 8 : place + 8 + size]
+    position, header, data = len(_SIGNATURE), b"", b""
+    while position < len(encoded):
+        size, name = struct.unpack_from(">I4s", encoded, position)
+        content = encoded[position + 8 : position + 8 + size]
         if name == b"IHDR":
             header = content
         elif name == b"IDAT":
             data += content
-        place += 12 + size
+        position += 12 + size
     return header, data

@@ -18,9 +18,9 @@ from typing import IO, Any
 
 DECODER_OPTION = "--decoder-of-films"  # starts a bundled program as a decoder
 MOST_MEMORY = 400_000_000  # bytes for decoding, beyond those in use at the process's start
-_BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to go on: four coloured frames
+_BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to continue: four coloured frames
 LONGEST_REQUEST = 4.0  # maximum processor time of a request in seconds
-TOOK_TOO_LONG = 21  # exit code of a process that took too long
+TIMEOUT_CODE = 21  # exit code of a process that took too long
 
 HEADER = struct.Struct("<II")  # precedes each answer: numbers of bytes of JSON and of pixels
 NO_MEMORY = "decoding it takes more memory than is allowed."  # end of a sentence
@@ -32,27 +32,27 @@ _IDLE_SECONDS = 60.0  # seconds that a process without a film waits for the next
 
 
 class _Watch:
-    """Ends the process if a request takes too much processor time, or requests stop coming."""
+    """Ends the process if a request takes too much processor time, or if no more requests come."""
 
     def __init__(self) -> None:
-        self._since: float | None = None
-        self._closed: float | None = None
+        self._request_start: float | None = None
+        self._close_time: float | None = None
         threading.Thread(target=self._watch, daemon=True).start()
 
     def begin(self) -> None:
-        self._since, self._closed = time.process_time(), None
+        self._request_start, self._close_time = time.process_time(), None
 
     def end(self, has_film: bool) -> None:
-        self._since, self._closed = None, None if has_film else time.monotonic()
+        self._request_start, self._close_time = None, None if has_film else time.monotonic()
 
     def _watch(self) -> None:
         while True:
             time.sleep(_CHECK_SECONDS)
-            since = self._since
-            if since is not None and time.process_time() - since > LONGEST_REQUEST:
-                os._exit(TOOK_TOO_LONG)
-            closed = self._closed
-            if closed is not None and time.monotonic() - closed > _IDLE_SECONDS:
+            request_start = self._request_start
+            if request_start is not None and time.process_time() - request_start > LONGEST_REQUEST:
+                os._exit(TIMEOUT_CODE)
+            close_time = self._close_time
+            if close_time is not None and time.monotonic() - close_time > _IDLE_SECONDS:
                 os._exit(0)
 
 
@@ -115,10 +115,10 @@ class _Responder:
             self._source = source = kind(Path(request["path"]), request["channel"])
             return {"rate": source.frame_rate, "count": source.frame_count}, None
         if request["do"] == "skip":
-            passed = 0
-            while passed < request["frames"] and self._source.skip():
-                passed += 1
-            return {"passed": passed}, None
+            skipped = 0
+            while skipped < request["frames"] and self._source.skip():
+                skipped += 1
+            return {"skipped": skipped}, None
         if request["do"] == "seek":
             frame = self._source.seek(request["index"], request["time"], request["within"])
         else:
@@ -150,12 +150,12 @@ def _limit_memory() -> None:
     import resource
 
     with suppress(OSError, ValueError):
-        most = _data_of_this_process() + MOST_MEMORY
-        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
+        limit = _count_data_bytes() + MOST_MEMORY
+        resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
 
 
-def _data_of_this_process() -> int:
-    """Return the bytes that count towards the limit, more than are in use, such as of threads."""
+def _count_data_bytes() -> int:
+    """Return the bytes that count towards the limit, such as those reserved by threads."""
     for line in Path("/proc/self/status").read_text(encoding="ascii").splitlines():
         if line.startswith("VmData:"):
             return int(line.split()[1]) * 1024

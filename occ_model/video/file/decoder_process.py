@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from occ_model.errors import VideoError
-from occ_model.video.file.decoder_main import DECODER_OPTION, HEADER, TOOK_TOO_LONG
+from occ_model.video.file.decoder_main import DECODER_OPTION, HEADER, TIMEOUT_CODE
 from occ_model.video.file.source import StoredFrame
 
 _PACKAGES = Path(__file__).resolve().parents[3]  # the folder that contains this package
@@ -53,13 +53,13 @@ class DecoderProcess:
             env={**os.environ, **_ENVIRONMENT},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
-        self._ahead = False
+        self._has_advance_request = False
         self.is_full = False
         self.end = weakref.finalize(self, _end, process)
 
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
-        """Open a film; return its frame rate and count. VideoError has the end of a sentence."""
-        self._discard_advance()
+        """Open a film; return its frame rate and count. A VideoError is the end of a sentence."""
+        self._discard_advance_answer()
         answer, _ = self._ask(
             {"do": "open", "path": str(path.resolve()), "reader": reader, "channel": channel}
         )
@@ -70,54 +70,54 @@ class DecoderProcess:
 
         Raises VideoError, with the end of a sentence, if it cannot be decoded.
         """
-        if not self._ahead:
+        if not self._has_advance_request:
             self._send({"do": "read"})
-        self._ahead = False
+        self._has_advance_request = False
         answer, pixels = self._receive()
         frame = _parse_frame(answer, pixels)
         self.is_full = bool(answer.get("full"))
         if frame is not None:
             self._send({"do": "read"})
-            self._ahead = True
+            self._has_advance_request = True
         return frame
 
     def skip(self, frames: int) -> int:
-        """Skip some frames; return how many there were. Raises as for :meth:`read`."""
-        passed = 0
-        if frames > 0 and self._ahead:
-            self._ahead = False
+        """Skip some frames; return the number skipped. Raises as for :meth:`read`."""
+        skipped = 0
+        if frames > 0 and self._has_advance_request:
+            self._has_advance_request = False
             if _parse_frame(*self._receive()) is None:
                 return 0
-            passed = 1
-        while passed < frames:
+            skipped = 1
+        while skipped < frames:
             # Each request is short, so that a long film is not mistaken for one that hangs.
-            asked = min(frames - passed, _AT_ONCE)
-            answer, _ = self._ask({"do": "skip", "frames": asked})
-            passed += answer["passed"]
-            if answer["passed"] < asked:
+            requested = min(frames - skipped, _FRAMES_A_REQUEST)
+            answer, _ = self._ask({"do": "skip", "frames": requested})
+            skipped += answer["skipped"]
+            if answer["skipped"] < requested:
                 break
-        return passed
+        return skipped
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
         """Return a frame by its number if its time is ``within`` seconds of ``time``; else None."""
-        self._discard_advance()
+        self._discard_advance_answer()
         return _parse_frame(
             *self._ask({"do": "seek", "index": index, "time": time, "within": within})
         )
 
     def close_film(self) -> None:
         """Close the open film and free its memory."""
-        self._discard_advance()
+        self._discard_advance_answer()
         self._ask({"do": "close"})
 
     @property
     def is_alive(self) -> bool:
         return self.end.alive and self._process.poll() is None
 
-    def _discard_advance(self) -> None:
+    def _discard_advance_answer(self) -> None:
         """Discard the answer that was requested in advance."""
-        if self._ahead:
-            self._ahead = False
+        if self._has_advance_request:
+            self._has_advance_request = False
             self._receive(refuses=False)
 
     def _ask(self, request: dict[str, Any]) -> tuple[dict[str, Any], bytearray]:
@@ -147,23 +147,23 @@ class DecoderProcess:
         if stream is None or stream.closed:
             raise DecoderStoppedError("the decoder was closed")
         content = bytearray(count)
-        view, place = memoryview(content), 0
-        while place < count:
-            got = stream.readinto(view[place:])  # type: ignore[attr-defined]
-            if not got:
+        view, position = memoryview(content), 0
+        while position < count:
+            count_read = stream.readinto(view[position:])  # type: ignore[attr-defined]
+            if not count_read:
                 raise self._explain_end()
-            place += got
+            position += count_read
         return content
 
     def _explain_end(self) -> DecoderStoppedError:
         code = self._process.wait()
         self.end()
-        if code == TOOK_TOO_LONG:
+        if code == TIMEOUT_CODE:
             return DecoderStoppedError("decoding it takes too long")
         return DecoderStoppedError("the decoder failed")
 
 
-_AT_ONCE = 16
+_FRAMES_A_REQUEST = 16
 
 
 def _command() -> list[str]:
@@ -177,18 +177,18 @@ _spare_lock = threading.Lock()
 
 
 def take_decoder() -> DecoderProcess:
-    """Return the process that was kept, or start one, which takes a third of a second."""
+    """Return the spare process, or start one, which takes a third of a second."""
     with _spare_lock:
         decoder = spare.pop() if spare else None
     if decoder is not None and decoder.is_alive:
-        with suppress(DecoderStoppedError):  # it may just have ended after its waiting time
+        with suppress(DecoderStoppedError):  # it may just have ended after its idle time
             decoder.close_film()
             return decoder
     return DecoderProcess()
 
 
 def put_back(decoder: DecoderProcess) -> None:
-    """Keep one process for the next film, which ends itself after a while; end any others."""
+    """Keep one spare process for the next film, which ends itself when idle; end any others."""
     try:
         decoder.close_film()
     except DecoderStoppedError:
@@ -203,8 +203,8 @@ def put_back(decoder: DecoderProcess) -> None:
 def _parse_frame(answer: dict[str, Any], pixels: bytearray) -> StoredFrame | None:
     if "time" not in answer:
         return None
-    shaped = np.frombuffer(pixels, np.uint8).reshape(answer["shape"])
-    return StoredFrame(float(answer["time"]), shaped)
+    image = np.frombuffer(pixels, np.uint8).reshape(answer["shape"])
+    return StoredFrame(float(answer["time"]), image)
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:

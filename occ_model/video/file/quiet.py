@@ -13,16 +13,16 @@ _SILENT = 0  # OpenCV's level without any output
 
 @contextmanager
 def silence_opencv() -> Iterator[None]:
-    log: Any = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging  # OpenCV 4, and 5
-    level = log.getLogLevel()
-    stated = os.environ.get(_FFMPEG)
+    logging: Any = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging  # OpenCV 4, and 5
+    level = logging.getLogLevel()
+    ffmpeg_level = os.environ.get(_FFMPEG)
     os.environ[_FFMPEG] = "-8"
-    log.setLogLevel(_SILENT)
+    logging.setLogLevel(_SILENT)
     try:
         yield
     finally:
-        log.setLogLevel(level)
-        if stated is None:
+        logging.setLogLevel(level)
+        if ffmpeg_level is None:
             os.environ.pop(_FFMPEG, None)
         else:
-            os.environ[_FFMPEG] = stated
+            os.environ[_FFMPEG] = ffmpeg_level

@@ -12,19 +12,14 @@ import numpy as np
 from occ_model.arrays import ByteArray
 from occ_model.errors import VideoError
 
-CHANNELS = (
-    "luma",
-    "red",
-    "green",
-    "blue",
-)  # most files store luma for each pixel, colours for 2 x 2
+CHANNELS = ("luma", "red", "green", "blue")  # files mostly store colours for 2 x 2 pixels
 MAX_PIXELS = 36_000_000  # largest frame to be read: 8K, if its codec's memory suffices
 
 _MILLISECONDS = 1e3
-_MAX_FRAMES, _FASTEST = 1e9, 1e6
+_MAX_FRAMES, _MAX_FRAME_RATE = 1e9, 1e6
 _THREADS = 2
-"""Threads of FFmpeg. One for each of many processors, each keeping frames, would take more
-memory for 4K films than the process may use."""
+"""Threads of FFmpeg. Each keeps frames: for 4K films, one for each of many processors would take
+more memory than the process may use."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,7 +67,7 @@ def extract_channel(pixels: ByteArray, channel: str) -> ByteArray:
 
 
 def explain_too_large(width: float, height: float) -> str | None:
-    """Return, as the end of a sentence, why frames are too large, before decoding; else None."""
+    """Explain, as the end of a sentence, why frames are too large; None if they are not."""
     if 0 < width * height <= MAX_PIXELS:
         return None
     return (
@@ -86,7 +81,7 @@ class OpenCvSource(FrameSource):
 
     def __init__(self, path: Path, channel: str) -> None:
         self._channel = channel
-        # FFmpeg takes a path from "/" or a drive's letter for a file, never for an address.
+        # FFmpeg takes a path that starts with "/" or a drive's letter for a file, never for a URL.
         self._capture = cv2.VideoCapture(
             str(path.resolve()), cv2.CAP_FFMPEG, (cv2.CAP_PROP_N_THREADS, _THREADS)
         )
@@ -100,12 +95,12 @@ class OpenCvSource(FrameSource):
         self.pixels = int(width * height)
         rate = self._capture.get(cv2.CAP_PROP_FPS)
         count = self._capture.get(cv2.CAP_PROP_FRAME_COUNT)
-        self.frame_rate = rate if 0.0 < rate < _FASTEST else None
+        self.frame_rate = rate if 0.0 < rate < _MAX_FRAME_RATE else None
         self.frame_count = round(count) if 0.0 < count < _MAX_FRAMES else None
 
     def read(self) -> StoredFrame | None:
-        found, pixels = self._capture.read()
-        if not found or pixels is None:
+        is_read, pixels = self._capture.read()
+        if not is_read or pixels is None:
             return None
         time = self._capture.get(cv2.CAP_PROP_POS_MSEC) / _MILLISECONDS
         channel = extract_channel(np.asarray(pixels, np.uint8), self._channel)

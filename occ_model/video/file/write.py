@@ -28,9 +28,9 @@ from occ_model.video.file.quiet import silence_opencv
 
 _CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}  # MPEG-4, which is lossy, and FFV1, which is lossless
 LOSSLESS = (".mkv", ".gif", ".png")  # endings of files that keep grey frames exactly
-FILM_ENDINGS = (".mp4", *LOSSLESS)  # endings of files to which films can be written
+FILM_ENDINGS = (".mp4", *LOSSLESS)  # endings of films' files
 
-_RATES = {  # frames per second that a file can state, or for GIF that players can show
+_RATES = {  # frames per second that a file can state, or that players can show (GIF)
     ".mp4": (0.01, 65_535.0),
     ".mkv": (0.01, 1e5),
     ".gif": (0.002, 50.0),
@@ -49,7 +49,7 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
     name, ending = one_line(path.name), path.suffix.lower()
     shape: tuple[int, ...] = ()
 
-    def checked() -> Iterator[ByteArray]:
+    def check_pictures() -> Iterator[ByteArray]:
         nonlocal shape
         for picture in pictures:
             if not shape:
@@ -62,14 +62,14 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
             yield picture
 
     with write_atomically(path) as temporary:
-        count = _WRITERS[ending](temporary, checked(), rate, note)
+        count = _WRITERS[ending](temporary, check_pictures(), rate, note)
         if count == 0:
             raise OutputError(f"{name} is not written: the film has no frames.")
         if ending in _CODECS:
-            found = _count_frames(temporary)
-            if found != count:
+            stored = _count_frames(temporary)
+            if stored != count:
                 raise OutputError(
-                    f"{one_line(str(path))} cannot be written: only {found} of {count} frames can "
+                    f"{one_line(str(path))} cannot be written: only {stored} of {count} frames can "
                     "be read back; the disk was full, or failed."
                 )
     return count
@@ -116,8 +116,12 @@ def _write_by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, not
             lines, columns = (side // 2 * 2 for side in picture.shape[:2])
             if writer is None:
                 writer = _open_writer(path, rate, (lines, columns), picture.ndim == 3)
-            cut = picture[:lines, :columns]
-            pixels = cv2.cvtColor(cut, cv2.COLOR_RGB2BGR) if cut.ndim == 3 else cut.copy()
+            even_part = picture[:lines, :columns]
+            pixels = (
+                cv2.cvtColor(even_part, cv2.COLOR_RGB2BGR)
+                if even_part.ndim == 3
+                else even_part.copy()
+            )
             with silence_opencv():
                 writer.write(pixels)
             _check_space(path)
@@ -129,7 +133,7 @@ def _write_by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, not
     with path.open("ab") as file:
         file.write(mp4_note(note) if ending == ".mp4" else mkv_note(note))
         file.flush()
-        os.fsync(file.fileno())  # some disks report only now that they are full
+        os.fsync(file.fileno())  # some disks report only here that they are full
     return count
 
 
@@ -170,8 +174,8 @@ def write_video(
 ) -> int:
     """Write a film to a file.
 
-    Its frames get equal time steps, whatever the jitter. The scene and the recording are stored in
-    the file; :func:`occ_model.load_video` restores them.
+    Its frames have equal time steps, regardless of jitter. The scene and the recording are stored
+    in the file; :func:`occ_model.load_video` restores them.
 
     Parameters
     ----------

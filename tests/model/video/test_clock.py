@@ -10,7 +10,13 @@ from amount import amount
 
 from occ_model.video.clock import fit_clock
 from occ_model.video.frame_times import fit_frame_times
-from occ_model.video.phase_fit import ClockFit, FramePhases, PhaseJump, local_spread, mean_step
+from occ_model.video.phase_fit import (
+    ClockFit,
+    FramePhases,
+    PhaseJump,
+    estimate_local_spread,
+    mean_step,
+)
 
 _NOISE = 0.01
 
@@ -215,11 +221,11 @@ def test_the_scatter_of_phases_is_the_median_of_their_steps_and_at_least_their_e
     random = np.random.default_rng(3)
     noise = random.normal(size=4000)
     # Slow changes are not part of the scatter.
-    spread = local_spread(0.2 * noise + np.linspace(0.0, 40.0, 4000), np.full(4000, 0.01))
+    spread = estimate_local_spread(0.2 * noise + np.linspace(0.0, 40.0, 4000), np.full(4000, 0.01))
     assert spread == pytest.approx(0.2, rel=0.06)
-    assert local_spread(0.001 * noise, np.full(4000, 0.3)) == 0.3
-    assert local_spread(np.array([0.0, 5.0]), np.array([0.1, 0.2])) == pytest.approx(0.15)
-    assert local_spread(np.zeros(2), np.zeros(2)) > 0.0
+    assert estimate_local_spread(0.001 * noise, np.full(4000, 0.3)) == 0.3
+    assert estimate_local_spread(np.array([0.0, 5.0]), np.array([0.1, 0.2])) == pytest.approx(0.15)
+    assert estimate_local_spread(np.zeros(2), np.zeros(2)) > 0.0
 
 
 def test_the_phase_of_a_thousand_frames_is_followed_from_the_first_ones() -> None:

@@ -434,7 +434,7 @@ def test_a_film_without_a_rate_states_no_duration_and_cannot_end_early(
 ) -> None:
     film = SimpleNamespace(
         frame_count=100, frame_rate=rate, _container=SimpleNamespace(states_frame_count=False),
-        _times=[0.0, 0.01, 0.02], _first_time=0.0, _problem=None, _shown="film.mkv",
+        _times=[0.0, 0.01, 0.02], _first_time=0.0, _problem=None, _name="film.mkv",
     )  # fmt: skip
     VideoFile._note_end(film, 3)  # type: ignore[arg-type]
     assert (film._problem is None) is is_whole

@@ -67,7 +67,7 @@ def canonical_samples(text: str) -> str:
     """Return rows of seconds and levels in one form; ValueError with the problem.
 
     A level lasts until the next row's time. The last one lasts as long as the one before it, unless
-    a row of a time alone ends it. Words above the first row are column names.
+    a final row with only a time ends it. Words above the first row are column names.
     """
     rows = [line.translate(_SEPARATORS).split() for line in text.splitlines()]
     rows = [row for row in rows if row and not row[0].startswith("#")]

@@ -37,7 +37,7 @@ class LightText(Declaration):
 
 
 def canonical_file(text: str) -> str:
-    """Return the canonical rows of a CSV file, from its path or from rows; nothing from nothing.
+    """Return the canonical rows of a CSV file, given as path or rows; an empty text stays empty.
 
     A scene keeps the rows, so that it stays the same when the file changes or is gone.
     """

@@ -1,4 +1,4 @@
-"""What a transmitter's light is called in sentences, and the lamp that it is like."""
+"""Name a transmitter's light in sentences, and describe it as a blinking lamp if it is one."""
 
 from dataclasses import dataclass
 
@@ -24,7 +24,7 @@ class BlinkingLamp:
 
 
 def blinking_lamp(transmitter: Transmitter) -> BlinkingLamp | None:
-    """Return the lamp that a transmitter is; None if its light is none of one pulse a cycle.
+    """Return the lamp that a transmitter is; None if its light does not have one pulse a cycle.
 
     A raw pattern of chips with one pulse is a lamp as well.
     """

@@ -1,8 +1,8 @@
 """The band model, the state of the art with which the paper compares its simulation.
 
 A chip has h_c = (t_LED - t) / t_r columns of one state, and a change of state h_t = t / t_r columns
-of transition. The model is undefined if the exposure is longer than the switching period. Of other
-lights it is each time L at one level that has (L - t) / t_r columns.
+of transition. The model is undefined if the exposure is longer than the switching period. For other
+lights, each time L at one level has (L - t) / t_r columns.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ from occ_model.scene.units import SECOND
 def band_lengths(scene: Scene) -> tuple[float, float]:
     """Return h_c and h_t, the columns of a complete band and of a transition, without rounding.
 
-    Of a light that is no code, h_c is that of its shortest band, infinite if it is steady.
+    For light without a code, h_c is that of its shortest band, infinite if it is steady.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def band_profile(scene: Scene) -> FloatArray:
     without rounding, so that bands begin where they are sent and can be compared in width and
     level. With ``"literal"`` every chip has h_c and every change of state h_t columns, both rounded
     to whole columns, so that the profile drifts along the picture. Both start at the scene's start
-    time. Of a light that is no code, each time at one level is a band.
+    time. For light without a code, each time at one level is a band.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Bands:
-    """What has a band of its own in one period of light: a chip, or a time at one level."""
+    """The bands in one period of light: one for each chip, or for each time at one level."""
 
     light: PiecewiseLight
     of_chips: bool
@@ -137,7 +137,7 @@ class _Bands:
 
     @property
     def is_steady(self) -> bool:
-        """Whether there is but one level; a pattern of one chip counts as bands of chips."""
+        """Whether there is only one level; a pattern of one chip counts as bands of chips."""
         return not self.of_chips and len(self.levels) == 1
 
     @property

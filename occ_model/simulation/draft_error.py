@@ -1,8 +1,8 @@
-"""How far a draft's column means may be from those of the whole picture.
+"""Estimate how much a draft's column means may differ from those of the whole picture.
 
 A draft is a systematic sample of the picture's rows. Its error is estimated from the sample itself,
-by the differences between successive parts (W. G. Cochran, *Sampling Techniques*, 1977, chapter 8),
-in which anything appears that makes rows differ: noise, a file's rounding, or a slow change of the
+by the differences between successive parts (W. G. Cochran, *Sampling Techniques*, 1977, chapter 8).
+They contain everything that makes rows differ: noise, a file's rounding, or a slow change of the
 light. Only the error at the panel's rim is added separately. Columns with fewer rows than two parts
 are compared with all of their rows, which are exposed for this purpose.
 """
@@ -77,7 +77,7 @@ def draft_errors(
 
 
 def _exposures(columns: int) -> int:
-    """Return how often columns are exposed: few of them more often, to know how they differ."""
+    """Return how often columns are exposed: the fewer they are, the more often."""
     return min(_MOST_EXPOSURES, 1 + math.ceil(_DIFFERENCES * _BLOCK / columns))
 
 

@@ -30,7 +30,7 @@ from occ_model.simulation.draft_error import DraftedMeans, draft_errors
 from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
-_ROUNDING = 1.0  # grey levels by which a column whose pixels are full may fall short of that
+_ROUNDING = 1.0  # grey levels by which the mean of a column of full pixels may be too small
 
 
 def overexposed_fraction(

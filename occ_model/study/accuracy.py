@@ -102,11 +102,11 @@ def _measure_points(
 def _measure_integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
     """Compare sampled and closed-form exposures with exact rational arithmetic."""
     columns = scene.camera.columns
-    some = np.unique(np.linspace(0, columns - 1, _EXACT_COLUMNS).astype(np.int64))
-    truth = _profile(scene, exact_lit_fraction(scene, some))
+    sample_columns = np.unique(np.linspace(0, columns - 1, _EXACT_COLUMNS).astype(np.int64))
+    truth = _profile(scene, exact_lit_fraction(scene, sample_columns))
 
     def error(lit: FloatArray) -> float:
-        return rms(_profile(scene, lit[some]) - truth) * stretch
+        return rms(_profile(scene, lit[sample_columns]) - truth) * stretch
 
     for samples in SAMPLES:
         seconds, lit = time_shortest(partial(sampled_lit_fraction, scene, samples))
@@ -242,7 +242,7 @@ _SAMPLES_AT_ONCE = 1_000_000
 
 
 def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
-    """Return the mean light of every column, from samples in the middle of equal parts of it."""
+    """Return the mean light of every column, from samples in the middle of equal time steps."""
     light, camera = light_of(scene.transmitter), scene.camera
     within = (np.arange(samples) + 0.5) * (camera.exposure_time / samples)
     lit = np.empty(camera.columns)
@@ -273,27 +273,29 @@ def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
 
     A cosine, which is no fraction, is computed from an exact phase.
     """
-    sent = light_of(scene.transmitter)
+    light_source = light_of(scene.transmitter)
     exposure = Fraction(scene.camera.exposure_time)
     first, step = Fraction(scene.model.start_time), Fraction(scene.camera.readout_time)
     starts = [first + column * step for column in columns.tolist()]
-    if isinstance(sent, Cosine):
-        return np.array([float(sent.means(start, step, 1, exposure)[0]) for start in starts])
-    waveform = sent.waveform
+    if isinstance(light_source, Cosine):
+        return np.array(
+            [float(light_source.means(start, step, 1, exposure)[0]) for start in starts]
+        )
+    waveform = light_source.waveform
     levels, lengths = (
         [Fraction(each) for each in exact.tolist()] for exact in (waveform.levels, waveform.lengths)
     )
     edges = list(accumulate(lengths, initial=Fraction(0)))
-    before = list(accumulate(map(mul, levels, lengths), initial=Fraction(0)))
+    cumulative_light = list(accumulate(map(mul, levels, lengths), initial=Fraction(0)))
 
     def light_until(seconds: Fraction) -> Fraction:
-        periods, since = divmod(seconds * sent.rate, waveform.period)
-        piece = bisect_right(edges, since) - 1
-        light: Fraction = periods * before[-1] + before[piece]
-        light += (since - edges[piece]) * levels[piece]
+        periods, elapsed = divmod(seconds * light_source.rate, waveform.period)
+        piece = bisect_right(edges, elapsed) - 1
+        light: Fraction = periods * cumulative_light[-1] + cumulative_light[piece]
+        light += (elapsed - edges[piece]) * levels[piece]
         return light
 
-    units = exposure * sent.rate
+    units = exposure * light_source.rate
     return np.array(
         [float((light_until(start + exposure) - light_until(start)) / units) for start in starts]
     )

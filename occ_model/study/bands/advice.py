@@ -1,4 +1,4 @@
-"""Exposures, frequencies and shutter speeds without bars, and the picture as bright at one."""
+"""Exposures, frequencies and shutter speeds without bars, and scenes of equal brightness."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -88,16 +88,16 @@ def _exposures(over: DepthOver, limit: float) -> tuple[Ranges, float | None]:
 
 def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges, float | None]:
     allowed = quantity(over.axis.parameter)
-    left = limit - float(over.depth_of_flicker(np.array([exposure]))[0])
-    if left <= 0.0:
+    remaining_limit = limit - float(over.depth_of_flicker(np.array([exposure]))[0])
+    if remaining_limit <= 0.0:
         return (), None
-    end = over.lamp_bound / left
+    end = over.lamp_bound / remaining_limit
 
     def depths(frequencies: FloatArray) -> FloatArray:
         return over.bound_of_lamp(frequencies * exposure)
 
     nodes = over.nodes_to(end) / exposure
-    return _split(_below(depths, nodes, left, allowed.low, end / exposure), allowed.high)
+    return _split(_below(depths, nodes, remaining_limit, allowed.low, end / exposure), allowed.high)
 
 
 def _split(ranges: list[tuple[float, float]], highest: float) -> tuple[Ranges, float | None]:
@@ -112,7 +112,7 @@ def _below(
 ) -> list[tuple[float, float]]:
     """Return the ranges in which depths, quasi-concave between nodes, are below a limit.
 
-    From ``end`` on all are.
+    From ``end`` on, all depths are.
     """
     inner = nodes[(nodes > low) & (nodes < end)]
     places = np.unique(np.concatenate([[min(low, end)], inner, [end]]))
@@ -188,15 +188,15 @@ def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     over, period = DepthOver.of(scene), repeat_time(scene.transmitter)
     speeds = shutter_speeds()[::-1]
     depths = over.depths(np.array([(each.nominal, each.real) for each in speeds]))
-    are_free = list(zip(speeds, (depths < NO_BARS_DEPTH).tolist(), strict=True))
-    as_written = [speed for speed, is_free in are_free if is_free[0]]
-    kept = [speed for speed, is_free in are_free if all(is_free)]
-    exposure = as_written[0].nominal if as_written else float(period)
-    cured = as_bright(scene, exposure)
+    flags = list(zip(speeds, (depths < NO_BARS_DEPTH).tolist(), strict=True))
+    marked_speeds = [speed for speed, is_free in flags if is_free[0]]
+    safe_speeds = [speed for speed, is_free in flags if all(is_free)]
+    exposure = marked_speeds[0].nominal if marked_speeds else float(period)
+    bright_scene = as_bright(scene, exposure)
     return Cure(
         float(1 / period) if period else 0.0, mean_light(scene.transmitter),
         _present_depth(scene, over, exposure_error),
-        tuple(as_written[:_MAX_SPEEDS]), tuple(kept[:_MAX_SPEEDS]), cured,
+        tuple(marked_speeds[:_MAX_SPEEDS]), tuple(safe_speeds[:_MAX_SPEEDS]), bright_scene,
     )  # fmt: skip
 
 
@@ -219,11 +219,11 @@ def as_bright(scene: Scene, exposure: float) -> Scene:
     """Return a scene at another exposure, as bright as ISO speed and then aperture allow."""
     camera = scene.camera
     low, high = quantity("iso").slider
-    wanted = camera.iso * camera.exposure_time / exposure
-    iso = float(np.clip(wanted, min(low, camera.iso), max(high, camera.iso)))
+    wanted_iso = camera.iso * camera.exposure_time / exposure
+    iso = float(np.clip(wanted_iso, min(low, camera.iso), max(high, camera.iso)))
     f_number = quantity("f_number")
-    stopped = camera.f_number * float(np.sqrt(iso / wanted))
+    wanted_f_number = camera.f_number * float(np.sqrt(iso / wanted_iso))
     return scene.replace(
         exposure_time=exposure, iso=iso,
-        f_number=float(np.clip(stopped, f_number.low, f_number.high)),
+        f_number=float(np.clip(wanted_f_number, f_number.low, f_number.high)),
     )  # fmt: skip

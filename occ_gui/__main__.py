@@ -11,7 +11,7 @@ def main() -> int:
 
 
 def _command() -> Callable[[], int]:
-    gc.disable()  # what is imported stays; the window collects garbage, on its own thread
+    gc.disable()  # imported modules stay; the window collects garbage on its own thread
     # Imported here, where Ctrl-C is handled already: it imports much of the model.
     from occ_gui.app.command_line import read_command_line
 

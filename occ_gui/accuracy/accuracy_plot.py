@@ -27,19 +27,25 @@ COLOURS: dict[str, QColor] = dict(
 )
 
 _GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}  # the symbols as characters
-_WORDS = ("exposure", "effects", "path", "draft", "noise")  # the parts in the legend
+_LEGEND_NAMES = (
+    "exposure",
+    "effects",
+    "path",
+    "draft",
+    "noise",
+)  # names of the parts in the legend
 _FLOOR = round(math.log10(LEAST_ERROR))  # power of ten at which all smaller errors are drawn
-_LEAST_HEIGHT = 56  # pixels: in a low window the panes divide the height
+_LEAST_HEIGHT = 56  # pixels; small, because the panes of a low window share its height
 
-_LEGEND_HEIGHT = 220
+_LEAST_HEIGHT_WITH_LEGEND = 220  # pixels
 
 _LABEL_GAP = 14  # pixels between an axis, its numbers and its label
-_CURVES = ("integration",)  # the parts whose points are joined
+_CURVE_PARTS = ("integration",)  # the parts whose points are joined
 _OUTDATED_OPACITY = 0.3  # opacity of points that were measured for an earlier scene
 _MARGIN = 0.35  # smallest margin around the points, in powers of ten
-_RING = 10.0  # margin in pixels that the ring around a point needs
+_RING_MARGIN = 10.0  # margin in pixels for the ring around a point
 _FARTHEST_POWER = 12.0  # largest power of ten on the axes; its negative is the smallest
-_LEAST_POWERS = 0.01  # smallest range of the axes, in powers of ten
+_LEAST_RANGE = 0.01  # smallest range of the axes, in powers of ten
 
 
 class AccuracyPlot(QWidget):
@@ -64,7 +70,7 @@ class AccuracyPlot(QWidget):
         labels = ("Error over time", "time (ms)", "error (levels)")
         self.plot = new_plot(*labels, self.palette(), **axes)
         for side in ("left", "bottom"):
-            self.plot.limit(side, _FARTHEST_POWER, _LEAST_POWERS)
+            self.plot.limit(side, _FARTHEST_POWER, _LEAST_RANGE)
         box = self.plot.getViewBox()
         box.sigRangeChangedManually.connect(self._keep_range)
         box.sigResized.connect(self._fit)
@@ -78,7 +84,7 @@ class AccuracyPlot(QWidget):
         self._fit()
 
     def _make_items(self) -> None:
-        self.lines = {part: pg.PlotCurveItem() for part in _CURVES}
+        self.lines = {part: pg.PlotCurveItem() for part in _CURVE_PARTS}
         self.scatters = {
             part: pg.ScatterPlotItem(
                 symbol=SYMBOLS[part], size=8, pen=None,
@@ -117,7 +123,7 @@ class AccuracyPlot(QWidget):
     def _write_legend(self, palette: QPalette) -> None:
         entries = [
             (_GLYPHS[SYMBOLS[part]], lighten_for(palette, COLOURS[part]), word)
-            for part, word in zip(ACCURACY_PARTS, _WORDS, strict=True)
+            for part, word in zip(ACCURACY_PARTS, _LEGEND_NAMES, strict=True)
         ]
         entries.append(("+", lighten_for(palette, COLOURS["effects"]), "limit"))
         entries.append(("○", palette.color(QPalette.ColorRole.Text), "now"))
@@ -130,33 +136,37 @@ class AccuracyPlot(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self.legend.setVisible(self.height() >= _LEGEND_HEIGHT)
+        self.legend.setVisible(self.height() >= _LEAST_HEIGHT_WITH_LEGEND)
 
     def show_effect_sets(self, forecast: Forecast) -> None:
         """Draw the forecast time and error limit of each set of effects that a plan may choose."""
         pairs = zip(forecast.effect_sets, forecast.effect_set_seconds, strict=True)
-        timed_sets = [(each, s) for each, s in pairs if s is not None and each.error < math.inf]
+        timed_sets = [(e, s) for e, s in pairs if s is not None and e.error < math.inf]
         timed_sets.sort(key=lambda pair: pair[1])
         forced = {d.effect for d in forecast.plan.decisions if d.forced and d.included}
         self._front = [
             AccuracyPoint(
                 "effects",
-                ", ".join(sorted(each.effects)) or "no effects",
+                ", ".join(sorted(effect_set.effects)) or "no effects",
                 seconds,
-                each.error,
-                current=each.effects <= set(forecast.plan.included) <= each.effects | forced,
+                effect_set.error,
+                current=effect_set.effects
+                <= set(forecast.plan.included)
+                <= effect_set.effects | forced,
                 unit=forecast.plan.unit,
             )
-            for each, seconds in timed_sets
+            for effect_set, seconds in timed_sets
         ]
-        xs, ys = _logarithms(self._front)
+        xs, ys = _take_logarithms(self._front)
         self.front.setData(xs, ys)
         tips = [
             f"{p.name}: {1e3 * p.seconds:.3g} ms, at most {p.error:.3g} {p.unit}"
             for p in self._front
         ]
         self.front_points.setData(xs, ys, data=tips)
-        self.front_ring.setData(*_logarithms([point for point in self._front if point.current]))
+        self.front_ring.setData(
+            *_take_logarithms([point for point in self._front if point.current])
+        )
         self._fit()
 
     def _lay_out(self) -> None:
@@ -207,14 +217,16 @@ class AccuracyPlot(QWidget):
     def _draw(self, points: Sequence[AccuracyPoint], opacity: float) -> None:
         self._named_points = choose_points(points)
         for part in ACCURACY_PARTS:
-            named = [each for each in self._named_points if each.point.part == part]
-            self.scatters[part].setData(*_logarithms([each.point for each in named]), data=named)
+            named_points = [named for named in self._named_points if named.point.part == part]
+            coordinates = _take_logarithms([named.point for named in named_points])
+            self.scatters[part].setData(*coordinates, data=named_points)
             self.scatters[part].setOpacity(opacity)
         for part, line in self.lines.items():
             curve = [p for p in points if p.part == part and not p.current]
-            line.setData(*_logarithms([point for point in curve if point.name != CLOSED_FORM]))
+            line.setData(*_take_logarithms([point for point in curve if point.name != CLOSED_FORM]))
             line.setOpacity(opacity)
-        self.rings.setData(*_logarithms([e.point for e in self._named_points if e.point.current]))
+        current = [named.point for named in self._named_points if named.point.current]
+        self.rings.setData(*_take_logarithms(current))
         self.rings.setOpacity(opacity)
         self._fit()
 
@@ -229,16 +241,21 @@ class AccuracyPlot(QWidget):
         """Show all points; during a study the previous ones too, so that the axes do not jump."""
         if not self._fits_points:
             return
-        before = self._last_points if self._is_measuring else ()
-        xs, ys = _logarithms((*(each.point for each in self._named_points), *before, *self._front))
+        previous = self._last_points if self._is_measuring else ()
+        xs, ys = _take_logarithms(
+            (*(named.point for named in self._named_points), *previous, *self._front)
+        )
         box = self.plot.getViewBox()
         box.setXRange(min(xs, default=-2.0) - _MARGIN, max(xs, default=3.0) + _MARGIN, padding=0)
         top = max(ys, default=2.0)
-        margin = max(_MARGIN, _RING * (top - _FLOOR) / max(box.height() - 2 * _RING, _RING))
+        margin = max(
+            _MARGIN,
+            _RING_MARGIN * (top - _FLOOR) / max(box.height() - 2 * _RING_MARGIN, _RING_MARGIN),
+        )
         box.setYRange(_FLOOR - margin, top + margin, padding=0)
 
 
-def _logarithms(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
+def _take_logarithms(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
     """Return the decimal logarithms of the times in milliseconds and of the errors in levels."""
     times = [math.log10(max(1e3 * point.seconds, 1e-6)) for point in points]
     return times, [math.log10(max(point.error, LEAST_ERROR)) for point in points]

@@ -1,4 +1,4 @@
-"""Pane of accuracy and time: slider from fast to exact, effects, plot of all ways, sentences."""
+"""View of accuracy and time: slider from fast to exact, table of effects, plot, summary."""
 
 import math
 
@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
 from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import find_slowest, levels, make_rows, milliseconds
+from occ_gui.accuracy.effect_rows import find_slowest, format_levels, format_milliseconds, make_rows
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
 from occ_gui.accuracy.plan_changes import describe_switches
@@ -23,7 +23,7 @@ from occ_model.scene.scene import SimulationSettings, unit_of
 
 
 def describe_picture(costs: MeasuredCosts, seconds: float, forecast: Forecast | None) -> str:
-    now, first = milliseconds(costs.picture.seconds), milliseconds(seconds)
+    now, first = format_milliseconds(costs.picture.seconds), format_milliseconds(seconds)
     time = f"This picture: {now} ms"
     if costs.is_comparable and now != first:
         time = f"{time}, measured again ({first} at first)"
@@ -39,22 +39,24 @@ def describe_ends(costs: MeasuredCosts, unit: str) -> str:
     error = costs.errors.get(frozenset())
     if bare is None or error is None or complete is bare:
         return ""
-    sentence = f"Fastest: {milliseconds(bare.seconds)} ms, error {levels(error)} {unit}."
+    sentence = (
+        f"Fastest: {format_milliseconds(bare.seconds)} ms, error {format_levels(error)} {unit}."
+    )
     if bare is costs.picture:
         sentence = ""
     if complete is not costs.picture:
-        sentence += f" Exact: {milliseconds(complete.seconds)} ms."
+        sentence += f" Exact: {format_milliseconds(complete.seconds)} ms."
     return sentence.strip()
 
 
 def describe_forecast(frame: Frame, times: TimeFractions, forecast: Forecast) -> str:
     """State the next picture's time and error, and the effects that it switches."""
     before, after = set(frame.plan.included), set(forecast.plan.included)
-    now = milliseconds(times.seconds)
+    now = format_milliseconds(times.seconds)
     if forecast.seconds is None:
         time = f"Next: now {now} ms"
     else:
-        time = f"Next: about {milliseconds(forecast.seconds)} ms, now {now}"
+        time = f"Next: about {format_milliseconds(forecast.seconds)} ms, now {now}"
     labels = {decision.effect: decision.label for decision in frame.plan.decisions}
     parts = [f"{time}; {_describe_error(forecast)}."]
     for names, direction in ((after - before, "in"), (before - after, "out")):
@@ -66,23 +68,23 @@ def describe_forecast(frame: Frame, times: TimeFractions, forecast: Forecast) ->
 
 def _describe_error(forecast: Forecast) -> str:
     if forecast.error is None:
-        return _describe_promise(forecast)
+        return _describe_estimate(forecast)
     if forecast.error == 0.0:
         is_exact = forecast.plan.tolerance == 0.0
         return "exact: nothing is left out" if is_exact else "nothing is left out"
-    error = f"{levels(forecast.error)} {forecast.plan.unit}"
+    error = f"{format_levels(forecast.error)} {forecast.plan.unit}"
     return (
         f"error {error} (measured)" if forecast.is_measured else f"error about {error} (predicted)"
     )
 
 
-def _describe_promise(forecast: Forecast) -> str:
-    """State the error that the plan promises while none is measured or predicted."""
+def _describe_estimate(forecast: Forecast) -> str:
+    """State the plan's estimate of the error while none is measured or predicted."""
     plan = forecast.plan
     is_off_by_hand = any(d.forced and d.estimate and not d.included for d in plan.decisions)
     if is_off_by_hand or plan.tolerance == math.inf:
         return "error not measured yet"
-    return f"error about {levels(plan.left_out)} {plan.unit} (estimated)"
+    return f"error about {format_levels(plan.left_out)} {plan.unit} (estimated)"
 
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels of the parts side by side
@@ -115,7 +117,7 @@ class AccuracyView(QWidget):
             "What the tolerance limits: errors of the panel's pixels, of its column means, of "
             "the signal that a decoder reads, the column means after the enhancement, or of "
             "the decision, as a fraction of the chips' margin.",
-            {"image": "picture", **{each: each for each in ("profile", "signal", "decision")}},
+            {"image": "picture", **{name: name for name in ("profile", "signal", "decision")}},
             is_fixed=True,
         )
         self.noise = KeyedComboBox(
@@ -142,12 +144,12 @@ class AccuracyView(QWidget):
         for text, control in (("of the", self.observable), ("Noise", self.noise)):
             controls.addWidget(QLabel(text))
             controls.addWidget(control)
-        second = fill(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
+        second_row = fill(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
         fill(
             QVBoxLayout(self),
             controls,
             self.summary,
-            second,
+            second_row,
             (self.panels, 1),
             margins=(8, 2, 8, 2),
             spacing=2,
@@ -171,7 +173,7 @@ class AccuracyView(QWidget):
         self.table.show_force(settings.force)
 
     def offer_decision(self, has_code: bool) -> None:
-        """Offer the decision as what the tolerance limits only while a code is sent."""
+        """Let the tolerance limit errors of the decision only while a code is sent."""
         entries = self.observable.model()
         if isinstance(entries, QStandardItemModel):
             entries.item(self.observable.findData("decision")).setEnabled(has_code)

@@ -14,13 +14,13 @@ from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.accuracy import accuracy, point_count
 from occ_model.study.effect_differences import CompleteSimulation
 
-_RUNS, _PATIENCE = 5, 1.0  # most runs of each picture, and seconds after which none begins
+_RUNS, _PATIENCE = 5, 1.0  # most runs of each picture, and seconds after which no more begin
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCosts:
     request: SimulationRequest
-    # Times of pictures made alternately: with the plan's effects, with all of the scene, with none
+    # Times of pictures made in turn: with the plan's effects, with all of the scene's, with none
     pictures: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
@@ -28,18 +28,18 @@ class SceneCosts:
     def find_costs(self, request: SimulationRequest, picture: TimeFractions) -> MeasuredCosts:
         """Return the known costs of a request whose picture took these times.
 
-        Times measured alternately with other pictures replace them: only those can be compared.
+        Times measured in turn with other pictures replace them, because only those can be compared.
         """
-        own, other = self.request.settings, request.settings
-        is_compared = _comparison_key(request) == _comparison_key(self.request)
-        has_times = self.request.scene == request.scene and own.noise == other.noise
+        measured, requested = self.request.settings, request.settings
+        is_comparable = _comparison_key(request) == _comparison_key(self.request)
+        has_times = self.request.scene == request.scene and measured.noise == requested.noise
         pictures = self.pictures if has_times else ()
-        same = (fractions for fractions in pictures if fractions.included == picture.included)
+        same_pictures = (each for each in pictures if each.included == picture.included)
         return MeasuredCosts(
-            next(same, picture),
+            next(same_pictures, picture),
             pictures,
-            self.differences if is_compared else {},
-            self.errors if is_compared else {},
+            self.differences if is_comparable else {},
+            self.errors if is_comparable else {},
         )
 
 
@@ -65,7 +65,7 @@ class CostMeasurement:
             complete.error_of(effects, timer)
         costs = SceneCosts(request, errors=complete.errors)
         report(costs)
-        costs = replace(costs, pictures=_time_alternately(request, report))
+        costs = replace(costs, pictures=_time_in_turn(request, report))
         for effect in complete.effects:
             differences = {**costs.differences, effect: complete.without(effect, timer)}
             costs = replace(costs, differences=differences, errors=complete.errors)
@@ -89,26 +89,26 @@ def _comparison_key(request: SimulationRequest) -> tuple[object, ...]:
     return request.scene, request.settings.observable, request.settings.seed
 
 
-def _time_alternately(request: SimulationRequest, report: Report) -> tuple[TimeFractions, ...]:
-    """Time pictures with the plan's effects, all and none alternately: the fastest of some runs."""
+def _time_in_turn(request: SimulationRequest, report: Report) -> tuple[TimeFractions, ...]:
+    """Time pictures with the plan's effects, all and none in turn; keep each one's fastest run."""
     settings = request.settings
-    exact, bare = (replace(settings, tolerance=each, force={}) for each in (0.0, math.inf))
+    exact, bare = (replace(settings, tolerance=value, force={}) for value in (0.0, math.inf))
     runs: dict[frozenset[str], list[TimeFractions]] = {}
-    until = perf_counter() + _PATIENCE
+    deadline = perf_counter() + _PATIENCE
     for run in range(_RUNS):
-        if run and perf_counter() > until:
+        if run and perf_counter() > deadline:
             break
-        for each in (settings, exact, bare):
+        for variant in (settings, exact, bare):
             report(None)
-            fractions = TimeFractions.of(render_with(request.scene, each))
+            fractions = TimeFractions.of(render_with(request.scene, variant))
             runs.setdefault(fractions.included, []).append(fractions)
-    return tuple(TimeFractions.of_runs(each) for each in runs.values())
+    return tuple(TimeFractions.of_runs(fractions) for fractions in runs.values())
 
 
 def _use_stated_time(point: AccuracyPoint, costs: SceneCosts) -> AccuracyPoint:
     """Return a point with the time that the pane states elsewhere for the same picture."""
-    same = (p.seconds for p in costs.pictures if p.included == frozenset(point.effects))
-    return point if point.part != "effects" else replace(point, seconds=next(same, point.seconds))
+    stated = (p.seconds for p in costs.pictures if p.included == frozenset(point.effects))
+    return point if point.part != "effects" else replace(point, seconds=next(stated, point.seconds))
 
 
 class _CancellableTimer(StageTimer):

@@ -8,7 +8,7 @@ from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QPointF,
 from PySide6.QtGui import QImage, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
-from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_time
+from occ_gui.accuracy.effect_rows import EVERYTHING_ELSE, EffectRow, find_longest_time
 from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
@@ -18,7 +18,9 @@ _Index = QModelIndex | QPersistentModelIndex
 Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
 
 _GAP = 4  # pixels between two parts of a cell
-_BAR_FRACTION = 0.5  # fraction of the cell's width for the bar; the number takes the rest
+_BAR_FRACTION = (
+    0.5  # largest width of the bar as a fraction of the cell's; the number takes the rest
+)
 
 
 def make_image(pixels: ByteArray) -> QImage:
@@ -62,9 +64,9 @@ class PictureCell(_EffectCell):
 def _fit(area: QRect, image: QImage) -> QRect:
     """Centre an image in an area, shrunk where needed but never enlarged."""
     scale = min(area.width() / image.width(), area.height() / image.height(), 1.0)
-    place = QRect(0, 0, round(scale * image.width()), round(scale * image.height()))
-    place.moveCenter(area.center())
-    return place
+    fitted = QRect(0, 0, round(scale * image.width()), round(scale * image.height()))
+    fitted.moveCenter(area.center())
+    return fitted
 
 
 class TimeCell(_EffectCell):
@@ -74,15 +76,15 @@ class TimeCell(_EffectCell):
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
         super().paint(painter, option, index)
         rows = self._rows()
-        row, largest = rows[index.row()], longest_time(rows)
+        row, largest = rows[index.row()], find_longest_time(rows)
         if not row.seconds or not largest:
             return
-        most = _BAR_FRACTION * option.rect.width()
-        width = max(1, math.floor(most * row.seconds / largest))
+        longest = _BAR_FRACTION * option.rect.width()
+        width = max(1, math.floor(longest * row.seconds / largest))
         height = min(10, option.rect.height() - 8)
         top = option.rect.center().y() - height // 2
         bar = QRectF(option.rect.left() + _GAP, top, width, height)
-        colour = lighten_for(option.palette, BAND if row.effect == ELSE else SIMULATION)
+        colour = lighten_for(option.palette, BAND if row.effect == EVERYTHING_ELSE else SIMULATION)
         if option.state & QStyle.StateFlag.State_Selected:
             colour = option.palette.color(QPalette.ColorRole.HighlightedText)
         painter.save()
@@ -111,10 +113,10 @@ def find_position(levels: float, area: QRect) -> float:
     return left + length * min(fraction, 1.0)
 
 
-def find_levels(place: float, area: QRect) -> float:
+def find_levels(position: float, area: QRect) -> float:
     """Return the error at a position: 0 before the axis, and infinity beyond it."""
     left, length = find_axis(area)
-    fraction = (place - left) / length
+    fraction = (position - left) / length
     if fraction <= 0.0:
         return 0.0
     levels: float = _LEAST_LEVELS * (_MOST_LEVELS / _LEAST_LEVELS) ** fraction
@@ -122,7 +124,7 @@ def find_levels(place: float, area: QRect) -> float:
 
 
 class ErrorCell(_EffectCell):
-    """Draws an effect's error as a dot, with a whisker to the plan's estimate.
+    """Draws an effect's error as a dot, with a whisker to the plan's limit of it.
 
     The tolerance is a line through all rows; errors beyond it are coloured.
     """
@@ -142,18 +144,18 @@ class ErrorCell(_EffectCell):
         middle = area.center().y() + 0.5
         painter.save()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if row.effect != ELSE:
+        if row.effect != EVERYTHING_ELSE:
             painter.setPen(text)
-            line = find_position(self._tolerance(), area)
-            painter.drawLine(QPointF(line, area.top()), QPointF(line, area.bottom() + 1))
-        if row.estimate is not None and row.levels is not None:
-            if row.estimate <= self._tolerance() and colour != text:
+            x = find_position(self._tolerance(), area)
+            painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom() + 1))
+        if row.limit is not None and row.levels is not None:
+            if row.limit <= self._tolerance() and colour != text:
                 colour = option.palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
             painter.setPen(QPen(colour, 1.5))
-            estimate, error = find_position(row.estimate, area), find_position(row.levels, area)
-            painter.drawLine(QPointF(estimate, middle), QPointF(error, middle))
-            painter.drawLine(QPointF(estimate, middle - 4), QPointF(estimate, middle + 4))
-            if row.error[0] not in "≈?":
+            limit, error = find_position(row.limit, area), find_position(row.levels, area)
+            painter.drawLine(QPointF(limit, middle), QPointF(error, middle))
+            painter.drawLine(QPointF(limit, middle - 4), QPointF(limit, middle + 4))
+            if row.error_text[0] not in "≈?":
                 painter.setBrush(colour if row.included else Qt.BrushStyle.NoBrush)
                 painter.drawEllipse(QPointF(error, middle), 3.0, 3.0)
         painter.restore()

@@ -7,7 +7,7 @@ from PySide6.QtGui import QImage, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import make_image
-from occ_gui.accuracy.effect_rows import ELSE, EffectRow
+from occ_gui.accuracy.effect_rows import EVERYTHING_ELSE, EffectRow
 from occ_gui.widgets.building import embolden, fill, paragraph
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.accuracy import EffectCrop
@@ -62,26 +62,26 @@ class CropPictures(QWidget):
         size = self._images[0].size()
         scale = min(width / size.width(), height / size.height(), _LARGEST_SCALE)
         if scale >= 1.0 and self._are_pixels:
-            scale = int(scale)  # each pixel as a square of whole pixels
+            scale = int(scale)  # each pixel is drawn as a square of screen pixels
         size = QSize(round(scale * size.width()), round(scale * size.height()))
         is_smooth = scale < 1.0 or not self._are_pixels
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, is_smooth)
         for place, (image, caption) in enumerate(zip(self._images, self._captions, strict=True)):
             left = place * (size.width() + _GAP)
             painter.drawImage(QRect(left, 0, size.width(), size.height()), image)
-            below = QRect(left, size.height() + 2, max(size.width(), width), line)
-            painter.drawText(below, Qt.AlignmentFlag.AlignLeft, caption)
+            caption_area = QRect(left, size.height() + 2, max(size.width(), width), line)
+            painter.drawText(caption_area, Qt.AlignmentFlag.AlignLeft, caption)
 
 
 class EffectDetail(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.title = embolden(paragraph())
-        self.place, self.error, self.reason = (paragraph() for _ in range(3))
+        self.crop_note, self.error, self.reason = (paragraph() for _ in range(3))
         self.pictures = CropPictures()
         fill(
-            QVBoxLayout(self), self.title, (self.pictures, 1), self.place, self.error, self.reason,
-            None, margins=(8, 0, 0, 0), spacing=4,
+            QVBoxLayout(self), self.title, (self.pictures, 1), self.crop_note, self.error,
+            self.reason, None, margins=(8, 0, 0, 0), spacing=4,
         )  # fmt: skip
         self.show_row(None, None)
 
@@ -99,14 +99,18 @@ class EffectDetail(QWidget):
             texts = ("", "", "")
         else:
             self.title.setText(row.label)
-            texts = (self._describe_place(row, crop), row.error_meaning, row.reason)
-        for label, text in zip((self.place, self.error, self.reason), texts, strict=True):
+            texts = (self._describe_crop(row, crop), row.error_meaning, row.reason)
+        for label, text in zip((self.crop_note, self.error, self.reason), texts, strict=True):
             label.setText(text)
             label.setVisible(bool(text))
         self._limit_pictures()
 
-    def _describe_place(self, row: EffectRow, crop: EffectCrop | None) -> str:
+    def _describe_crop(self, row: EffectRow, crop: EffectCrop | None) -> str:
         if crop is None:
-            return "" if row.absent or row.effect == ELSE else "Its pictures are being made…"
+            return (
+                ""
+                if row.is_absent or row.effect == EVERYTHING_ELSE
+                else "Its pictures are being made…"
+            )
         where = "Whole panel, averaged" if crop.is_averaged else "Real pixels where it changes most"
         return f"This effect alone. {where}; contrast stretched."

@@ -12,7 +12,7 @@ from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, M
 from occ_model.results.frame import Decision, Frame
 from occ_model.scene.scene import unit_of
 
-ELSE = "everything else"  # key of the last row, which is no effect
+EVERYTHING_ELSE = "everything else"  # key of the last row, which is no effect
 
 _STAGES = {"light": "Light", "optics": "Optics", "sensor": "Sensor", "processing": "File"}
 """Stages of the light's path, in words for a narrow column."""
@@ -20,54 +20,60 @@ _STAGES = {"light": "Light", "optics": "Optics", "sensor": "Sensor", "processing
 
 @dataclass(frozen=True, slots=True)
 class EffectRow:
-    effect: str  # the effect's name; ``ELSE`` in the last row
+    effect: str  # the effect's name; ``EVERYTHING_ELSE`` in the last row
     stage: str  # the stage of the light's path; empty in the last row
     label: str  # the effect's name on the screen
-    # What leaving it out would change, None where the scene does not have it; the same as text, and
-    # how that is known, as a sentence
+    # Change of the picture without it, in levels or margins; None where the scene does not have it
     levels: float | None = None
-    estimate: float | None = None
-    error: str = ""
-    error_meaning: str = ""
-    # Its time, None where it has none of its own; and the scatter of repeated measurements
-    seconds: float | None = None
-    scatter: float = 0.0
-    time: str = ""  # the same as text
+    limit: float | None = None  # the plan's upper limit of this change
+    error_text: str = ""  # the change as text
+    error_meaning: str = ""  # how the change is known, as a sentence
+    seconds: float | None = None  # its computing time; None where it has none of its own
+    scatter: float = 0.0  # scatter of repeated measurements of the time, in seconds
+    time_text: str = ""
     reason: str = ""  # the plan's reason, as a sentence
     included: bool = True
-    absent: bool = False  # whether the effect is neither in the scene nor simulated
-    new: bool = False  # whether the plan has just switched it
+    is_absent: bool = False  # whether the effect is neither in the scene nor simulated
+    is_new: bool = False  # whether the plan has just switched it
     # Whether the present controls would switch it on (True) or off (False)
     pending: bool | None = None
     icon: EffectCrop | None = None  # None until it is known
 
 
 def make_rows(
-    frame: Frame, costs: MeasuredCosts, new: Collection[str], forecast: Forecast | None = None
+    frame: Frame, costs: MeasuredCosts, switched: Collection[str], forecast: Forecast | None = None
 ) -> tuple[EffectRow, ...]:
     """Return the effects in the order that light passes them, then everything else.
 
-    ``new``: the effects that the plan has just switched; ``forecast``: of the present controls.
+    ``switched``: the effects that the plan has just switched; ``forecast``: that of the present
+    controls.
     """
     rows = []
     for decision in frame.plan.decisions:
         pending = None
         if forecast is not None:
-            after = decision.effect in forecast.plan
-            pending = after if after != decision.included else None
+            will_include = decision.effect in forecast.plan
+            pending = will_include if will_include != decision.included else None
         error = _state_error(decision, costs.differences.get(decision.effect), frame.plan.unit)
-        is_new = decision.effect in new
+        is_new = decision.effect in switched
         rows.append(_make_row(decision, costs, error, is_new, pending))
     rest = costs.picture.other_seconds
-    stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
+    stages = "\n".join(
+        f"{name}: {format_milliseconds(s)} ms" for name, s in costs.picture.stages.items()
+    )
     reason = f"Time that belongs to no effect, in ms:\n{stages}"
     last = EffectRow(
-        ELSE, "", "Everything else", seconds=rest, time=milliseconds(rest), reason=reason
+        EVERYTHING_ELSE,
+        "",
+        "Everything else",
+        seconds=rest,
+        time_text=format_milliseconds(rest),
+        reason=reason,
     )
     return (*rows, last)
 
 
-def longest_time(rows: Sequence[EffectRow]) -> float:
+def find_longest_time(rows: Sequence[EffectRow]) -> float:
     return max((row.seconds for row in rows if row.seconds is not None), default=0.0)
 
 
@@ -75,12 +81,12 @@ def _make_row(
     decision: Decision,
     costs: MeasuredCosts,
     error: tuple[str, str],
-    new: bool,
+    is_new: bool,
     pending: bool | None,
 ) -> EffectRow:
     difference = costs.differences.get(decision.effect)
     seconds = costs.seconds_of(decision.effect)
-    time = "" if seconds is None or not decision.estimate else milliseconds(seconds)
+    time = "" if seconds is None or not decision.estimate else format_milliseconds(seconds)
     if time and costs.shares_step_with(decision.effect) is not None:
         seconds, time = None, "with noise"
     if time and not decision.included:
@@ -99,8 +105,8 @@ def _make_row(
         time,
         f"{decision.label}: {decision.reason}",
         decision.included,
-        absent=not decision.estimate and not decision.included,
-        new=new,
+        is_absent=not decision.estimate and not decision.included,
+        is_new=is_new,
         pending=pending,
         icon=None if difference is None else difference.icon,
     )
@@ -112,13 +118,13 @@ def _state_error(
     if not decision.estimate:
         return "none", "The scene does not have this effect."
     is_known = decision.limit < math.inf
-    estimate = f"{levels(decision.estimate)} {unit}"
+    estimate = f"{format_levels(decision.estimate)} {unit}"
     if difference is None:
         if not is_known:
             return "?", decision.reason
         meaning = f"Leaving it out changes about {estimate} (estimated)."
-        return f"≈ {levels(decision.estimate)}", meaning
-    error = levels(difference.error)
+        return f"≈ {format_levels(decision.estimate)}", meaning
+    error = format_levels(difference.error)
     meaning = f"Leaving it out of the complete picture changes {error} {unit} (measured)"
     if not is_known:
         return error, f"{meaning}."
@@ -127,25 +133,25 @@ def _state_error(
     return error, f"{meaning}, {estimate} were estimated."
 
 
-def levels(error: float) -> str:
+def format_levels(error: float) -> str:
     return f"{error:.0f}" if 100.0 <= error < 1e5 else f"{error:.2g}"
 
 
-def milliseconds(seconds: float) -> str:
+def format_milliseconds(seconds: float) -> str:
     time = 1e3 * seconds
     return f"{time:.0f}" if time >= 100.0 else f"{time:.1f}" if time >= 1.0 else f"{time:.2g}"
 
 
 STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
 
-SORTED = (STAGE, EFFECT, ERROR, TIME)
+SORTABLE = (STAGE, EFFECT, ERROR, TIME)
 
 LEAST_SCATTER = 0.1
 """Fraction of the longer of two times below which their difference does not count."""
 
 Order: TypeAlias = tuple[int, bool]  # a column, and whether its largest value comes first
 
-AS_LIGHT_TRAVELS: Order = (STAGE, False)
+LIGHT_ORDER: Order = (STAGE, False)
 
 
 def sort_rows(
@@ -157,20 +163,20 @@ def sort_rows(
     and would shuffle them.
     """
     column, is_descending = order
-    last = [row for row in rows if row.effect == ELSE]
-    effects = [row for row in rows if row.effect != ELSE]
+    last = [row for row in rows if row.effect == EVERYTHING_ELSE]
+    effects = [row for row in rows if row.effect != EVERYTHING_ELSE]
     if column == STAGE:
         return (*(reversed(effects) if is_descending else effects), *last)
     if column == EFFECT:
         effects.sort(key=lambda row: row.label.casefold(), reverse=is_descending)
         return (*effects, *last)
-    unknown = [row for row in effects if _value(row, column) is None]
-    known = [row for row in effects if _value(row, column) is not None]
+    unknown = [row for row in effects if _find_value(row, column) is None]
+    known = [row for row in effects if _find_value(row, column) is not None]
     if column == TIME and {row.effect for row in known} <= set(present):
         known.sort(key=lambda row: present.index(row.effect))
         _swap_neighbours(known, is_descending)
     else:
-        known.sort(key=lambda row: _value(row, column) or 0.0, reverse=is_descending)
+        known.sort(key=lambda row: _find_value(row, column) or 0.0, reverse=is_descending)
     return (*known, *unknown, *last)
 
 
@@ -181,17 +187,19 @@ def are_about_equal(one: EffectRow, other: EffectRow) -> bool:
     return abs(times[0] - times[1]) <= scatter
 
 
-def find_slowest(rows: Sequence[EffectRow], before: str = "") -> str:
-    """Return the slowest effect of the picture, or ``before`` where it takes about as long."""
-    with_time = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
+def find_slowest(rows: Sequence[EffectRow], previous: str = "") -> str:
+    """Return the slowest effect of the picture, or ``previous`` where that takes about as long."""
+    with_time = [
+        r for r in rows if r.seconds is not None and r.included and r.effect != EVERYTHING_ELSE
+    ]
     if not with_time:
         return ""
     slowest = max(with_time, key=lambda row: row.seconds or 0.0)
-    equal = (row for row in with_time if row.effect == before and are_about_equal(row, slowest))
+    equal = (row for row in with_time if row.effect == previous and are_about_equal(row, slowest))
     return next(equal, slowest).effect
 
 
-def _value(row: EffectRow, column: int) -> float | None:
+def _find_value(row: EffectRow, column: int) -> float | None:
     return row.seconds if column == TIME else row.levels
 
 

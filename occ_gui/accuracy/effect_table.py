@@ -17,18 +17,18 @@ from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView
 
 from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, find_levels
 from occ_gui.accuracy.effect_rows import (
-    AS_LIGHT_TRAVELS,
     EFFECT,
-    ELSE,
     ERROR,
+    EVERYTHING_ELSE,
+    LIGHT_ORDER,
     PICTURE,
-    SORTED,
+    SORTABLE,
     STAGE,
     SWITCH,
     TIME,
     EffectRow,
     Order,
-    longest_time,
+    find_longest_time,
     sort_rows,
 )
 from occ_gui.widgets.colours import REGION
@@ -44,7 +44,7 @@ LOWEST_ROW, HIGHEST_ROW = 16, 28  # pixels of a row in a low pane and in a high 
 
 _LEAST_ROWS = 4  # fewest visible rows; the others scroll, so that the window fits its screen
 
-_ROWS = 11  # rows that an empty table has room for
+_EMPTY_TABLE_ROWS = 11  # rows that an empty table has room for
 
 _PICTURE_WIDTH = 92
 _TIME_WIDTH = 104
@@ -60,7 +60,7 @@ class EffectModel(QAbstractTableModel):
         super().__init__(parent)
         self.rows: tuple[EffectRow, ...] = ()
         self._unsorted_rows: tuple[EffectRow, ...] = ()
-        self._order: Order = AS_LIGHT_TRAVELS
+        self._order: Order = LIGHT_ORDER
         self._titles = {
             STAGE: ("Where", "Where on the light's path it occurs."),
             PICTURE: (
@@ -71,10 +71,10 @@ class EffectModel(QAbstractTableModel):
             ERROR: (
                 "Error without",
                 (
-                    "How much the picture would change without it, in levels: 255 of them lie "
-                    "between its darkest and its brightest column. For the decision, in margins: "
-                    "at 1 a chip could be misread.\nThe dot is measured, until then the number "
-                    "is an estimate (≈); the whisker ends at the plan's limit. The line "
+                    "How much the picture would change without it, in levels: its darkest and its "
+                    "brightest column are 255 levels apart. For the decision, in margins: "
+                    "at 1 a chip could be misread.\nThe dot is measured; until then the number "
+                    "is an estimate (≈). The whisker ends at the plan's limit. The line "
                     "through all rows is the tolerance; drag it."
                 ),
             ),
@@ -91,42 +91,42 @@ class EffectModel(QAbstractTableModel):
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
         self._unsorted_rows = tuple(rows)
-        present = [row.effect for row in self.rows]
-        new = sort_rows(rows, self._order, present)
-        if {row.effect for row in new} != set(present):
+        effects = [row.effect for row in self.rows]
+        sorted_rows = sort_rows(rows, self._order, effects)
+        if {row.effect for row in sorted_rows} != set(effects):
             self.beginResetModel()
-            self.rows = new
+            self.rows = sorted_rows
             self.endResetModel()
             return
-        if [row.effect for row in new] != present:
-            self._reorder(new)
+        if [row.effect for row in sorted_rows] != effects:
+            self._reorder(sorted_rows)
             return
-        before, self.rows = self.rows, new
-        longest = longest_time(before) != longest_time(rows)  # the scale of all bars
-        for place, (old, row) in enumerate(zip(before, rows, strict=True)):
-            if old != row or longest:
+        old_rows, self.rows = self.rows, sorted_rows
+        are_bars_rescaled = find_longest_time(old_rows) != find_longest_time(rows)
+        for place, (old, row) in enumerate(zip(old_rows, rows, strict=True)):
+            if old != row or are_bars_rescaled:
                 self.dataChanged.emit(self.index(place, STAGE), self.index(place, SWITCH))
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
-        """Sort by a column; by one without an order, as light passes through the effects."""
+        """Sort by a column; one without an order restores the order in which light passes."""
         is_descending = order == Qt.SortOrder.DescendingOrder
-        self._order = (column, is_descending) if column in SORTED else AS_LIGHT_TRAVELS
-        new = sort_rows(self._unsorted_rows, self._order)
-        if [row.effect for row in new] != [row.effect for row in self.rows]:
-            self._reorder(new)
+        self._order = (column, is_descending) if column in SORTABLE else LIGHT_ORDER
+        rows = sort_rows(self._unsorted_rows, self._order)
+        if [row.effect for row in rows] != [row.effect for row in self.rows]:
+            self._reorder(rows)
 
     def _reorder(self, rows: tuple[EffectRow, ...]) -> None:
         """Reorder the same effects, together with selection and switches."""
         self.layoutAboutToBeChanged.emit()
-        before = self.persistentIndexList()
-        effects = [self.rows[index.row()].effect for index in before]
+        old_indexes = self.persistentIndexList()
+        effects = [self.rows[index.row()].effect for index in old_indexes]
         self.rows = rows
         places = {row.effect: place for place, row in enumerate(rows)}
-        after = [
+        new_indexes = [
             self.index(places[effect], index.column())
-            for effect, index in zip(effects, before, strict=True)
+            for effect, index in zip(effects, old_indexes, strict=True)
         ]
-        self.changePersistentIndexList(before, after)
+        self.changePersistentIndexList(old_indexes, new_indexes)
         self.layoutChanged.emit()
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
@@ -144,7 +144,7 @@ class EffectModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return title
         if role == Qt.ItemDataRole.TextAlignmentRole:
-            return _alignment(section)
+            return _align(section)
         if role == Qt.ItemDataRole.InitialSortOrderRole:
             is_descending = section in (ERROR, TIME)
             return Qt.SortOrder.DescendingOrder if is_descending else Qt.SortOrder.AscendingOrder
@@ -156,35 +156,35 @@ class EffectModel(QAbstractTableModel):
             case Qt.ItemDataRole.DisplayRole:
                 place = index.row()
                 is_same = place > 0 and self.rows[place - 1].stage == row.stage
-                return "" if column == STAGE and is_same else _text(row, column)
+                return "" if column == STAGE and is_same else _format_cell(row, column)
             case Qt.ItemDataRole.ToolTipRole:
-                return row.error_meaning if column == ERROR and row.error else row.reason
+                return row.error_meaning if column == ERROR and row.error_text else row.reason
             case Qt.ItemDataRole.TextAlignmentRole:
-                return _alignment(column)
+                return _align(column)
             case Qt.ItemDataRole.BackgroundRole:
-                return _TINT if row.new or row.pending is not None else None
+                return _TINT if row.is_new or row.pending is not None else None
             case Qt.ItemDataRole.ForegroundRole:
-                return _colour(row, column)
+                return _find_colour(row, column)
         return None
 
 
-def _text(row: EffectRow, column: int) -> str:
+def _format_cell(row: EffectRow, column: int) -> str:
     if column == EFFECT:
-        if row.effect == ELSE:
+        if row.effect == EVERYTHING_ELSE:
             return row.label
         dot = "●" if row.included else "○"
         change = {None: "", True: " → ●", False: " → ○"}[row.pending]
         return f"{dot}{change} {row.label}"
-    return {STAGE: row.stage, ERROR: row.error, TIME: row.time}.get(column, "")
+    return {STAGE: row.stage, ERROR: row.error_text, TIME: row.time_text}.get(column, "")
 
 
-def _alignment(column: int) -> Qt.AlignmentFlag:
+def _align(column: int) -> Qt.AlignmentFlag:
     side = Qt.AlignmentFlag.AlignRight if column in (ERROR, TIME) else Qt.AlignmentFlag.AlignLeft
     return side | Qt.AlignmentFlag.AlignVCenter
 
 
-def _colour(row: EffectRow, column: int) -> QColor | None:
-    if row.absent and column != STAGE:
+def _find_colour(row: EffectRow, column: int) -> QColor | None:
+    if row.is_absent and column != STAGE:
         return QPalette().color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
     return None
 
@@ -294,7 +294,7 @@ class EffectTable(QTableView):
     def _make_switches(self) -> None:
         self.switches = {}
         for place, row in enumerate(self.effects.rows):
-            if row.effect == ELSE:
+            if row.effect == EVERYTHING_ELSE:
                 continue
             switch = self._make_switch(row)
             self.switches[row.effect] = switch
@@ -335,7 +335,7 @@ class EffectTable(QTableView):
     def _hide_columns(self) -> None:
         """Hide the least informative columns where names would be cut off."""
         metrics = self.fontMetrics()
-        texts = (_text(row, EFFECT) for row in self.effects.rows)
+        texts = (_format_cell(row, EFFECT) for row in self.effects.rows)
         room = self.viewport().width() - 8
         room -= max((metrics.horizontalAdvance(text) + 8 for text in texts), default=0)
         room -= sum(self._widths.get(column, 0) for column in (ERROR, TIME, SWITCH))
@@ -344,9 +344,9 @@ class EffectTable(QTableView):
             self.setColumnHidden(column, room < 0)
 
     def _title_width(self, column: int) -> int:
-        """Return a title's width, unlike Qt's with room for an arrow only where a click sorts."""
+        """Return a title's width, which has room for an arrow only where a click sorts."""
         header = self.horizontalHeader()
-        header.setSortIndicatorShown(column in SORTED)
+        header.setSortIndicatorShown(column in SORTABLE)
         width = header.sectionSizeHint(column)
         header.setSortIndicatorShown(True)
         return width
@@ -367,6 +367,6 @@ class EffectTable(QTableView):
         return QSize(super().minimumSizeHint().width(), height)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        rows = len(self.effects.rows) or _ROWS
+        rows = len(self.effects.rows) or _EMPTY_TABLE_ROWS
         height = LOWEST_ROW + rows * HIGHEST_ROW + 2 * self.frameWidth()
         return QSize(super().sizeHint().width(), height)

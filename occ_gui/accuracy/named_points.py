@@ -17,7 +17,7 @@ class NamedPoint:
 def choose_points(points: Iterable[AccuracyPoint]) -> list[NamedPoint]:
     """Choose the points to show, the one of the present setting first.
 
-    Of the sets of effects only the ends are points: the table of effects shows the steps.
+    Of the sets of effects, only the smallest and the largest are points; the table shows all.
     """
     by_part: dict[str, list[AccuracyPoint]] = {}
     for point in points:
@@ -36,15 +36,15 @@ def _name_pictures(points: Sequence[AccuracyPoint]) -> list[NamedPoint]:
     current = next((point for point in points if point.current), None)
     if not measured:
         return []
-    ends = {"": measured[0], "+": measured[-1]} if len(measured) > 1 else {"": measured[0]}
-    words = {"": "picture, no effects", "+": "picture, all effects"}
+    no_effects = NamedPoint(measured[0], "picture, no effects")
+    last = measured[1:][-1:]  # empty if only one is measured
     if current is None:  # not all are measured yet
-        return [NamedPoint(end, words[key] if key == "" else end.name) for key, end in ends.items()]
+        return [no_effects, *(NamedPoint(point, point.name) for point in last)]
+    ends = [no_effects, *(NamedPoint(point, "picture, all effects") for point in last)]
     effects = set(current.effects)
-    same = next((key for key, end in ends.items() if set(end.effects) == effects), None)
-    now = "now: picture" if same is None else f"now: {words[same]}"
-    others = [NamedPoint(end, words[key]) for key, end in ends.items() if key != same]
-    return [NamedPoint(current, now), *others]
+    same = next((end for end in ends if set(end.point.effects) == effects), None)
+    name = "now: picture" if same is None else f"now: {same.name}"
+    return [NamedPoint(current, name), *(end for end in ends if end is not same)]
 
 
 def _name_samplings(points: Sequence[AccuracyPoint]) -> list[NamedPoint]:
@@ -59,9 +59,9 @@ def _name_samplings(points: Sequence[AccuracyPoint]) -> list[NamedPoint]:
 
 
 def _name_others(points: Iterable[AccuracyPoint]) -> list[NamedPoint]:
-    words = {
+    names = {
         "profile path": "profile only",
         "reused plane": "noise reused",
         "drawn for each pixel": "noise drawn",
     }
-    return [NamedPoint(point, words[point.name]) for point in points if point.name in words]
+    return [NamedPoint(point, names[point.name]) for point in points if point.name in names]

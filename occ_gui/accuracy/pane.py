@@ -35,10 +35,10 @@ class AccuracyController(QObject):
     """
 
     def __init__(
-        self, scenes: SceneStore, simulation: SimulationController, pane: AccuracyView
+        self, scenes: SceneStore, simulation: SimulationController, view: AccuracyView
     ) -> None:
         super().__init__()
-        self._scenes, self._simulation, self._pane = scenes, simulation, pane
+        self._scenes, self._simulation, self._view = scenes, simulation, view
         self._is_visible = False
         self._finished_request: SimulationRequest | None = None
         self._count = 0
@@ -55,7 +55,7 @@ class AccuracyController(QObject):
         self.forecasts: Task[_Question, tuple[SimulationRequest, Forecast]] = Task(
             _predict, "forecast of costs"
         )
-        self.forecasts.finished.connect(lambda answer: pane.show_forecast(*answer))
+        self.forecasts.finished.connect(lambda answer: view.show_forecast(*answer))
         for store in (scenes, scenes.settings):
             store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
@@ -77,13 +77,13 @@ class AccuracyController(QObject):
         self._idle_timer.stop()
         if not self.runner.is_idle:
             self.runner.cancel()
-            self._pane.plot.show_study_outdated()
+            self._view.plot.show_study_outdated()
 
     def _restart(self) -> None:
         self._idle_timer.stop()
         self.runner.cancel()
         self._finished_request = None
-        self._pane.plot.show_study_outdated()
+        self._view.plot.show_study_outdated()
         self._predict()
         self._wait_until_idle()
 
@@ -98,8 +98,8 @@ class AccuracyController(QObject):
         if not self._is_visible or snapshot is None or snapshot.request.scene != request.scene:
             return
         times = TimeFractions.of(snapshot.frame)
-        known = self._costs
-        costs = MeasuredCosts(times) if known is None else known.find_costs(request, times)
+        measured = self._costs
+        costs = MeasuredCosts(times) if measured is None else measured.find_costs(request, times)
         self.forecasts.ask((request, costs))
 
     def _wait_until_idle(self) -> None:
@@ -111,24 +111,24 @@ class AccuracyController(QObject):
             return  # it starts again when the simulation is idle
         self._count = 0
         self.runner.ask(self._request())
-        self._pane.plot.show_study_begun()
+        self._view.plot.show_study_begun()
 
     def _show(self, report: SceneCosts | MeasuredPoint) -> None:
         if isinstance(report, SceneCosts):
             self._costs = report
-            self._pane.show_costs(report)
+            self._view.show_costs(report)
             self._predict()
             return
         self._count += 1
-        self._pane.plot.show_point(report.point, self._count, report.total)
+        self._view.plot.show_point(report.point, self._count, report.total)
 
     def _finish(self, _result: object) -> None:
         self._finished_request = self._request()
-        self._pane.plot.show_study_finished()
+        self._view.plot.show_study_finished()
 
     def _fail(self, sentence: str) -> None:
         self._finished_request = self._request()  # it would fail again
-        self._pane.plot.show_study_failed(sentence)
+        self._view.plot.show_study_failed(sentence)
 
     def stop(self) -> None:
         self._idle_timer.stop()

@@ -1,6 +1,6 @@
 """Panels of the pane: side by side or one over the other as the space allows, or behind tabs.
 
-A splitter neither turns with its size nor hides parts behind tabs.
+A QSplitter can neither turn as its size changes nor hide panels behind tabs.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QTabBar, QWidget
 _GAP = 8
 
 _TALL_HEIGHT = 440  # height in pixels from which panels stand one over the other
-_COLUMNS = 1100  # width in pixels from which a high pane has two columns
+_TWO_COLUMNS_WIDTH = 1100  # width in pixels from which a high pane has two columns
 _TOP_FRACTION = 0.56  # largest part of the height for the upper panel
 
 
@@ -64,29 +64,29 @@ class Panels(QWidget):
         main, second, third = self._panels
         area = self.rect()
         if area.height() < _TALL_HEIGHT:
-            fitting = next((n for n in (3, 2) if self._fit(*self._panels[:n])), 1)
-            self._show_tabs(() if fitting == 3 else self._panels[fitting - 1 :])
-            places = self._divide_width(area, *self._panels[: fitting - 1], self._pick(third))
-        elif area.width() >= _COLUMNS:
+            count = next((n for n in (3, 2) if self._have_room(*self._panels[:n])), 1)
+            self._show_tabs(() if count == 3 else self._panels[count - 1 :])
+            places = self._divide_width(area, *self._panels[: count - 1], self._pick_panel(third))
+        elif area.width() >= _TWO_COLUMNS_WIDTH:
             self._show_tabs(())
             left, right = self._divide_width(area, main, second).values()
             top, bottom = self._divide_height(left)
             places = {main: top, second: right, third: bottom}
         else:
-            fit = self._fit(second, third)
-            self._show_tabs(() if fit else (second, third))
+            have_room = self._have_room(second, third)
+            self._show_tabs(() if have_room else (second, third))
             top, bottom = self._divide_height(area)
-            lower = (second, third) if fit else (self._pick(third),)
+            lower = (second, third) if have_room else (self._pick_panel(third),)
             places = {main: top, **self._divide_width(bottom, *lower)}
         for panel in self._panels:
             panel.widget.setVisible(panel in places)
             if panel in places:
                 panel.widget.setGeometry(places[panel])
 
-    def _pick(self, otherwise: Panel) -> Panel:
-        return self._chosen if self._in_tabs else otherwise
+    def _pick_panel(self, default: Panel) -> Panel:
+        return self._chosen if self._in_tabs else default
 
-    def _fit(self, *panels: Panel) -> bool:
+    def _have_room(self, *panels: Panel) -> bool:
         return sum(panel.width for panel in panels) + (len(panels) - 1) * _GAP <= self.width()
 
     def _show_tabs(self, panels: tuple[Panel, ...]) -> None:

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.frame import Decision, Frame
 
-_NEW_MS = 8000  # for how long a change of the plan is marked and stated in the status line
+_MARK_MS = 8000  # how long a change of the plan is marked and stated in the status line
 
 
 class PlanChanges(QObject):
@@ -17,27 +17,27 @@ class PlanChanges(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._last: Frame | None = None
-        self.pause = QTimer(self, singleShot=True)
-        self.pause.setInterval(_NEW_MS)
-        self.pause.timeout.connect(self._end)
+        self._previous_frame: Frame | None = None
+        self.mark_timer = QTimer(self, singleShot=True)
+        self.mark_timer.setInterval(_MARK_MS)
+        self.mark_timer.timeout.connect(self._end)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        last, self._last = self._last, snapshot.frame
-        if last is None:
+        previous, self._previous_frame = self._previous_frame, snapshot.frame
+        if previous is None:
             return
         plan = snapshot.frame.plan
-        switched = set(last.plan.included) ^ set(plan.included)
+        switched = set(previous.plan.included) ^ set(plan.included)
         if switched:
             self.changed.emit(tuple(d for d in plan.decisions if d.effect in switched))
-            self.pause.start()
+            self.mark_timer.start()
 
     def _end(self) -> None:
         self.changed.emit(())
 
 
 def describe_switches(switched: Sequence[Decision]) -> str:
-    """Name the switched effects, whose times only the table gives."""
+    """Name the switched effects."""
     parts = []
     for included, direction in ((True, "in"), (False, "out")):
         labels = [decision.label for decision in switched if decision.included is included]

@@ -20,7 +20,7 @@ STEPS = 200  # positions between the slider's ends, infinity and zero, while no 
 
 _INFINITE = ("∞", "inf", "infinity", "infinite")
 
-_OF_DECISION = replace(
+_DECISION_TOLERANCE = replace(
     TOLERANCE,
     meaning="How much the omitted effects may change the observable, in margins: at 1 a chip could "
     "be misread.",
@@ -74,7 +74,7 @@ class ToleranceSlider(QWidget):
         self.show_value(TOLERANCE.default)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a height in which the frame of a style does not cut the text."""
+        """Return a height in which the style's frame does not cut off the text."""
         least = super().minimumSizeHint()
         return least.expandedTo(QSize(0, self.field.minimumSizeHint().height()))
 
@@ -85,7 +85,7 @@ class ToleranceSlider(QWidget):
         if unit == self._unit:
             return
         self._unit = unit
-        quantity = TOLERANCE if unit == TOLERANCE.unit.symbol else _OF_DECISION
+        quantity = TOLERANCE if unit == TOLERANCE.unit.symbol else _DECISION_TOLERANCE
         self.field.show_quantity(quantity)
         self._explain(quantity)
 

@@ -29,7 +29,7 @@ _MARGIN = 0.06  # margin beside the points, as a fraction of their range
 _TOP_MARGIN = 0.3  # margin above the points, in powers of ten
 
 _SIZE = 8
-_FARTHEST_POWER, _LEAST_POWERS = 12.0, 0.01
+_FARTHEST_POWER, _LEAST_RANGE = 12.0, 0.01
 
 
 @dataclass(eq=False, slots=True)
@@ -88,7 +88,7 @@ class BenchPlots(QWidget):
             plot = new_plot(
                 f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", FLOOR[what])
             )
-            plot.limit("left", _FARTHEST_POWER, _LEAST_POWERS)
+            plot.limit("left", _FARTHEST_POWER, _LEAST_RANGE)
             plot.showGrid(x=True, y=True, alpha=0.15)
             self.bounds[axis] = pg.PlotCurveItem()
             plot.addItem(self.bounds[axis], ignoreBounds=True)

@@ -52,23 +52,23 @@ def test_switched_effects_are_marked_for_a_while(bench: Bench, qtbot: QtBot) -> 
     assert not bench.row("led-edges").included
     bench.simulate(edge_time=2e-6)
     edges = bench.row("led-edges")
-    assert (edges.included, edges.new) == (True, True)
+    assert (edges.included, edges.is_new) == (True, True)
     assert "Switched in: LED rise and fall." in bench.summary
     bench.simulate(edge_time=2.1e-6)  # the mark stays while the slider moves
-    assert bench.row("led-edges").new
+    assert bench.row("led-edges").is_new
     bench.simulate(edge_time=5e-6)
     bench.simulate(vignetting_exponent=4.0)
-    assert not bench.row("led-edges").new
-    assert bench.row("vignetting").new
+    assert not bench.row("led-edges").is_new
+    assert bench.row("vignetting").is_new
     bench.simulate(edge_time=0.0)
     edges = bench.row("led-edges")
-    assert (edges.included, edges.new) == (False, True)
+    assert (edges.included, edges.is_new) == (False, True)
     assert "Switched out: LED rise and fall." in bench.summary
     bench.simulate(edge_time=5e-6)
-    assert bench.row("led-edges").new
-    bench.plan_changes.pause.setInterval(0)
-    bench.plan_changes.pause.start()
-    qtbot.waitUntil(lambda: not bench.row("led-edges").new)
+    assert bench.row("led-edges").is_new
+    bench.plan_changes.mark_timer.setInterval(0)
+    bench.plan_changes.mark_timer.start()
+    qtbot.waitUntil(lambda: not bench.row("led-edges").is_new)
     assert "Switched" not in bench.summary
 
 
@@ -177,7 +177,7 @@ def test_errors_of_a_decision_are_in_margins(qtbot: QtBot, bench: Bench) -> None
 def test_an_unknown_error_has_no_number(bench: Bench) -> None:
     bench.simulate(luminance=0.5)
     row = bench.row("sensor-noise")
-    assert (row.error, row.levels) == ("?", None)
+    assert (row.error_text, row.levels) == ("?", None)
     assert "not known" in row.error_meaning
 
 

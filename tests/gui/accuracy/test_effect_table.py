@@ -13,8 +13,8 @@ from pytestqt.qtbot import QtBot
 from occ_gui.accuracy.effect_cells import find_levels, find_position
 from occ_gui.accuracy.effect_rows import (
     EFFECT,
-    ELSE,
     ERROR,
+    EVERYTHING_ELSE,
     STAGE,
     SWITCH,
     TIME,
@@ -57,7 +57,7 @@ def difference(effect: str, error: float) -> EffectDifference:
 def table(qtbot: QtBot, frame: Frame) -> EffectTable:
     table = add_widget(qtbot, EffectTable())
     table.resize(640, 260)
-    table.show_rows(make_rows(frame, costs_of(frame), new=()))
+    table.show_rows(make_rows(frame, costs_of(frame), switched=()))
     table.show()
     return table
 
@@ -72,12 +72,12 @@ def test_every_effect_has_a_row_in_the_order_that_light_travels_and_times_add_up
 ) -> None:
     rows = table.effects.rows
     assert [row.effect for row in rows[:-1]] == [d.effect for d in frame.plan.decisions]
-    assert rows[-1].effect == ELSE
+    assert rows[-1].effect == EVERYTHING_ELSE
     texts = [table.effects.index(place, STAGE).data() for place in range(len(rows))]
     stages = [stage for stage in texts if stage]
     assert stages == ["Light", "Optics", "Sensor", "File"]
     assert cell(table, "led-edges", STAGE) == "Light"
-    rows = make_rows(frame, costs_of(frame), new=())
+    rows = make_rows(frame, costs_of(frame), switched=())
     total = sum(row.seconds for row in rows if row.seconds is not None)
     assert total == pytest.approx(sum(frame.timings.values()), rel=1e-12)
     assert rows[-1].seconds == pytest.approx(3e-3)
@@ -103,7 +103,7 @@ def test_a_row_states_error_time_and_reason_and_an_absent_effect_is_grey(
 def test_a_measured_error_replaces_the_estimate(table: EffectTable, frame: Frame) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
     measured = costs_of(frame, led_edges=difference("led-edges", 0.71))
-    table.show_rows(make_rows(frame, measured, new=()))
+    table.show_rows(make_rows(frame, measured, switched=()))
     assert cell(table, "led-edges", ERROR) == "0.71"
     meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
     assert "measured" in meaning
@@ -129,7 +129,7 @@ def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
 def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> None:
     place = [row.effect for row in table.effects.rows].index("sensor-noise")
     area = table.visualRect(table.effects.index(place, ERROR))
-    limit = not_none(table.effects.rows[place].estimate)
+    limit = not_none(table.effects.rows[place].limit)
     for tolerance, has_colour in ((limit / 2.0, True), (2.0 * limit, False)):
         table.show_tolerance(tolerance)
         image = table.viewport().grab().toImage()
@@ -138,10 +138,10 @@ def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> 
 
 
 def test_newly_switched_effects_are_tinted(table: EffectTable, frame: Frame) -> None:
-    table.show_rows(make_rows(frame, costs_of(frame), new=("led-edges",)))
+    table.show_rows(make_rows(frame, costs_of(frame), switched=("led-edges",)))
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
     assert cell(table, "sensor-noise", EFFECT, ROLE.BackgroundRole) is None
-    table.show_rows(make_rows(frame, costs_of(frame), new=()))
+    table.show_rows(make_rows(frame, costs_of(frame), switched=()))
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is None
 
 
@@ -165,7 +165,7 @@ def test_pending_switches_are_shown(
 def test_a_switch_reports_the_choice_for_its_effect_and_shows_forced_ones(
     table: EffectTable, qtbot: QtBot
 ) -> None:
-    effects = [row.effect for row in table.effects.rows if row.effect != ELSE]
+    effects = [row.effect for row in table.effects.rows if row.effect != EVERYTHING_ELSE]
     assert list(table.switches) == effects
     choices: list[tuple[str, object]] = []
     table.switched.connect(lambda *choice: choices.append(choice))
@@ -184,13 +184,13 @@ def test_a_switch_reports_the_choice_for_its_effect_and_shows_forced_ones(
 def test_the_first_effect_in_detail_is_the_slowest_within_the_scatter_of_times(
     frame: Frame,
 ) -> None:
-    rows = make_rows(frame, costs_of(frame), new=())
+    rows = make_rows(frame, costs_of(frame), switched=())
     assert find_slowest(rows) == "sensor-noise"
     slower = replace(frame, timings={**frame.timings, "led-edges": 0.05})
-    assert find_slowest(make_rows(slower, costs_of(slower), new=())) == "led-edges"
-    assert find_slowest([row for row in rows if row.effect == ELSE]) == ""
+    assert find_slowest(make_rows(slower, costs_of(slower), switched=())) == "led-edges"
+    assert find_slowest([row for row in rows if row.effect == EVERYTHING_ELSE]) == ""
     longer = replace(frame, timings={**frame.timings, "led-edges": 0.032})
-    rows = make_rows(longer, costs_of(longer), new=())
+    rows = make_rows(longer, costs_of(longer), switched=())
     assert find_slowest(rows) == "led-edges"
     assert find_slowest(rows, "sensor-noise") == "sensor-noise"
 
@@ -208,13 +208,13 @@ def test_a_click_on_a_title_sorts_rows_and_switches(
 ) -> None:
     measured = {"sensor_noise": difference("sensor-noise", 3.0)}
     measured["led_edges"] = difference("led-edges", 7.0)
-    table.show_rows(make_rows(frame, costs_of(frame, **measured), new=()))
+    table.show_rows(make_rows(frame, costs_of(frame, **measured), switched=()))
     light = [row.effect for row in table.effects.rows]
     table.choose("led-edges")
     for column, first in ((TIME, "sensor-noise"), (ERROR, "led-edges")):
         order = click_on(table, column, qtbot)
         assert order[0] == first, "the most comes first"
-        assert order[-1] == ELSE
+        assert order[-1] == EVERYTHING_ELSE
         place = order.index("led-edges")
         switch = table.indexWidget(table.effects.index(place, SWITCH))
         assert switch is table.switches["led-edges"]
@@ -234,7 +234,7 @@ def test_repeated_measurements_do_not_shuffle_rows(
     def show(**seconds: float) -> list[str]:
         timings = {name.replace("_", "-"): time for name, time in seconds.items()}
         again = replace(frame, timings={**frame.timings, **timings})
-        table.show_rows(make_rows(again, costs_of(again), new=()))
+        table.show_rows(make_rows(again, costs_of(again), switched=()))
         return [row.effect for row in table.effects.rows][:2]
 
     show(led_edges=0.030, sensor_noise=0.031)

@@ -178,7 +178,7 @@ def test_the_status_line_shows_what_the_plan_switches_and_what_its_pane_refuses(
 
     user.enter("edge_time", "5 us")
     assert any(tip.startswith("Switched in: LED rise and fall") for tip in tips())
-    news = application.scene.plan_changes.pause
+    news = application.scene.plan_changes.mark_timer
     news.timeout.emit()
     qtbot.waitUntil(lambda: not tips())
     view = application.view("accuracy")

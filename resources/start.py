@@ -45,8 +45,8 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 from occ_gui.app.system_libraries import (  # noqa: E402 - no older Python can import it
     APT_INSTALL,
-    install_line,
-    missing_libraries,
+    find_missing_libraries,
+    write_install_command,
 )
 
 VENV = ROOT / ".venv"
@@ -117,7 +117,7 @@ def has_font() -> bool:
 
 def missing_parts(platform: str, making_venv: bool) -> dict[str, str]:
     """Map each part that the system lacks to the Debian package that brings it."""
-    missing = missing_libraries(platform)
+    missing = find_missing_libraries(platform)
     # Systems without apt-get may keep their fonts anywhere.
     if shutil.which("apt-get") and not has_font():
         missing["a font"] = "fonts-dejavu-core"
@@ -154,7 +154,7 @@ def provide_system_parts(platform: str, making_venv: bool) -> None:
     lacks = "This system lacks " + ", ".join(missing)
     if shutil.which("apt-get") is None:
         raise SetUpError(f"{lacks}. Install what brings it, then start again.")
-    line = install_line(missing.values())
+    line = write_install_command(missing.values())
     remedy = f"Run this line as root, then start again:\n    {line}"
     prefix = root_prefix()
     if prefix is None:

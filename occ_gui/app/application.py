@@ -32,7 +32,7 @@ class Application(Parts):
         self.shell.enable_entries()
         connect_story(self)
         self.scene = SceneInWindow(self)
-        self._is_code = self.store.store.select(lambda workspace: workspace.has_code)
+        self._code_selection = self.store.store.select(lambda workspace: workspace.has_code)
         self.session = Session(self.store.store, self._user_workspace)
         self._connect_parts()
 
@@ -60,7 +60,7 @@ class Application(Parts):
             window.closing.connect(step)
         self.session.written.connect(self._keep_view)
         self.shell.accepted.connect(self.messages.accept)
-        self.shell.made.connect(self._on_made)
+        self.shell.made.connect(self._on_pane_made)
         self._connect_photos()
         window.dropped.connect(self.files.open_dropped)
         window.menus.show_samples(sample_photos(), self.files.open_sample)
@@ -70,12 +70,12 @@ class Application(Parts):
         self.background_rates.rate_changed.connect(story.verdict.show_rate)
         self._connect_strips()
         window.modes.changed.connect(self._show_bars)
-        self._is_code.changed.connect(self._show_bars)
+        self._code_selection.changed.connect(self._show_bars)
         entries = window.actions_by_name
-        entries["undo"].triggered.connect(self._say_undone)
-        entries["redo"].triggered.connect(self._say_redone)
+        entries["undo"].triggered.connect(self._report_undo)
+        entries["redo"].triggered.connect(self._report_redo)
 
-    def _on_made(self, _name: str, pane: Any) -> None:
+    def _on_pane_made(self, _name: str, pane: Any) -> None:
         if isinstance(pane, Pane):
             self.window.leave_messages_to(*pane.sentences)
 
@@ -84,7 +84,7 @@ class Application(Parts):
         photos.work.begun.connect(self._make_photo_pane)
         window.reading.follow(photos.work)
         window.reading.cancelled.connect(photos.cancel)
-        photos.failed.connect(self.messages.say_of_photo)
+        photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)
         self.files.pane_wanted.connect(window.bring_to_front)
         menus.scan_axes.triggered.connect(lambda action: photos.set_scan_axis(action.data()))
@@ -96,14 +96,14 @@ class Application(Parts):
     def _make_photo_pane(self) -> None:
         self.shell.pane("photo")  # before the photo is read
 
-    def _say_undone(self) -> None:
-        # The change may be invisible in this mode. Texts of menus double an &.
-        step = self.store.undo_stack.redoText().replace("&&", "&")
-        self.messages.note(f"Undone: {step}.")
+    def _report_undo(self) -> None:
+        # The change may be invisible in this mode. Menu texts contain && for &.
+        title = self.store.undo_stack.redoText().replace("&&", "&")
+        self.messages.note(f"Undone: {title}.")
 
-    def _say_redone(self) -> None:
-        step = self.store.undo_stack.undoText().replace("&&", "&")
-        self.messages.note(f"Redone: {step}.")
+    def _report_redo(self) -> None:
+        title = self.store.undo_stack.undoText().replace("&&", "&")
+        self.messages.note(f"Redone: {title}.")
 
     def _connect_strips(self) -> None:
         self.controls.add_foot(self.slider_strips.legend)
@@ -111,17 +111,17 @@ class Application(Parts):
         entry.triggered.connect(self.preferences.keep_slider_strips)
         entry.setChecked(self.preferences.slider_strips)
         entry.toggled.connect(self._show_strips)
-        self._is_code.changed.connect(self._show_strips)
+        self._code_selection.changed.connect(self._show_strips)
         self._show_strips()
 
     def _show_bars(self) -> None:
-        """Show, of the panes on limits, the one that is not about codes where none is sent."""
-        if self.window.modes.mode == "limits" and not self._is_code.value:
+        """Bring the bars to the front among the panes on limits while no code is sent."""
+        if self.window.modes.mode == "limits" and not self._code_selection.value:
             self.window.bring_to_front("bands")
 
     def _show_strips(self) -> None:
         """Show the strips if the user wants them, and a code is sent."""
-        entry, is_code = self.window.actions_by_name["slider_strips"], self._is_code.value
+        entry, is_code = self.window.actions_by_name["slider_strips"], self._code_selection.value
         entry.setEnabled(is_code)
         self.slider_strips.set_shown(entry.isChecked() and is_code)
 
@@ -160,10 +160,10 @@ class Application(Parts):
         lessons.choose(name)
 
     def _prepare_to_close(self) -> None:
-        # At once, because the next steps wait for work, and the user may kill the program.
+        # First, because the next steps wait for work, and the user may kill the program.
         self.session.write()
-        for who in name_running_plugins():
-            self.messages.say(f"{who} has not finished yet; please wait.")
+        for plugin in name_running_plugins():
+            self.messages.say(f"{plugin} has not finished yet; please wait.")
             self.window.repaint()
         self.simulation.stop()  # the scene that is restored needs no picture
         self.lessons.end()

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
-from occ_gui.app.system_libraries import missing_libraries, sentence_about
+from occ_gui.app.system_libraries import describe_missing, find_missing_libraries
 from occ_gui.core.workspace import Workspace
 from occ_gui.values.choices import OVERLAYS
 from occ_gui.values.modes import MODES
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     from occ_gui.app.application import Application
 
-_IMPORT = builtins.__import__  # Python's own, which Qt for Python replaces
+_PYTHON_IMPORT = builtins.__import__  # Python's own, which Qt for Python replaces
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
@@ -47,7 +47,7 @@ THEMES = ("system", "light", "dark")
 
 _CHECK_MS = 200  # interval at which Python handles signals
 
-_TIME_SLICE = 0.001  # seconds that a thread may run while others wait
+_TIME_SLICE_S = 0.001  # seconds that a thread may run while others wait
 _LARGEST_SIDE = 16384  # pixels of a side of the window; a larger window cannot be drawn
 _PATIENCE_MS = 60_000  # longest time that a screenshot waits for the picture
 
@@ -63,12 +63,12 @@ def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
     return partial(_run, make_parser().parse_args(arguments))
 
 
-def begin(options: argparse.Namespace) -> Start:
+def read_start(options: argparse.Namespace) -> Start:
     """Read the scene, settings and session that the window starts with."""
     _check_qt()
     settings = simulation_settings_of(options)
-    own = settings != simulation_settings_of(make_parser().parse_args([]))
-    return start_of(options, scene_of(options), settings, own)
+    has_settings = settings != simulation_settings_of(make_parser().parse_args([]))
+    return start_of(options, scene_of(options), settings, has_settings)
 
 
 def _check_qt() -> None:
@@ -76,14 +76,14 @@ def _check_qt() -> None:
     absent = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
     if absent:
         raise occ.OccError(
-            f"The window needs {' and '.join(absent)}, which this Python lacks; this line installs "
-            "what is needed: \"pip install 'occ-explorer[gui]'\"."
+            f"The window needs {' and '.join(absent)}, which this Python lacks; this command "
+            "installs what is needed: \"pip install 'occ-explorer[gui]'\"."
         )
     try:
         import PySide6.QtWidgets  # noqa: F401 - it links the system libraries that Qt needs
     except ImportError as error:
-        missing = missing_libraries()
-        reason = sentence_about(missing) if missing else f"Qt cannot be loaded: {error}."
+        missing = find_missing_libraries()
+        reason = describe_missing(missing) if missing else f"Qt cannot be loaded: {error}."
         raise occ.OccError(reason) from error
 
 
@@ -110,7 +110,10 @@ def make_parser() -> argparse.ArgumentParser:
         help="draw the window, without a display, into this picture, and end",
     )  # fmt: skip
     parser.add_argument(
-        "--size", type=_size, metavar="WIDTHxHEIGHT", help="the window's size, such as 1280x800"
+        "--size",
+        type=_parse_size,
+        metavar="WIDTHxHEIGHT",
+        help="the window's size, such as 1280x800",
     )
     parser.add_argument("--mode", choices=MODES, help="lay the window out for this task")
     parser.add_argument(
@@ -118,12 +121,12 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--theme", choices=THEMES, help="the window's colours")
     parser.add_argument(
-        "--fresh", action="store_true", help="start without what the last session left"
+        "--fresh", action="store_true", help="start without restoring the last session"
     )
     return parser
 
 
-def _size(text: str) -> tuple[int, int]:
+def _parse_size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{2,5})[xX](\d{2,5})", text)
     width, height = (int(match[1]), int(match[2])) if match else (0, 0)
     if not 0 < max(width, height) <= _LARGEST_SIDE:
@@ -134,14 +137,14 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _run(options: argparse.Namespace) -> int:
-    start_state = begin(options)
+    start_state = read_start(options)
     _prepare(options)
-    qt, application = start(start_state.first, sys.argv[:1], start_state.preferences)
+    qt, application = start(start_state.first_workspace, sys.argv[:1], start_state.preferences)
     _check_pane(options.dock, application)
     if not (options.screenshot or options.size):
-        from occ_gui.app.display import open_first
+        from occ_gui.app.display import open_first_window
 
-        open_first(application.window, qt.primaryScreen().availableGeometry())
+        open_first_window(application.window, qt.primaryScreen().availableGeometry())
     start_state.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.options.theme.choose(options.theme)
@@ -166,7 +169,7 @@ def _run(options: argparse.Namespace) -> int:
     if start_state.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.shell.pane("welcome").show_once()
     code = qt.exec()
-    leave_plugins(code, start_state.preferences)
+    exit_despite_plugins(code, start_state.preferences)
     return code
 
 
@@ -185,12 +188,12 @@ def _check_pane(name: str | None, application: "Application") -> None:
         raise occ.OccError(f"--dock: there is no pane {quote(name)}; allowed: {', '.join(docks)}.")
 
 
-def leave_plugins(code: int, preferences: "QSettings | None") -> None:
+def exit_despite_plugins(code: int, preferences: "QSettings | None") -> None:
     """End the process at once if a plug-in hangs, because a usual exit would wait for it."""
-    hung = name_running_plugins()
-    if hung:
-        for who in hung:
-            say("occ-gui", f"{who} does not return: the window has ended without it.")
+    plugins = name_running_plugins()
+    if plugins:
+        for plugin in plugins:
+            say("occ-gui", f"{plugin} does not return: the window has ended without it.")
         if preferences is not None:
             preferences.sync()
         os._exit(code)
@@ -242,16 +245,16 @@ def start(
     from PySide6.QtWidgets import QApplication
 
     # PySide's own import searches the source of each module for a request of snake_case names. Ours
-    # have none, and the search takes a thirteenth of the start.
-    builtins.__import__ = _IMPORT
+    # have none, and the search takes a thirteenth of the start-up time.
+    builtins.__import__ = _PYTHON_IMPORT
     from occ_gui.app.application import Application
     from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector
     from occ_gui.widgets.icons import PROGRAM
     from occ_gui.window.theme import show_theme
 
-    # Short time slices, because the threads that start processes delay that of the window.
-    sys.setswitchinterval(_TIME_SLICE)
+    # Short time slices, because the threads that start processes delay the window's thread.
+    sys.setswitchinterval(_TIME_SLICE_S)
     log_qt_messages(_end_without_display)
     # Numbers have the same form in the whole window as in files and sentences.
     QLocale.setDefault(QLocale.c())
@@ -261,16 +264,16 @@ def start(
     show_theme(THEMES[0])  # before there are panes to redraw
     garbage = GarbageCollector(qt)
     application = Application(workspace, preferences)
-    garbage.spare()
-    application.window.closing.connect(garbage.release)
+    garbage.exclude_present_objects()
+    application.window.closing.connect(garbage.include_all_objects)
     return qt, application
 
 
 def _end_without_display() -> NoReturn:
     # The display does not answer, or its plug-in cannot be loaded: Qt would abort the process.
-    from occ_gui.app.display import reason_for_no_window
+    from occ_gui.app.display import explain_no_window
 
-    say("occ-gui", reason_for_no_window())
+    say("occ-gui", explain_no_window())
     os._exit(EXIT_MISUSE)
 
 
@@ -278,8 +281,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     """Process events until all requested results are shown.
 
     ``measured``: whether to wait for the detection map and the strips under the sliders, too; a map
-    that stays incomplete is shown so. Raises OccError where the scene has no picture, or it takes
-    too long.
+    may stay incomplete. Raises OccError where the scene has no picture, or it takes too long.
     """
     from PySide6.QtCore import QDeadlineTimer, QEventLoop, QTimer
     from PySide6.QtWidgets import QApplication

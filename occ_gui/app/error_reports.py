@@ -16,7 +16,7 @@ from occ_model.errors import one_line
 _log = logging.getLogger(__name__)
 _qt_log = logging.getLogger("qt")
 
-_LINES = 60  # lines of the last messages that are kept
+_MOST_LINES = 60  # number of kept lines of messages
 
 _LEVELS = {
     QtMsgType.QtDebugMsg: logging.DEBUG,
@@ -40,11 +40,11 @@ class LastMessages(logging.Handler):
     def __init__(self) -> None:
         super().__init__(logging.WARNING)
         self.setFormatter(logging.Formatter("%(asctime)s %(name)s %(levelname)s %(message)s"))
-        self.lines: deque[str] = deque(maxlen=_LINES)
+        self.lines: deque[str] = deque(maxlen=_MOST_LINES)
 
     def emit(self, record: logging.LogRecord) -> None:
         self.lines.extend(self.format(record).splitlines())
-        if logging.lastResort is not None:  # as if this handler were not there
+        if logging.lastResort is not None:  # print it, as Python does without handlers
             logging.lastResort.handle(record)
 
 
@@ -55,21 +55,21 @@ class ErrorReports(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self.last = LastMessages()
-        self._known: set[tuple[str, str, int]] = set()
-        self._before: tuple[Callable[..., object], Callable[..., object]] | None = None
+        self.last_messages = LastMessages()
+        self._reported_errors: set[tuple[str, str, int]] = set()
+        self._previous_hooks: tuple[Callable[..., object], Callable[..., object]] | None = None
 
     def install(self) -> None:
-        self._before = (sys.excepthook, threading.excepthook)
+        self._previous_hooks = (sys.excepthook, threading.excepthook)
         sys.excepthook = self.report
-        logging.getLogger().addHandler(self.last)
+        logging.getLogger().addHandler(self.last_messages)
         threading.excepthook = self._report_thread
 
     def remove(self) -> None:
-        if self._before is not None:
-            sys.excepthook, threading.excepthook = self._before
-            logging.getLogger().removeHandler(self.last)
-            self._before = None
+        if self._previous_hooks is not None:
+            sys.excepthook, threading.excepthook = self._previous_hooks
+            logging.getLogger().removeHandler(self.last_messages)
+            self._previous_hooks = None
 
     def report(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
@@ -78,10 +78,10 @@ class ErrorReports(QObject):
         if issubclass(kind, KeyboardInterrupt | SystemExit):
             sys.__excepthook__(kind, error, trace)
             return
-        key = (kind.__name__, *_place(trace))
-        if key in self._known:
+        key = (kind.__name__, *_find_line(trace))
+        if key in self._reported_errors:
             return
-        self._known.add(key)
+        self._reported_errors.add(key)
         _log.error("unhandled", exc_info=(kind, error, trace))
         text = _PREFIX.sub("", str(error))
         reason = one_line(f"{kind.__name__}: {text}".rstrip(": ."))
@@ -93,7 +93,7 @@ class ErrorReports(QObject):
             self.report(args.exc_type, error, args.exc_traceback)
 
 
-def _place(trace: TracebackType | None) -> tuple[str, int]:
+def _find_line(trace: TracebackType | None) -> tuple[str, int]:
     if trace is None:
         return "", 0
     while trace.tb_next is not None:

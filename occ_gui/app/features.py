@@ -29,7 +29,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
             parts.results_store,
             _actions_of_photo(parts),
         ),
-        panes.profile(store, parts.results_store, parts.about_photo),
+        panes.profile(store, parts.results_store, parts.describe_photo),
         panes.photos(lambda: shell.pane("photo")),
         panes.accuracy(scenes, parts.simulation),
         panes.detection_map(scenes, parts.background_rates),
@@ -110,8 +110,9 @@ def _fit(parts: Parts) -> None:
 def _show_report(parts: Parts) -> None:
     from occ_gui.app.report import report_text, show_report
 
-    last = parts.error_reports.last.lines
-    show_report(parts.window, report_text(parts.store.scene, parts.store.settings.settings, last))
+    messages = parts.error_reports.last_messages.lines
+    text = report_text(parts.store.scene, parts.store.settings.settings, messages)
+    show_report(parts.window, text)
 
 
 def _show_about(parts: Parts) -> None:

@@ -28,42 +28,44 @@ _BESIDE, _BLENDED, _SPLIT, _DIFFERENCE = OVERLAYS
 _OVERLAY_FILE = "picture-with-photo"
 
 
-def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figure, Figure]:
-    """Declare both figures; ``about_photo`` returns the caption of a picture with the photo."""
+def picture_figures(store: Store, describe_photo: Callable[[], str]) -> tuple[Figure, Figure]:
+    """Declare both figures; ``describe_photo`` returns the caption of a picture with the photo."""
 
-    def picture(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
-        workspace, photo = store.workspace, _photo(pane)
+    def draw_picture(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
+        workspace, photo = store.workspace, _find_photo(pane)
         if pane is None or photo is None:
             return defer(
                 "occ_model.figures.window_panes:picture_drawing",
                 snapshot.frame, snapshot.region, None, workspace.picture_kind, None, "",
             )  # fmt: skip
-        return _lay_over(pane.view, photo, snapshot, workspace.overlay, about_photo())
+        return _lay_over(pane.view, photo, snapshot, workspace.overlay, describe_photo())
 
-    def overlay(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
-        photo = _photo(pane)
+    def draw_overlay(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
+        photo = _find_photo(pane)
         if pane is None or photo is None:
             raise NothingToDraw("No photo is open: open one to lay it over the picture.")
         mode = store.workspace.overlay
         mode = _BLENDED if mode == _BESIDE else mode
-        draw = _lay_over(pane.view, photo, snapshot, mode, about_photo())
+        draw = _lay_over(pane.view, photo, snapshot, mode, describe_photo())
         return lambda: replace(draw(), name=_OVERLAY_FILE)
 
     def is_beside(pane: "PicturesPane | None") -> bool:
-        return _photo(pane) is not None and store.workspace.overlay == _BESIDE
+        return _find_photo(pane) is not None and store.workspace.overlay == _BESIDE
 
     title = "Overlay of photo and picture"
     return (
-        Figure(name="picture", title="Picture", draw=picture),
-        Figure(name="overlay", title=title, draw=overlay, differs_from_others=is_beside),
+        Figure(name="picture", title="Picture", draw=draw_picture),
+        Figure(name="overlay", title=title, draw=draw_overlay, differs_from_others=is_beside),
     )
 
 
-def _photo(pane: "PicturesPane | None") -> "Photo | None":
+def _find_photo(pane: "PicturesPane | None") -> "Photo | None":
     return None if pane is None else pane.view.shown_photo
 
 
-def _lay_over(view: "ImageView", photo: "Photo", snapshot: Snapshot, mode: str, about: str) -> Draw:
+def _lay_over(
+    view: "ImageView", photo: "Photo", snapshot: Snapshot, mode: str, caption: str
+) -> Draw:
     frame, region = snapshot.frame, snapshot.region
     pixels, picture_kind, overlay = photo.image, view.picture_kind, view.overlay
     place = overlay.placement
@@ -91,28 +93,28 @@ def _lay_over(view: "ImageView", photo: "Photo", snapshot: Snapshot, mode: str, 
             levels, grid = cells
             edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
             layer = Difference(levels, edges, gain)
-        return picture_drawing(frame, region, pixels, picture_kind, layer, about)
+        return picture_drawing(frame, region, pixels, picture_kind, layer, caption)
 
     return draw
 
 
 def profile_figure(
-    store: Store, results_store: ResultsStore, about_photo: Callable[[], str]
+    store: Store, results_store: ResultsStore, describe_photo: Callable[[], str]
 ) -> Figure:
     def draw(pane: "ProfilePane | None", snapshot: Snapshot) -> Draw:
         workspace, photo = store.workspace, results_store.results.photo_profile
         comparison = None if photo is None else photo.comparison
-        whole, enhanced = (0, len(snapshot.profile)), workspace.is_enhanced
+        all_columns, enhanced = (0, len(snapshot.profile)), workspace.is_enhanced
         return defer(
             "occ_model.figures.window_panes:profile_drawing",
             snapshot.frame,
             snapshot.band_levels(enhanced=enhanced),
             snapshot.band_undefined,
             comparison,
-            slice(*(whole if pane is None else pane.view.columns_in_view())),
+            slice(*(all_columns if pane is None else pane.view.columns_in_view())),
             enhanced=enhanced,
             decoded=snapshot.results.get(workspace.decoder),
-            about="" if comparison is None else about_photo(),
+            about="" if comparison is None else describe_photo(),
         )
 
     return Figure(name="profile", title="Column profile", draw=draw)
@@ -187,14 +189,14 @@ def room_figure() -> Figure:
     """Declare the figure, which is available once the picture from the present place is read."""
 
     def draw(pane: "RoomPane | None", _snapshot: Snapshot) -> Draw:
-        shown = None if pane is None else pane.picture
-        if shown is None or shown.reading is None:
+        part = None if pane is None else pane.picture
+        if part is None or part.reading is None:
             raise NothingToDraw(
                 "The room's picture is not read yet: open its pane and wait a moment."
             )
         return defer(
             "occ_model.figures.room:room_drawing",
-            shown.room, shown.image, shown.reading, is_photo=shown.source.photo is not None,
+            part.room, part.image, part.reading, is_photo=part.source.photo is not None,
         )  # fmt: skip
 
     return Figure(name="room", title="Room", draw=draw)

@@ -16,9 +16,9 @@ class LessonsInWindow(QObject):
     noted = Signal(str)  # the outcome of an action, shown until the scene changes
 
     columns_held = Signal(object)
-    """Number of columns that a lesson keeps in view; None for the usual one."""
+    """Number of columns that a lesson keeps in view; None for the usual number."""
 
-    photo_explained = Signal(bool)  # whether the step of a lesson that is shown is about the photo
+    photo_explained = Signal(bool)  # whether the lesson's present step is about the photo
 
     def __init__(self, window: MainWindow, shell: Shell) -> None:
         super().__init__()
@@ -33,9 +33,9 @@ class LessonsInWindow(QObject):
         lessons = pane.controller
         lessons.pane_wanted.connect(self._show_pane_of_step)
         lessons.columns_held.connect(self.columns_held)
-        lessons.action_wanted.connect(self._do)
+        lessons.action_wanted.connect(self._carry_out)
 
-    def _do(self, action: str) -> None:
+    def _carry_out(self, action: str) -> None:
         self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
 
     def _show_pane_of_step(self, name: str) -> None:
@@ -52,8 +52,8 @@ class LessonsInWindow(QObject):
 
     def user_workspace(self) -> Workspace | None:
         pane = self._shell.find_pane("lessons")
-        own: Workspace | None = None if pane is None else pane.controller.user_workspace()
-        return own
+        workspace: Workspace | None = None if pane is None else pane.controller.user_workspace()
+        return workspace
 
     def end(self) -> None:
         """Restore the user's own work, if a lesson is under way."""

@@ -40,12 +40,12 @@ if TYPE_CHECKING:
     from occ_gui.widgets.plot import Plot
 
 
-def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
-    """Declare the pane in place of the story's rows; ``about_photo`` returns the caption."""
+def picture(store: Store, describe_photo: Callable[[], str]) -> Feature[Any]:
+    """Declare the pane that replaces the story's rows; ``describe_photo`` returns the caption."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
-        shown = (results.before, results.picture, results.snapshot, results.reading)
-        return (workspace.picture_kind, workspace.overlay, *shown)
+        pictures = (results.before, results.picture, results.snapshot, results.reading)
+        return (workspace.picture_kind, workspace.overlay, *pictures)
 
     return Feature(
         name="picture",
@@ -54,7 +54,7 @@ def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
         make=defer("occ_gui.picture.image_view:PicturesPane", store),
         part=part,
         updates_hidden=True,
-        figures=picture_figures(store, about_photo),
+        figures=picture_figures(store, describe_photo),
     )
 
 
@@ -72,11 +72,11 @@ def decoding(store: Store) -> Feature[Any]:
     )
 
 
-_WITH_PHOTO = (
+_PHOTO_ACTIONS = (
     "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
     "export_overlay",
 )  # fmt: skip
-_WITH_MATCH = ("apply_match", "save_match")
+_MATCH_ACTIONS = ("apply_match", "save_match")
 
 
 def photo(
@@ -101,8 +101,8 @@ def photo(
             outcome = find_match(results)
             has_match = outcome is not None and outcome.match is not None
         return {
-            **dict.fromkeys(_WITH_PHOTO, has_photo),
-            **dict.fromkeys(_WITH_MATCH, has_match),
+            **dict.fromkeys(_PHOTO_ACTIONS, has_photo),
+            **dict.fromkeys(_MATCH_ACTIONS, has_match),
             "match_all": bool(workspace.photo.listed),
         }
 
@@ -139,9 +139,9 @@ def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
 
 
 def profile(
-    store: Store, results_store: ResultsStore, about_photo: Callable[[], str]
+    store: Store, results_store: ResultsStore, describe_photo: Callable[[], str]
 ) -> Feature[Any]:
-    """Declare the pane; ``about_photo`` returns the caption of a figure with the photo."""
+    """Declare the pane; ``describe_photo`` returns the caption of a figure with the photo."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         photo = (results.photo_profile, results.code_chips)
@@ -155,7 +155,7 @@ def profile(
         make=defer("occ_gui.profile.pane:ProfilePane", store),
         part=part,
         updates_hidden=True,
-        figures=(profile_figure(store, results_store, about_photo),),
+        figures=(profile_figure(store, results_store, describe_photo),),
     )
 
 
@@ -203,7 +203,7 @@ def bands(scenes: SceneStore) -> Feature[Any]:
 
 
 def equations(scenes: SceneStore, plot: "Callable[[], Plot]") -> Feature[Any]:
-    """Declare the pane; its column is picked in the plot of the profile."""
+    """Declare the pane; the user picks its column in the plot of the profile."""
     return Feature(
         name="equations",
         title="Equations",
@@ -321,16 +321,16 @@ def export(
 def animation(
     window: QWidget, scenes: SceneStore, preferences: Preferences, bar: WorkBar
 ) -> Feature[Any]:
-    export = "occ_gui.export.animation:AnimationExport"
-    return Feature(name="animation", make=defer(export, window, scenes, preferences, bar))
+    path = "occ_gui.export.animation:AnimationExport"
+    return Feature(name="animation", make=defer(path, window, scenes, preferences, bar))
 
 
 def transmitter(window: QWidget, scenes: SceneStore, preferences: Preferences) -> Feature[Any]:
-    sender = "occ_gui.transmitter.transmitter_controller:TransmitterController"
+    path = "occ_gui.transmitter.transmitter_controller:TransmitterController"
     return Feature(
         name="transmitter",
-        make=defer(sender, window, scenes, preferences),
-        commands={"transmitter": lambda sender: sender.show()},
+        make=defer(path, window, scenes, preferences),
+        commands={"transmitter": lambda controller: controller.show()},
     )
 
 

@@ -1,4 +1,4 @@
-"""Parts of the window: stores, controllers, panes, messages, films and options, by dependence."""
+"""Parts of the window: stores, controllers, panes, messages, films and options."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -60,18 +60,18 @@ class StatusMessages(QObject):
         super().__init__(window)
         self._window, self._controls = window, controls
         self._store, self._results_store = store, results_store
-        self._shown: tuple[Remark | None, str] = (None, "")
-        self._failed_fields: tuple[str, ...] = ()  # those with the sentence of a failure
+        self._shown_message: tuple[Remark | None, str] = (None, "")
+        self._failed_fields: tuple[str, ...] = ()  # the fields that show a failure's sentence
         store.select(lambda workspace: workspace).changed.connect(self._show)
         results_store.changed.connect(self._show)
         results_store.select(lambda results: results.failure).changed.connect(self._mark)
 
     def _show(self) -> None:
         results = self._results_store.results
-        shown = (results.remark, status_message(self._store.workspace, results))
-        if shown != self._shown:
-            self._shown = shown
-            self._window.show_message(shown[1])
+        message = (results.remark, status_message(self._store.workspace, results))
+        if message != self._shown_message:
+            self._shown_message = message
+            self._window.show_message(message[1])
 
     def _mark(self, failure: Failure | None) -> None:
         self._controls.end_refusals(self._failed_fields)
@@ -81,8 +81,8 @@ class StatusMessages(QObject):
 
     def say(self, sentence: str, until: StateSelector = next_sentence) -> None:
         results = self._results_store.results
-        last = make_remark(sentence, until, self._store.workspace, results)
-        self._results_store.put(replace(results, remark=last))
+        remark = make_remark(sentence, until, self._store.workspace, results)
+        self._results_store.put(replace(results, remark=remark))
 
     def note(self, sentence: str) -> None:
         """Show a remark on the present scene, until the next change of scene or settings."""
@@ -94,14 +94,14 @@ class StatusMessages(QObject):
         failure = Failure(sentence, tuple(parameters))
         self._results_store.put(replace(self._results_store.results, failure=failure))
 
-    def say_of_photo(self, sentence: str) -> None:
+    def say_photo_failure(self, sentence: str) -> None:
         """Show why a photo cannot be read, until another one is read."""
         self.say(sentence, next_photo)
 
     def accept(self) -> None:
         """Remove refusals, because an allowed value was entered."""
-        last = self._results_store.results.remark
-        if last is not None and last.select_state is next_change:
+        remark = self._results_store.results.remark
+        if remark is not None and remark.select_state is next_change:
             self._results_store.put(replace(self._results_store.results, remark=None))
         self._controls.end_refusals(name for name in PARAMETERS if name not in self._failed_fields)
 
@@ -255,16 +255,16 @@ class Parts(QObject):
 
     def _make_centre(self) -> QWidget:
         """Make the story, with a place for the whole picture in it."""
-        whole = self.shell.embed(panes.picture(self.store.store, self.about_photo))
-        return self.shell.embed(declare_story(self.store, self.simulation, whole, [*DECODERS]))
+        picture = self.shell.embed(panes.picture(self.store.store, self.describe_photo))
+        return self.shell.embed(declare_story(self.store, self.simulation, picture, [*DECODERS]))
 
-    def about_photo(self) -> str:
-        """Return the photo's name and the verdict on its match; empty if none is open."""
+    def describe_photo(self) -> str:
+        """Return the photo's name and the verdict on its match; empty if no photo is open."""
         pane = self.shell.find_pane("photo")
         return "" if pane is None else str(pane.verdict.caption())
 
     def _may_measure_rates(self) -> bool:
-        """Whether the first picture is shown, or none is under way."""
+        """Return whether the first picture is shown, or none is being simulated."""
         return self.present.latest is not None or self.simulation.runner.is_idle
 
 

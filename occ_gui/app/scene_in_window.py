@@ -49,7 +49,7 @@ class SceneInWindow(QObject):
         parts, simulation = self._parts, self._parts.simulation
         self.plan_changes.changed.connect(parts.results_store.show_switched)
         self.plan_changes.changed.connect(self._report_switched)
-        # The pictures last, because they are compared with what the others hold.
+        # The store of results last, because its panes compare pictures with what the others hold.
         for view in (self.before, parts.pins, self.plan_changes, parts.results_store):
             simulation.snapshot_ready.connect(view.show_snapshot)
         simulation.reading_shown.connect(parts.results_store.show_reading)
@@ -67,16 +67,16 @@ class SceneInWindow(QObject):
         self._parts.window.show_plan_change(describe_switches(switched) if switched else "")
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
-        reading = snapshot.reading_seconds if snapshot.results else None
-        self._parts.window.show_timing(snapshot.simulation_seconds, reading)
+        reading_seconds = snapshot.reading_seconds if snapshot.results else None
+        self._parts.window.show_timing(snapshot.simulation_seconds, reading_seconds)
 
     def _show_scene(self, scene: Scene) -> None:
         parts = self._parts
         parts.controls.show_scene(scene)
         parts.controls.show_preset(*parts.presets.shown)
-        main = main_of(scene.transmitter.light)
-        parts.window.menus.show_animations(main)
-        for name in main:  # marks where the picture changes in kind
+        names = main_of(scene.transmitter.light)
+        parts.window.menus.show_animations(names)
+        for name in names:  # marks where the picture changes in kind
             parts.controls.show_marks(name, marked_values(scene, name))
 
     def _show_settings(self, settings: SimulationSettings) -> None:

@@ -34,23 +34,23 @@ class DefaultOption(str):
 class Start:
     workspace: Workspace  # that of the command line, or of the last session
     # Whether the command line names a scene, which takes precedence over the last session's
-    is_scene_asked: bool
+    names_scene: bool
     preferences: "QSettings | None" = None  # the stored preferences; None if nothing is stored
     # The file of this window's session; None if nothing is stored
     session_file: "SessionFile | None" = None
-    fresh: bool = False  # whether nothing of the last session is to be restored
+    is_fresh: bool = False  # whether nothing of the last session is to be restored
 
     @property
     def is_new(self) -> bool:
         """Whether neither the command line nor an earlier session determines what to show."""
         has_session = self.session_file is not None and self.session_file.last is not None
-        return not self.is_scene_asked and (self.fresh or not has_session)
+        return not self.names_scene and (self.is_fresh or not has_session)
 
     @property
-    def first(self) -> Workspace:
-        """The workspace that a window is made with; the rest follows once it is connected."""
-        first = Workspace(self.workspace.scene, self.workspace.settings)
-        return self.workspace.undo_state.put_into(first)
+    def first_workspace(self) -> Workspace:
+        """The workspace with which a window is made; the rest follows once it is connected."""
+        workspace = Workspace(self.workspace.scene, self.workspace.settings)
+        return self.workspace.undo_state.put_into(workspace)
 
     def restore(self, application: "Application", with_photo: bool) -> None:
         """Restore the session in a window before it is shown, and store it from now on."""
@@ -59,25 +59,30 @@ class Start:
         application.error_reports.install()
         photo = self.workspace.photo if with_photo else PhotoChoice()
         application.resume(replace(self.workspace, photo=photo))
-        if not self.fresh:
+        if not self.is_fresh:
             application.options.restore()
-        is_scene_asked = self.is_scene_asked or self.fresh
-        application.session.begin(self.session_file, is_scene_asked=is_scene_asked)
+        names_scene = self.names_scene or self.is_fresh
+        application.session.begin(self.session_file, names_scene=names_scene)
 
 
-def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
-    """Return what a window starts with; ``own``: whether the settings are not the defaults."""
-    is_default = isinstance(options.preset, DefaultOption)
-    has_scene = not is_default or bool(options.scene or options.settings)
+def start_of(
+    options: Namespace, scene: Scene, settings: SimulationSettings, has_settings: bool
+) -> Start:
+    """Return what a window starts with.
+
+    ``has_settings``: whether the command line changes settings of the simulation.
+    """
+    is_default_preset = isinstance(options.preset, DefaultOption)
+    names_scene = not is_default_preset or bool(options.scene or options.settings)
     first = Workspace(scene, settings)
     if options.screenshot:  # it does not depend on the last session
-        return Start(first, has_scene, fresh=True)
+        return Start(first, names_scene, is_fresh=True)
     from occ_gui.files.session import SessionFile, restore_workspace, state_folder
 
     file = SessionFile(state_folder())
     if not options.fresh:
-        first = restore_workspace(file, first, is_scene_asked=has_scene, are_settings_asked=own)
-    return Start(first, has_scene, open_preferences(), file, options.fresh)
+        first = restore_workspace(file, first, names_scene=names_scene, has_settings=has_settings)
+    return Start(first, names_scene, open_preferences(), file, options.fresh)
 
 
 def open_preferences() -> "QSettings":

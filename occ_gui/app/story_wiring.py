@@ -26,25 +26,27 @@ def connect_story(parts: Parts) -> None:
 
     readout = parts.window.readout
 
-    def share(name: str, pane: Any) -> None:  # refers to no part that refers to the shell
+    def connect_pane(name: str, pane: Any) -> None:  # refers to no part that refers to the shell
         if name == "equations":
             _link_columns(crosshair, pane.exposure)
         elif name == "picture":
             from occ_gui.window.cursor_readout import follow_pictures
 
             follow_pictures(pane.view, readout.set_full_text)
-            _before_button(pane).setChecked(before.isChecked())
-            _before_button(pane).toggled.connect(before.setChecked)
+            _find_before_button(pane).setChecked(before.isChecked())
+            _find_before_button(pane).toggled.connect(before.setChecked)
         elif name == "profile":
             from occ_gui.window.cursor_readout import follow_profile
 
             follow_profile(pane.view, readout.set_full_text)
 
-    parts.shell.made.connect(share)
+    parts.shell.made.connect(connect_pane)
     # Overlays and the picture before a change are drawn in the whole picture only.
     menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     before.toggled.connect(_WholePictureForBefore(story).show)
-    before.toggled.connect(lambda on: _before_button(parts.shell.pane("picture")).setChecked(on))
+    before.toggled.connect(
+        lambda on: _find_before_button(parts.shell.pane("picture")).setChecked(on)
+    )
     menus.actions["measure"].toggled.connect(story.switch_measuring)
     rows = story.rows
     rows.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
@@ -64,7 +66,7 @@ def story_menu(parts: Parts) -> QMenu:
     return menu
 
 
-def _before_button(pane: "PicturesPane") -> QAbstractButton:
+def _find_before_button(pane: "PicturesPane") -> QAbstractButton:
     return pane.view.before.checkbox
 
 
@@ -86,7 +88,7 @@ class _VerdictChoice(QObject):
         parts.shell.made.connect(self.add_photo)
 
     def add_photo(self, name: str, pane: Any) -> None:
-        """Show the verdict on the photo, too, once its pane is made."""
+        """Show the verdict on the photo, too, once the photo's pane is made."""
         if name != "photo":
             return
         self._photo = pane.view
@@ -99,20 +101,20 @@ class _VerdictChoice(QObject):
         if self._photo is not None:
             self._photo.verdict.show_simulation(verdict.state, verdict.heading)
 
-    def note_step(self, about_photo: bool) -> None:
-        self._is_step_about_photo = about_photo
+    def note_step(self, describe_photo: bool) -> None:
+        self._is_step_about_photo = describe_photo
         self.show()
 
     def show(self) -> None:
-        in_step = self._modes.mode == "lessons" and self._is_step_about_photo
-        is_about_photo = self._modes.mode == "photo" or in_step
+        is_photo_step = self._modes.mode == "lessons" and self._is_step_about_photo
+        is_about_photo = self._modes.mode == "photo" or is_photo_step
         self._story.show_photo_verdict(is_about_photo)
         has_photo = self._photo is not None and self._photo.has_photo
         self._story.verdict.name_simulation(is_about_photo or has_photo)
 
 
 def _link_columns(crosshair: Crosshair, exposure: "ExposureController") -> None:
-    """Keep equal the column chosen in the story and the one whose exposure is explained."""
+    """Keep the column chosen in the story equal to the one whose exposure is explained."""
 
     def follow() -> None:
         if crosshair.column is not None:
@@ -124,7 +126,7 @@ def _link_columns(crosshair: Crosshair, exposure: "ExposureController") -> None:
 
 
 class _WholePictureForBefore(QObject):
-    """Shows the whole picture while it is compared, and afterwards what was shown before."""
+    """Shows the whole picture during the comparison with the one before a change."""
 
     def __init__(self, story: StoryView) -> None:
         super().__init__(story)

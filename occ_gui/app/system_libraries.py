@@ -1,4 +1,4 @@
-"""The shared libraries that Qt needs of a Linux system, and the packages that bring them.
+"""The shared libraries that Qt needs of a Linux system, and the packages that contain them.
 
 Only the standard library is used: `resources/start.py` asks here before anything is installed.
 """
@@ -8,8 +8,8 @@ import shlex
 import shutil
 from collections.abc import Iterable, Mapping
 
-# The libraries that Qt links but its wheel lacks, each with its Debian package. Those that these
-# link in turn are not listed, because these do not load without them. Debian 13 and Ubuntu 24.04
+# The libraries that Qt links but its wheel lacks, each with its Debian package. Their own
+# dependencies are not listed, because they do not load without these. Debian 13 and Ubuntu 24.04
 # renamed libglib2.0-0, which apt-get still finds by its old name.
 LIBRARIES = {
     "libEGL.so.1": "libegl1",
@@ -19,7 +19,7 @@ LIBRARIES = {
     "libglib-2.0.so.0": "libglib2.0-0",
     "libxkbcommon.so.0": "libxkbcommon0",
 }
-# The libraries that Qt links besides, for displays of either kind.
+# Further libraries that Qt links for each kind of display.
 DISPLAY_LIBRARIES = {
     "xcb": {
         "libX11-xcb.so.1": "libx11-xcb1",
@@ -41,7 +41,7 @@ DISPLAY_LIBRARIES = {
 APT_INSTALL = ("apt-get", "install", "-y", "--no-install-recommends")
 
 
-def loads(library: str) -> bool:
+def can_load(library: str) -> bool:
     """Return whether the dynamic linker finds a shared library and its dependencies."""
     try:
         ctypes.CDLL(library)
@@ -50,23 +50,23 @@ def loads(library: str) -> bool:
     return True
 
 
-def missing_libraries(*platforms: str) -> dict[str, str]:
+def find_missing_libraries(*platforms: str) -> dict[str, str]:
     """Map each library that the system lacks for these Qt platforms to its Debian package."""
-    needed = dict(LIBRARIES)
+    libraries = dict(LIBRARIES)
     for platform in platforms:
-        needed |= DISPLAY_LIBRARIES.get(platform, {})
-    return {name: package for name, package in needed.items() if not loads(name)}
+        libraries |= DISPLAY_LIBRARIES.get(platform, {})
+    return {name: package for name, package in libraries.items() if not can_load(name)}
 
 
-def install_line(packages: Iterable[str]) -> str:
+def write_install_command(packages: Iterable[str]) -> str:
     sudo = "sudo " if shutil.which("sudo") else ""
     return f"{sudo}apt-get update && {sudo}{shlex.join([*APT_INSTALL, *packages])}"
 
 
-def sentence_about(missing: Mapping[str, str]) -> str:
+def describe_missing(missing: Mapping[str, str]) -> str:
     """Name the missing libraries, and the command that installs their packages."""
     sentence = f"No window can be opened, because this system lacks {', '.join(missing)}"
     packages = [package for package in missing.values() if package]
     if not (packages and shutil.which("apt-get")):
-        return f"{sentence}; install what brings it."
-    return f"{sentence}; this line installs it: '{install_line(packages)}'."
+        return f"{sentence}; install the packages that contain them."
+    return f"{sentence}; this command installs them: '{write_install_command(packages)}'."

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 Request = TypeVar("Request")
 
-PAUSE = 0.15  # seconds; faster changes count as one movement, such as a drag of a slider
+PAUSE = 0.15  # seconds; changes that follow faster are one movement, such as a drag of a slider
 
 _REMEMBERED_REQUESTS = 64  # number of former requests that are remembered
 
@@ -19,7 +19,7 @@ class ResultAges(Generic[Request]):
     def __init__(self, request: Request, clock: Callable[[], float] = monotonic) -> None:
         self.present = request
         self._clock = clock
-        self._ended: deque[tuple[Request, float]] = deque(maxlen=_REMEMBERED_REQUESTS)
+        self._former_requests: deque[tuple[Request, float]] = deque(maxlen=_REMEMBERED_REQUESTS)
         self._changed_at = -math.inf
         self._is_moving = False
 
@@ -29,7 +29,7 @@ class ResultAges(Generic[Request]):
         now = self._clock()
         self._is_moving = now - self._changed_at < PAUSE
         self._changed_at = now
-        self._ended.append((self.present, now))
+        self._former_requests.append((self.present, now))
         self.present = request
 
     def age(self, request: Request | None) -> float:
@@ -39,9 +39,9 @@ class ResultAges(Generic[Request]):
         """
         if request == self.present:
             return 0.0
-        ends = (end for former, end in reversed(self._ended) if former == request)
-        end = next(ends, -math.inf)
-        return self._clock() - end
+        times = (time for former, time in reversed(self._former_requests) if former == request)
+        replaced_at = next(times, -math.inf)
+        return self._clock() - replaced_at
 
     def rest(self, pause: float = PAUSE) -> float:
         """Return the seconds until the movement counts as ended; zero after a single change.

@@ -12,7 +12,7 @@ from occ_model.parallel.job import Job, Workers, WorkerThread
 from occ_model.parallel.scheduler import Run, Scheduler
 
 _PAUSE_MS = 50
-"""Milliseconds between reports of a channel's results, so that the window can draw each."""
+"""Milliseconds between reports of a channel's results, in which the window can draw them."""
 
 
 class JobChannel(QObject):
@@ -27,7 +27,7 @@ class JobChannel(QObject):
 
     finished = Signal(object)  # the request, after all of its results
     failed = Signal(str)  # a sentence that says why no more results come
-    status_message = Signal(str)  # a sentence about an incident after which the work goes on
+    status_message = Signal(str)  # a sentence about a problem after which the work goes on
 
     _results = Signal(int, list)
     _end = Signal(int, str)
@@ -38,7 +38,7 @@ class JobChannel(QObject):
         self._queue = queue
         self._number = number
         self._requests: dict[int, Any] = {}
-        self._next = 1
+        self._next_run = 1
         self._unreported: list[Any] = []
         self._pause = QTimer(self, singleShot=True)
         self._pause.setInterval(_PAUSE_MS)
@@ -54,16 +54,16 @@ class JobChannel(QObject):
 
     def put(self, request: Any, jobs: Iterator[Job]) -> None:
         """Do the jobs for a request; the iterator runs in the background."""
-        run = Run(self._number, self._next, jobs, self)
-        self._requests[self._next] = request
-        self._next += 1
+        run = Run(self._number, self._next_run, jobs, self)
+        self._requests[self._next_run] = request
+        self._next_run += 1
         self._queue.scheduler().put(run)
 
     def cancel(self) -> None:
         """Cancel the work; no more of its results are reported."""
         if self._requests:
-            self._forget_before(self._next)
-            self._queue.scheduler().cancel(self._number, self._next)
+            self._forget_before(self._next_run)
+            self._queue.scheduler().cancel(self._number, self._next_run)
 
     stop = cancel  # the processes stop with the queue, which other channels share
 
@@ -86,14 +86,14 @@ class JobChannel(QObject):
 
     @Slot(int, list)
     def _on_results(self, run: int, results: list[Any]) -> None:
-        if self._is_wanted(run):
+        if self._accept_results_of(run):
             self._unreported += results
             if not self._pause.isActive():
                 self._emit_results()
 
     @Slot(int, str)
     def _on_end(self, run: int, failure: str) -> None:
-        if self._is_wanted(run):
+        if self._accept_results_of(run):
             self._emit_results()
         if run not in self._requests:
             return
@@ -108,10 +108,10 @@ class JobChannel(QObject):
         if run in self._requests:
             self.status_message.emit(sentence)
 
-    def _is_wanted(self, run: int) -> bool:
-        """Return whether results of a request are still needed, and forget the requests before it.
+    def _accept_results_of(self, run: int) -> bool:
+        """Return whether a request's results are still needed; if so, forget earlier requests.
 
-        The results of those requests that have arrived are emitted first.
+        Results of earlier requests that have already arrived are emitted first.
         """
         if run in self._requests and run != next(iter(self._requests)):
             self._emit_results()
@@ -135,17 +135,17 @@ class WorkQueue(QObject):
 
     def __init__(self, channels: int, start: Callable[[], Workers]) -> None:
         super().__init__()
-        self._start = start
+        self._start_workers = start
         self._scheduler: Scheduler | None = None
         self._thread: Thread | None = None
-        self._stopped = False
+        self._is_stopped = False
         self.channels = tuple(JobChannel(self, number) for number in range(channels))
 
     def scheduler(self) -> Scheduler:
         """Return the scheduler; its thread starts when it is first needed."""
         if self._scheduler is None:
-            self._scheduler = Scheduler(self._start, WorkerThread)
-            if not self._stopped:
+            self._scheduler = Scheduler(self._start_workers, WorkerThread)
+            if not self._is_stopped:
                 self._thread = Thread(target=self._scheduler.run, name="scheduler", daemon=True)
                 self._thread.start()
         return self._scheduler
@@ -154,14 +154,14 @@ class WorkQueue(QObject):
     def workers(self) -> Workers | None:
         return None if self._scheduler is None else self._scheduler.workers
 
-    def count_of(self, counter: int) -> int:
+    def count_heartbeats(self, counter: int) -> int:
         workers = self.workers
         return 0 if workers is None else workers.count_heartbeats(counter)
 
     def stop(self) -> None:
-        if self._stopped:
+        if self._is_stopped:
             return
-        self._stopped = True
+        self._is_stopped = True
         for channel in self.channels:
             channel.cancel()
         if self._scheduler is not None and self._thread is not None:

@@ -11,16 +11,16 @@ from occ_model import plugins
 from occ_model.errors import OccError
 from occ_model.scene.refusal import sentence_with_label
 
-PATIENCE_MS = 2000  # how long all threads together wait for plug-ins when they end
+PATIENCE_MS = 2000  # total time that all threads wait for plug-ins when they end
 
-_LOOK_MS = 50
+_POLL_MS = 50
 
-left_behind: list[QThread] = []
+hanging_threads: list[QThread] = []
 """Threads with a plug-in that hangs, kept because Qt aborts the process if one is deleted."""
 
 
 class TaskThread:
-    _waited_ms = 0
+    _plugin_wait_ms = 0
 
     def __init__(self, worker: QObject, name: str) -> None:
         self._thread = QThread()
@@ -38,10 +38,10 @@ class TaskThread:
         """Wait for the running work and end the thread; do not wait for a plug-in that hangs."""
         self._may_begin = False
         self._thread.quit()
-        while not self._thread.wait(_LOOK_MS):
-            TaskThread._waited_ms += _LOOK_MS if plugins.name_running_plugins() else 0
-            if TaskThread._waited_ms >= PATIENCE_MS and plugins.name_running_plugins():
-                left_behind.append(self._thread)
+        while not self._thread.wait(_POLL_MS):
+            TaskThread._plugin_wait_ms += _POLL_MS if plugins.name_running_plugins() else 0
+            if TaskThread._plugin_wait_ms >= PATIENCE_MS and plugins.name_running_plugins():
+                hanging_threads.append(self._thread)
                 return
 
 
@@ -62,8 +62,8 @@ Result = TypeVar("Result")
 
 
 Report: TypeAlias = Callable[[Any], None]
-"""Takes a part of the result, the fraction of the work done, or None, which is not passed on;
-raises an exception in cancelled work."""
+"""A function that work calls with a part of its result, the fraction done, or None, which is not
+passed on; it raises an exception in cancelled work."""
 
 
 class Superseded(Exception):  # noqa: N818 - not an error: the result is no longer needed
@@ -76,12 +76,12 @@ class _Run:
     def __init__(self, request: Any) -> None:
         self.request = request
         self.is_wanted = True
-        self.newer, self.painted = Event(), Event()
+        self.newer_request, self.paint_done = Event(), Event()
 
     def abandon(self) -> None:
         self.is_wanted = False
-        self.newer.set()
-        self.painted.set()
+        self.newer_request.set()
+        self.paint_done.set()
 
 
 class TaskReporter:
@@ -99,7 +99,7 @@ class TaskReporter:
 
     def give_way(self, seconds: float = 0.0) -> None:
         """End the work if a newer request is waiting, or comes within some seconds."""
-        if self._run.newer.wait(seconds):
+        if self._run.newer_request.wait(seconds):
             raise Superseded
 
     def wait_for_paint(self, seconds: float) -> None:
@@ -108,9 +108,9 @@ class TaskReporter:
         Painting and the following work need the same interpreter and memory. At the same time,
         both would take twice as long, and the user would wait longer for the picture.
         """
-        self._run.painted.clear()
+        self._run.paint_done.clear()
         self._worker.paint_awaited.emit(self._run)
-        self._run.painted.wait(seconds)
+        self._run.paint_done.wait(seconds)
 
 
 class Task(QObject, Generic[Request, Result]):
@@ -137,8 +137,8 @@ class Task(QObject, Generic[Request, Result]):
     ) -> None:
         super().__init__()
         self._is_impatient, self._is_stopped = impatient, False
-        self._running: _Run | None = None
-        self._waiting: _Run | None = None
+        self._current_run: _Run | None = None
+        self._next_run: _Run | None = None
         self._worker = _Worker(work, name)
         self._thread = TaskThread(self._worker, name)
         queued = Qt.ConnectionType.QueuedConnection
@@ -149,25 +149,25 @@ class Task(QObject, Generic[Request, Result]):
 
     @property
     def is_idle(self) -> bool:
-        running = self._running
-        return self._waiting is None and (running is None or not running.is_wanted)
+        current = self._current_run
+        return self._next_run is None and (current is None or not current.is_wanted)
 
     def ask(self, request: Request) -> None:
         if self._is_stopped:
             return
-        self._waiting = _Run(request)
-        if self._running is None:
+        self._next_run = _Run(request)
+        if self._current_run is None:
             self._begin()
         elif self._is_impatient:
-            self._running.abandon()
+            self._current_run.abandon()
         else:
-            self._running.newer.set()
+            self._current_run.newer_request.set()
 
     def cancel(self) -> None:
         """Report no more results; running work ends at its next report."""
-        self._waiting = None
-        if self._running is not None:
-            self._running.abandon()
+        self._next_run = None
+        if self._current_run is not None:
+            self._current_run.abandon()
 
     def stop(self) -> None:
         self._is_stopped = True
@@ -175,9 +175,9 @@ class Task(QObject, Generic[Request, Result]):
         self._thread.end()
 
     def _begin(self) -> None:
-        self._running, self._waiting = self._waiting, None
+        self._current_run, self._next_run = self._next_run, None
         self._thread.begin()
-        self._begun.emit(self._running)
+        self._begun.emit(self._current_run)
 
     @Slot(object, object)
     def _on_report(self, run: _Run, part: Any) -> None:
@@ -187,14 +187,14 @@ class Task(QObject, Generic[Request, Result]):
     @Slot(object)
     def _on_paint_awaited(self, run: _Run) -> None:
         # Two turns of the event loop: the report requests a paint, and panes may request another
-        # one in their next turn.
-        QTimer.singleShot(0, self, lambda: QTimer.singleShot(0, self, run.painted.set))
+        # one in the next turn.
+        QTimer.singleShot(0, self, lambda: QTimer.singleShot(0, self, run.paint_done.set))
 
     @Slot(object, object, str, object)
     def _on_end(self, run: _Run, result: Any, failure: str, parameters: tuple[str, ...]) -> None:
-        self._running = None
+        self._current_run = None
         # The next request starts before this result is drawn, so that both run at the same time.
-        if self._waiting is not None:
+        if self._next_run is not None:
             self._begin()
         if not run.is_wanted:
             return

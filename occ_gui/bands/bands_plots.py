@@ -14,26 +14,26 @@ from occ_gui.widgets.plot import LineLegend, marker, new_plot
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND, Unit
 
-_VALLEYS = 8  # lines that are drawn: those above lie closer than the cells
+_VALLEYS = 8  # number of white lines; further ones would lie closer together than the cells
 
-_DEPTHS = (1e-3, 1.0)
+_DEPTH_RANGE = (1e-3, 1.0)  # depths at the ends of the colours
 
-_KINDS = (1.0, 3.0)
+_TICK_DIGITS = (1.0, 3.0)  # leading digits of the numbers on the axes
 
-_MODULATIONS = (0.01, 200.0)
-_FREQUENCIES = (1.0, 1e4)
-"""Ends of the axes, in percent and Hz; the latter is exceeded for a faster lamp."""
+_MODULATION_RANGE = (0.01, 200.0)
+_FREQUENCY_RANGE = (1.0, 1e4)
+"""Ends of the axes, in percent and Hz; for a faster lamp, the axis of frequencies is longer."""
 
 _FREQUENCY_MARGIN = 2.0
 
-_SAMPLE = QSize(14, 14)
-_DASHES, _SIZES = Qt.PenStyle.DashLine, (5.0, 11.0)
+_SAMPLE_SIZE = QSize(14, 14)
+_DASHES, _SYMBOL_SIZES = Qt.PenStyle.DashLine, (5.0, 11.0)
 
 
 class DepthPlot(QWidget):
-    """The map; a click takes an exposure."""
+    """The map of the least depth; a click sets the exposure."""
 
-    chosen = Signal(float)  # the user takes an exposure time, in seconds
+    chosen = Signal(float)  # the exposure time that the user chooses, in seconds
 
     def __init__(self) -> None:
         super().__init__()
@@ -44,47 +44,47 @@ class DepthPlot(QWidget):
         self.image.setLookupTable(pg.colormap.get("viridis").getLookupTable(nPts=256))
         self.plot.addItem(self.image)
         self.plot.setMouseEnabled(False, False)
-        room = self.fontMetrics().height() / 2.0  # numbers and descents reach beyond
-        self.plot.getPlotItem().layout.setContentsMargins(0.0, room, 2.0 * room, room)
+        margin = self.fontMetrics().height() / 2.0  # for the outer halves of the last numbers
+        self.plot.getPlotItem().layout.setContentsMargins(0.0, margin, 2.0 * margin, margin)
         self.valleys = [self.plot.plot(pen=thin_pen(QColor("white"))) for _ in range(_VALLEYS)]
         self.setting = self.plot.plot(
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
         )
         self.legend = paragraph(
-            "Dark: a small change within the cell shows no bars (0.1 % or less); yellow: 100 % "
-            "or more. White lines: whole numbers of the "
-            "lamp's periods. A click takes an exposure."
+            "Dark: some setting within the cell shows no bars (0.1 % or less); yellow: 100 % "
+            "or more. White lines: exposures of a whole number of the lamp's periods. A click "
+            "sets the exposure."
         )
         fill(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
         self.plot.scene().sigMouseClicked.connect(self._on_click)
 
     def show_depths(self, bars: SceneBars) -> None:
         depths = bars.map
-        low, high = np.log10(_DEPTHS)
-        fractions = (np.log10(np.maximum(depths.least, _DEPTHS[0])) - low) / (high - low)
+        low, high = np.log10(_DEPTH_RANGE)
+        fractions = (np.log10(np.maximum(depths.least, _DEPTH_RANGE[0])) - low) / (high - low)
         self.image.setImage(np.clip(255.0 * fractions, 0.0, 255.0), levels=(0.0, 255.0))
         left, right = np.log10(depths.frequencies[[0, -1]])
         bottom, top = np.log10(depths.exposures[[0, -1]])
         self.image.setRect(QRectF(left, bottom, right - left, top - bottom))
         self.plot.setLabel("bottom", depths.axis.label)
-        self._name_ticks("bottom", HERTZ, _KINDS, left, right)
-        self._name_ticks("left", SECOND, _KINDS[:1], bottom, top)
+        self._name_ticks("bottom", HERTZ, _TICK_DIGITS, left, right)
+        self._name_ticks("left", SECOND, _TICK_DIGITS[:1], bottom, top)
         self.plot.setXRange(left, right, padding=0)
         self.plot.setYRange(bottom, top, padding=0)
         for order, line in enumerate(self.valleys, 1):
             line.setVisible(depths.period > 0)
-            above = np.log10(order * (depths.period or 1.0))
-            line.setData([left, right], [above - left, above - right])
+            periods = np.log10(order * (depths.period or 1.0))
+            line.setData([left, right], [periods - left, periods - right])
         self.setting.setData(
             [np.log10(depths.axis.frequency)], [np.log10(bars.scene.camera.exposure_time)]
         )
         self.plot.setAccessibleDescription(bars.advice.sentence)
 
     def _name_ticks(
-        self, side: str, unit: Unit, kinds: tuple[float, ...], low: float, high: float
+        self, side: str, unit: Unit, digits: tuple[float, ...], low: float, high: float
     ) -> None:
         powers = range(int(np.floor(low)), int(np.ceil(high)) + 1)
-        values = [kind * 10.0**power for power in powers for kind in kinds]
+        values = [digit * 10.0**power for power in powers for digit in digits]
         self.plot.getAxis(side).setTicks([[(float(np.log10(v)), unit.format(v)) for v in values]])
 
     def _on_click(self, event: object) -> None:
@@ -95,7 +95,7 @@ class DepthPlot(QWidget):
 
 
 class RiskPlot(QWidget):
-    """Each sine of the lamp's light and the light as a whole, above or below both lines."""
+    """The flicker of the lamp and of each sine of its light, with the two lines of IEEE 1789."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -106,24 +106,28 @@ class RiskPlot(QWidget):
         self.plot.setMouseEnabled(False, False)
         self.low_risk = self.plot.add_curve(thin_pen(BAND))
         self.no_effect = self.plot.add_curve(thin_pen(BAND, _DASHES))
-        self.sines, self.whole = (
-            self.plot.plot([], [], pen=None, symbol="o", symbolSize=size) for size in _SIZES
+        self.sines, self.lamp = (
+            self.plot.plot([], [], pen=None, symbol="o", symbolSize=size) for size in _SYMBOL_SIZES
         )
         self.plot.follow_palette(
             lambda palette: self.sines.setSymbolBrush(pg.mkBrush(lighten_for(palette, SIMULATION)))
         )
         self.plot.follow_palette(
-            lambda palette: self.whole.setSymbolPen(pg.mkPen(palette.text().color(), width=1.5))
+            lambda palette: self.lamp.setSymbolPen(pg.mkPen(palette.text().color(), width=1.5))
         )
-        self.whole.setSymbolBrush(pg.mkBrush(None))
+        self.lamp.setSymbolBrush(pg.mkBrush(None))
         self.sines.setSymbolPen(pg.mkPen(None))
         lines, points = LineLegend(), LineLegend()
         lines.add_line("low", thin_pen(BAND), "below: low risk")
         lines.add_line("none", thin_pen(BAND, _DASHES), "below: no effect")
-        points.add_sample("whole", marker("o", _SIZES[1], None), _SAMPLE, "the lamp as a whole")
-        points.add_sample("sines", marker("o", _SIZES[0], SIMULATION), _SAMPLE, "its sines")
+        points.add_sample(
+            "whole", marker("o", _SYMBOL_SIZES[1], None), _SAMPLE_SIZE, "the lamp as a whole"
+        )
+        points.add_sample(
+            "sines", marker("o", _SYMBOL_SIZES[0], SIMULATION), _SAMPLE_SIZE, "its sines"
+        )
         self.source = paragraph(
-            "Lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked."
+            "Lines of IEEE 1789-2015 as manufacturers quote them; not checked against its text."
         )
         legends = ((legend, 0, Qt.AlignmentFlag.AlignLeft) for legend in (lines, points))
         fill(QVBoxLayout(self), *legends, (self.plot, 1), self.source, margins=0, spacing=2)
@@ -134,18 +138,18 @@ class RiskPlot(QWidget):
             (self.no_effect, bars.lines.no_effect), (self.low_risk, bars.lines.low_risk)
         ):  # fmt: skip
             curve.setData(*np.log10(line).T)
-        # Sines of nothing have no place on an axis of powers of ten.
-        drawn = eye.modulations > _MODULATIONS[0]
-        self.sines.setData(np.log10(eye.frequencies[drawn]), np.log10(eye.modulations[drawn]))
-        flickers = eye.percent_flicker > _MODULATIONS[0]
-        self.whole.setData(
-            [np.log10(eye.frequency)] if flickers else [],
-            [np.log10(eye.percent_flicker)] if flickers else [],
+        # A logarithmic axis has no place for sines without amplitude.
+        is_drawn = eye.modulations > _MODULATION_RANGE[0]
+        self.sines.setData(np.log10(eye.frequencies[is_drawn]), np.log10(eye.modulations[is_drawn]))
+        has_flicker = eye.percent_flicker > _MODULATION_RANGE[0]
+        self.lamp.setData(
+            [np.log10(eye.frequency)] if has_flicker else [],
+            [np.log10(eye.percent_flicker)] if has_flicker else [],
         )
-        low, high = _FREQUENCIES
-        across = np.log10([low, max(high, _FREQUENCY_MARGIN * eye.frequency)])
-        self.plot.setXRange(*across, padding=0)
-        self.plot.setYRange(*np.log10(_MODULATIONS), padding=0)
+        low, high = _FREQUENCY_RANGE
+        x_range = np.log10([low, max(high, _FREQUENCY_MARGIN * eye.frequency)])
+        self.plot.setXRange(*x_range, padding=0)
+        self.plot.setYRange(*np.log10(_MODULATION_RANGE), padding=0)
         self.plot.setAccessibleDescription(
             f"The light as a whole: {eye.risk}; each of its sines: {eye.parts_risk}"
         )

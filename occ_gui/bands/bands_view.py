@@ -34,11 +34,11 @@ _USUAL_SHUTTER_TIME = 1 / 60  # shutter time in seconds that the table shows in 
 
 
 class BandsView(QWidget):
-    exposure_chosen = Signal(float)  # the user takes an exposure time, in seconds
+    exposure_chosen = Signal(float)  # the exposure time that the user chooses, in seconds
 
     def __init__(self) -> None:
         super().__init__()
-        self.lamp, self.of_scene = LampBars(), Answer()
+        self.lamp, self.scene_answer = LampBars(), Answer()
         self.map = DepthPlot()
         self.map.chosen.connect(self.exposure_chosen)
         self._make_table()
@@ -46,12 +46,12 @@ class BandsView(QWidget):
         self.map.setMinimumHeight(_LEAST_HEIGHT)
         self.risk = RiskPlot()
         self.risk.setMinimumHeight(_LEAST_HEIGHT)
-        beside = fill(QVBoxLayout(), (self.table, 3), (self.risk, 2))
+        right_column = fill(QVBoxLayout(), (self.table, 3), (self.risk, 2))
         self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._row.addWidget(self.map, 3)
-        self._row.addLayout(beside, 2)
+        self._row.addLayout(right_column, 2)
         titles = (embolden(QLabel(text)) for text in ("My lamp makes bars", "The scene"))
-        parts = zip(titles, (self.lamp, self.of_scene), strict=True)
+        parts = zip(titles, (self.lamp, self.scene_answer), strict=True)
         fill(QVBoxLayout(self), *chain.from_iterable(parts), (self._row, 1), margins=8)
         self.outdated = OutdatedMark(self)
 
@@ -66,7 +66,7 @@ class BandsView(QWidget):
         self.table = make_read_only(
             QTableWidget(0, 4),
             "Depth of the bars at usual shutter speeds",
-            "Many cameras keep a power of two for what is written: 1/64 s for 1/60 s. "
+            "Many cameras expose for a power of two, not the written time: 1/64 s for 1/60 s. "
             "A double click, or Enter, sets a speed; ISO speed and aperture follow.",
         )
         self.table.setHorizontalHeaderLabels(["Shutter", "as written", "power of two", "Bars"])
@@ -75,17 +75,17 @@ class BandsView(QWidget):
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setResizeContentsPrecision(-1)  # of all rows, not of those in view
         header.setSectionResizeMode(header.count() - 1, QHeaderView.ResizeMode.Stretch)
-        self.table.itemActivated.connect(self._take)
+        self.table.itemActivated.connect(self._choose_speed)
         self._speeds: tuple[SpeedDepth, ...] = ()
 
-    def _take(self, item: QTableWidgetItem) -> None:
+    def _choose_speed(self, item: QTableWidgetItem) -> None:
         self.exposure_chosen.emit(self._speeds[item.row()].nominal)
 
     def show_failure(self, sentence: str) -> None:
-        self.of_scene.show_answer(sentence)
+        self.scene_answer.show_answer(sentence)
 
     def show_bands(self, bars: SceneBars) -> None:
-        self.of_scene.show_answer(self._headline(bars), self._sentences(bars))
+        self.scene_answer.show_answer(self._write_headline(bars), self._write_sentences(bars))
         self.map.show_depths(bars)
         self.risk.show_flicker(bars)
         is_first = not self._speeds
@@ -94,7 +94,7 @@ class BandsView(QWidget):
         for row, speed in enumerate(self._speeds):
             cells = (
                 speed.name, format_depth(speed.at_nominal), format_depth(speed.at_real),
-                *_verdict(speed),
+                *_judge_speed(speed),
             )  # fmt: skip
             *texts, meaning = cells
             for column, text in enumerate(texts):
@@ -118,7 +118,7 @@ class BandsView(QWidget):
         )
         self.table.setMinimumWidth(columns + bar.sizeHint().width() + 2 * self.table.frameWidth())
 
-    def _headline(self, bars: SceneBars) -> str:
+    def _write_headline(self, bars: SceneBars) -> str:
         depth = bars.depth.peak_to_peak
         exposure = SECOND.format(bars.scene.camera.exposure_time, _DIGITS)
         if depth < bars.advice.limit:
@@ -127,7 +127,7 @@ class BandsView(QWidget):
         hidden = bars.depth.hidden
         return f"{headline}, not visible: {hidden}" if hidden else headline
 
-    def _sentences(self, bars: SceneBars) -> list[str]:
+    def _write_sentences(self, bars: SceneBars) -> list[str]:
         depth, advice = bars.depth, bars.advice
         lines = [
             f"RMS {format_depth(depth.rms)}; in the picture's columns "
@@ -138,17 +138,17 @@ class BandsView(QWidget):
         if advice.all_exposures:
             limit = f"{100.0 * advice.limit:.3g} %"
             lines[-1] += (
-                f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows {limit}."
+                f" No exposure of {SECOND.format(advice.all_exposures, 3)} or more shows {limit}."
             )
         if bars.scene.transmitter.edge_time:
-            lines.append("The map is of sharp edges: the LED's own make weaker bars.")
+            lines.append("The map assumes sharp edges; the LED's own edges make weaker bars.")
         return [*lines, " ".join(bars.eye.sentences)]
 
 
-def _verdict(speed: SpeedDepth) -> tuple[str, str]:
+def _judge_speed(speed: SpeedDepth) -> tuple[str, str]:
     if speed.is_free:
         return "none", f"{speed.name} shows no bars."
     if not speed.is_doubtful:
         return "yes", f"{speed.name} shows bars."
-    which = "the time that is written" if speed.at_nominal < speed.at_real else "a power of two"
-    return "depends", f"{speed.name} shows no bars if the camera keeps {which}."
+    duration = "the written time" if speed.at_nominal < speed.at_real else "a power of two"
+    return "depends", f"{speed.name} shows no bars if the camera exposes for {duration}."

@@ -1,4 +1,4 @@
-"""All that the pane of the bars shows of a scene."""
+"""What the pane of the bars shows: the bars of a scene, and the answer about the user's lamp."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from occ_model.study.bands.least_depth import depth_map
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SceneBars:
-    """The bars of a scene, what shows none, the map of the least depth, and the flicker."""
+    """The bars of a scene, settings without bars, the map of the least depth, and the flicker."""
 
     scene: Scene
     depth: BandDepth
@@ -40,15 +40,15 @@ class LampQuestion:
     light: Mapping[str, ParameterValue]
     exposure_time: float
     readout_time: float | None
-    rows: int  # of a panel, lit in turn; 0 for other lamps
+    rows: int  # number of rows of a panel, lit in turn; 0 for other lamps
 
-    def scene(self, scene: Scene) -> Scene:
+    def apply_to(self, scene: Scene) -> Scene:
         """Return a scene with this lamp and camera."""
         readout = {} if self.readout_time is None else {"readout_time": self.readout_time}
         return scene.replace(**self.light, exposure_time=self.exposure_time, **readout)
 
 
 def answer_question(question: LampQuestion) -> BarsAnswer:
-    scene = question.scene(Scene()).replace(illuminance=0.0)
+    scene = question.apply_to(Scene()).replace(illuminance=0.0)
     knows_readout = question.readout_time is not None
     return bars_answer(scene, knows_readout=knows_readout, rows=question.rows)

@@ -22,8 +22,13 @@ _LAMPS = {
     "dimmed": "dimmed",
     "rows": "panel, row by row",
 }
-_FIRST = {"lamp_frequency": 240.0, "duty": 0.3, "exposure_time": 1 / 125, "readout_time": 12e-6}
-_SHUTTERS = (1 / 8000, 1.0)  # seconds that the arrows of the field reach
+_FIRST_VALUES = {
+    "lamp_frequency": 240.0,
+    "duty": 0.3,
+    "exposure_time": 1 / 125,
+    "readout_time": 12e-6,
+}
+_SHUTTER_RANGE = (1 / 8000, 1.0)  # in seconds, of the field's arrows
 _FORM_WIDTH = 300
 
 
@@ -32,7 +37,7 @@ class ShutterEdit(QuantityEdit):
 
     def __init__(self) -> None:
         seconds = replace(SECOND, prefixes=("",))
-        super().__init__(replace(quantity("exposure_time"), unit=seconds, slider=_SHUTTERS))
+        super().__init__(replace(quantity("exposure_time"), unit=seconds, slider=_SHUTTER_RANGE))
 
     def _show(self) -> None:
         super()._show()
@@ -43,21 +48,23 @@ class LampForm(QWidget):
     """Asks for the lamp and the camera."""
 
     edited = Signal()
-    wanted = Signal()  # the user wants to see it in the scene
+    scene_requested = Signal()  # the user wants to see the lamp in the scene
 
     def __init__(self) -> None:
         super().__init__()
         self.lamp = KeyedComboBox("My lamp", "What the lamp's light does.", _LAMPS)
         self.lamp.chosen.connect(self._choose)
-        self.fields = {name: self._add_field(name) for name in _FIRST}
+        self.fields = {name: self._add_field(name) for name in _FIRST_VALUES}
         self.rows = name_widget(CountEdit(ROWS), ROWS.label, ROWS.meaning)
         self.rows.setValue(ROWS.default)
         self.rows.valueChanged.connect(self.edited)
-        self._notice(self.rows)
+        self._add_notice(self.rows)
         self.knows_readout = check_box(
             "Readout time", "Time from one line to the next, where you know it.", self._choose
         )
-        self.show_it = push_button("Show it", "Send this light in the scene.", self.wanted)
+        self.show_button = push_button(
+            "Show it", "Send this light in the scene.", self.scene_requested
+        )
         self._form = QFormLayout()
         self._form.addRow("My lamp", self.lamp)
         self._form.addRow(quantity("lamp_frequency").label, self.fields["lamp_frequency"])
@@ -66,39 +73,43 @@ class LampForm(QWidget):
         self._form.addRow("Shutter", self.fields["exposure_time"])
         self._form.addRow(self.knows_readout, self.fields["readout_time"])
         fill(
-            QVBoxLayout(self), self._form, fill(QHBoxLayout(), None, self.show_it), None, margins=0
+            QVBoxLayout(self),
+            self._form,
+            fill(QHBoxLayout(), None, self.show_button),
+            None,
+            margins=0,
         )
         self.setMaximumWidth(_FORM_WIDTH)
         self._choose()
 
     def _add_field(self, name: str) -> QuantityEdit:
-        declared = quantity(name)
-        field = ShutterEdit() if name == "exposure_time" else QuantityEdit(declared)
-        name_widget(field, declared.label, declared.meaning)
-        field.set_value(_FIRST[name])
+        parameter = quantity(name)
+        field = ShutterEdit() if name == "exposure_time" else QuantityEdit(parameter)
+        name_widget(field, parameter.label, parameter.meaning)
+        field.set_value(_FIRST_VALUES[name])
         field.edited.connect(self.edited)
-        self._notice(field)
+        self._add_notice(field)
         return field
 
-    def _notice(self, field: QuantityEdit | CountEdit) -> None:
+    def _add_notice(self, field: QuantityEdit | CountEdit) -> None:
         notice = RefusalNotice(field)
         field.refused.connect(notice.show_problem)
         self.edited.connect(notice.end)
 
     def _choose(self, _: object = None) -> None:
         kind = self.lamp.key()
-        for field, applies in (
+        for field, is_visible in (
             (self.fields["lamp_frequency"], kind in ("dimmed", "rows")),
             (self.fields["duty"], kind == "dimmed"),
             (self.rows, kind == "rows"),
         ):
-            self._form.setRowVisible(field, applies)
+            self._form.setRowVisible(field, is_visible)
         self.fields["readout_time"].setEnabled(self.knows_readout.isChecked())
         self.edited.emit()
 
     @property
     def question(self) -> LampQuestion:
-        kind, values = self.lamp.key(), {name: each.value() for name, each in self.fields.items()}
+        kind, values = self.lamp.key(), {name: field.value() for name, field in self.fields.items()}
         rows = self.rows.value() if kind == "rows" else 0
         light: dict[str, ParameterValue] = {
             "light": "lamp", "lamp_frequency": values["lamp_frequency"],

@@ -1,4 +1,4 @@
-"""The pane of the bars: computed on threads, a quarter of a second for a scene."""
+"""The pane of the bars, which are computed on threads, in a quarter of a second for a scene."""
 
 from PySide6.QtCore import QSize
 
@@ -17,13 +17,13 @@ _LEAST = QSize(320, 200)
 
 
 class BandsPane(Pane[Scene]):
-    """Shows the bars of a scene; a speed that the user takes becomes the scene's exposure."""
+    """Shows the bars of a scene; a speed that the user chooses becomes the scene's exposure."""
 
     def __init__(self, scenes: SceneStore) -> None:
         self.view = BandsView()
         super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
-        self._ages, self._shown = ResultAges(scenes.scene), scenes.scene
+        self._ages, self._shown_scene = ResultAges(scenes.scene), scenes.scene
         self._task: Task[Scene, SceneBars] = Task(lambda scene, _: compute_bars(scene), "bars")
         self._answers: Task[LampQuestion, BarsAnswer] = Task(
             lambda question, _: answer_question(question), "answer of bars"
@@ -31,17 +31,17 @@ class BandsPane(Pane[Scene]):
         self.tasks = (self._task, self._answers)
         self._task.finished.connect(self._show)
         self._task.failed.connect(self._fail)
-        self.view.exposure_chosen.connect(self._take)
+        self.view.exposure_chosen.connect(self._set_exposure)
         lamp = self.view.lamp
         self._answers.finished.connect(lamp.show_answer)
         self._answers.failed.connect(lamp.answer.show_answer)
         lamp.form.edited.connect(self._ask)
-        lamp.form.wanted.connect(self._show_lamp)
+        lamp.form.scene_requested.connect(self._show_lamp)
         self._ask()
 
     def show_part(self, part: Scene) -> None:
         self._ages.begin(part)
-        self._mark("computing…")
+        self._show_age("computing…")
         self._task.ask(part)
 
     def _ask(self) -> None:
@@ -50,20 +50,20 @@ class BandsPane(Pane[Scene]):
     def _show_lamp(self) -> None:
         question = self.view.lamp.form.question
         scene = as_bright(self._scenes.scene, question.exposure_time)
-        self._scenes.put(question.scene(scene), "lamp that makes bars")
+        self._scenes.put(question.apply_to(scene), "lamp that makes bars")
 
     def _show(self, bars: SceneBars) -> None:
-        self._shown = bars.scene
+        self._shown_scene = bars.scene
         self.view.show_bands(bars)
-        self._mark("computing…")
+        self._show_age("computing…")
 
     def _fail(self, sentence: str) -> None:
         self.view.show_failure(sentence)
-        self._mark("of an earlier scene")
+        self._show_age("of an earlier scene")
 
-    def _mark(self, text: str) -> None:
-        self.view.outdated.show_age(self._ages.age(self._shown), text)
+    def _show_age(self, text: str) -> None:
+        self.view.outdated.show_age(self._ages.age(self._shown_scene), text)
 
-    def _take(self, exposure: float) -> None:
+    def _set_exposure(self, exposure: float) -> None:
         scene = as_bright(self._scenes.scene, exposure)
         self._scenes.put(scene, "shutter speed without bars")

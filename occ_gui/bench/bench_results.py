@@ -17,7 +17,7 @@ from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, ligh
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bit_errors import BenchBounds, BenchPoint, BenchRequest
 
-RATES, BITS = "rates", "bits"  # what is drawn: bit error rates, or bits a second
+RATES, BITS = "rates", "bits"  # the quantity to draw: bit error rates, or bits a second
 
 AXES = ("exposure", "noise")
 
@@ -28,7 +28,7 @@ FLOOR = {RATES: -6, BITS: 0}  # power of ten at which all smaller values are dra
 _MARGIN = 0.06  # margin beside the points, as a fraction of their range
 _TOP_MARGIN = 0.3  # margin above the points, in powers of ten
 
-_SIZE = 8
+_SYMBOL_SIZE = 8
 _FARTHEST_POWER, _LEAST_RANGE = 12.0, 0.01
 
 
@@ -46,35 +46,39 @@ class _Curve:
 
 @dataclass(frozen=True, slots=True)
 class CurvePoint:
-    """A point of a plot, in powers of ten."""
+    """A point of a plot; rates and their intervals in powers of ten."""
 
-    at: float
+    x: float  # the exposure in symbols or the signal-to-noise ratio in dB
     value: float  # the rate, or the bits a second; NaN if no error occurred
     low: float  # lower end of the interval
     high: float  # upper end of the interval
 
 
-def curve_point(point: BenchPoint, what: str, frames_a_second: float) -> CurvePoint:
-    errors, floor = point.errors, FLOOR[what]
-    if what == RATES:
-        value = _power(errors.rate, floor) if errors.errors else math.nan
-        return CurvePoint(point.place, value, _power(errors.low, floor), _power(errors.high, floor))
+def make_curve_point(point: BenchPoint, quantity: str, frames_a_second: float) -> CurvePoint:
+    errors, floor = point.errors, FLOOR[quantity]
+    if quantity == RATES:
+        value = _take_logarithm(errors.rate, floor) if errors.errors else math.nan
+        return CurvePoint(
+            point.place,
+            value,
+            _take_logarithm(errors.low, floor),
+            _take_logarithm(errors.high, floor),
+        )
     low, high = errors.bits_a_second_interval(frames_a_second)
-    value = _power(errors.bits_a_second(frames_a_second), floor)
-    return CurvePoint(point.place, value, _power(low, floor), _power(high, floor))
+    value = _take_logarithm(errors.bits_a_second(frames_a_second), floor)
+    return CurvePoint(point.place, value, _take_logarithm(low, floor), _take_logarithm(high, floor))
 
 
-def _power(value: float, floor: int) -> float:
+def _take_logarithm(value: float, floor: int) -> float:
     return max(math.log10(value), floor) if value > 0.0 else float(floor)
 
 
 class BenchPlots(QWidget):
-    def __init__(self, what: str) -> None:
+    def __init__(self, quantity: str) -> None:
         super().__init__()
-        self._what = what
+        self._quantity = quantity
         self._decoders: tuple[str, ...] = ()
-        rates = what == RATES
-        left = "bit error rate" if rates else "bits a second"
+        left = "bit error rate" if quantity == RATES else "bits a second"
         names = {
             "exposure": ("over the exposure", "exposure (symbols)"),
             "noise": ("over the noise", "signal-to-noise ratio (dB)"),
@@ -86,7 +90,11 @@ class BenchPlots(QWidget):
         row = fill(QHBoxLayout(self), margins=0)
         for axis, (name, bottom) in names.items():
             plot = new_plot(
-                f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", FLOOR[what])
+                f"{left} {name}",
+                bottom,
+                left,
+                self.palette(),
+                left=LogAxis("left", FLOOR[quantity]),
             )
             plot.limit("left", _FARTHEST_POWER, _LEAST_RANGE)
             plot.showGrid(x=True, y=True, alpha=0.15)
@@ -128,71 +136,71 @@ class BenchPlots(QWidget):
         curve = _Curve(
             pg.PlotCurveItem(),
             pg.PlotCurveItem(connect="pairs"),
-            pg.ScatterPlotItem(symbol=symbol, size=_SIZE, pen=None),
-            pg.ScatterPlotItem(symbol="t", size=_SIZE, brush=None),
+            pg.ScatterPlotItem(symbol=symbol, size=_SYMBOL_SIZE, pen=None),
+            pg.ScatterPlotItem(symbol="t", size=_SYMBOL_SIZE, brush=None),
         )
         for item in curve.items:
             plot.addItem(item, ignoreBounds=True)
         return curve
 
     def show_bounds(self, bounds: BenchBounds, frames_a_second: float) -> None:
-        """Draw the nulls and, in the plots of bits a second, the most that light can carry."""
+        """Draw the nulls and, in the plots of bits a second, the upper bound."""
         plot = self.plots["exposure"]
         for null in self._nulls:
             plot.removeItem(null)
-        self._nulls = [pg.InfiniteLine(at, angle=90) for at in bounds.nulls]
+        self._nulls = [pg.InfiniteLine(x, angle=90) for x in bounds.nulls]
         for null in self._nulls:
             plot.addItem(null, ignoreBounds=True)
-        if self._what == BITS:
-            for axis, (at, most) in bounds.most_bits.items():
-                power = [_power(frames_a_second * one, FLOOR[BITS]) for one in most]
-                self.bounds[axis].setData(list(at), power)
+        if self._quantity == BITS:
+            for axis, (x, most) in bounds.most_bits.items():
+                powers = [_take_logarithm(frames_a_second * bits, FLOOR[BITS]) for bits in most]
+                self.bounds[axis].setData(list(x), powers)
         self._dress(self.palette())
         self._fit()
 
     def show_points(self, points: Sequence[BenchPoint], frames_a_second: float) -> None:
         for axis in AXES:
             for decoder, curve in zip(self._decoders, self.curves[axis], strict=True):
-                some = [
-                    curve_point(point, self._what, frames_a_second)
+                curve_points = [
+                    make_curve_point(point, self._quantity, frames_a_second)
                     for point in points
                     if (point.axis, point.errors.decoder) == (axis, decoder)
                 ]
-                _draw(curve, sorted(some, key=lambda one: one.at))
+                _draw(curve, sorted(curve_points, key=lambda point: point.x))
         self._fit()
 
     def _fit(self) -> None:
         values: list[float] = []
         for axis, plot in self.plots.items():
-            at: list[float] = []
+            places: list[float] = []
             curves = self.curves[axis]
             for item in (*(i for c in curves for i in c.items), self.bounds[axis]):
                 x, y = item.getData()
-                at += list(x)
+                places += list(x)
                 values += list(y)
-            if at:
-                margin = _MARGIN * (max(at) - min(at)) or 1.0
-                plot.setXRange(min(at) - margin, max(at) + margin, padding=0)
-        floor = FLOOR[self._what]
+            if places:
+                margin = _MARGIN * (max(places) - min(places)) or 1.0
+                plot.setXRange(min(places) - margin, max(places) + margin, padding=0)
+        floor = FLOOR[self._quantity]
         # An interval whose lower end is zero is cut off at the bottom.
-        shown = values if self._what == BITS else [value for value in values if value > floor]
+        visible = values if self._quantity == BITS else [value for value in values if value > floor]
         for plot in self.plots.values():
-            low, high = min(shown, default=floor), max(shown, default=floor + 1.0)
+            low, high = min(visible, default=floor), max(visible, default=floor + 1.0)
             plot.setYRange(low - _TOP_MARGIN, high + _TOP_MARGIN, padding=0)
 
 
 def _draw(curve: _Curve, points: Sequence[CurvePoint]) -> None:
     places = [place for place, point in enumerate(points) if not math.isnan(point.value)]
-    x, y = [points[place].at for place in places], [points[place].value for place in places]
+    x, y = [points[place].x for place in places], [points[place].value for place in places]
     # The line is interrupted at points without an error, because their rate is not known.
-    joined = [int(after == place + 1) for place, after in pairwise((*places, -1))]
-    curve.line.setData(x, y, connect=np.array(joined, dtype=np.int32))
+    is_joined = [int(after == place + 1) for place, after in pairwise((*places, -1))]
+    curve.line.setData(x, y, connect=np.array(is_joined, dtype=np.int32))
     curve.with_errors.setData(x, y)
-    at = [place for point in points for place in (point.at, point.at)]
-    curve.intervals.setData(at, [end for point in points for end in (point.low, point.high)])
+    ends_x = [point.x for point in points for _ in range(2)]
+    curve.intervals.setData(ends_x, [end for point in points for end in (point.low, point.high)])
     without_errors = [point for point in points if math.isnan(point.value)]
     curve.without_errors.setData(
-        [point.at for point in without_errors], [point.high for point in without_errors]
+        [point.x for point in without_errors], [point.high for point in without_errors]
     )
 
 
@@ -220,11 +228,13 @@ class BenchTable(QTableWidget):
         for column in (0, 1):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
 
-    def show_points(self, points: Sequence[BenchPoint], what: str, frames_a_second: float) -> None:
+    def show_points(
+        self, points: Sequence[BenchPoint], quantity: str, frames_a_second: float
+    ) -> None:
         for point in points:
             row = self._places[point.axis, point.exposure, point.decibels]
             column = 2 + self._decoders.index(point.errors.decoder)
-            self._put(row, column, cell_text(point, what, frames_a_second), point.explanation)
+            self._put(row, column, format_cell(point, quantity, frames_a_second), point.explanation)
 
     def _put(self, row: int, column: int, text: str, tip: str = "") -> None:
         item = QTableWidgetItem(text)
@@ -233,9 +243,9 @@ class BenchTable(QTableWidget):
         self.setItem(row, column, item)
 
 
-def cell_text(point: BenchPoint, what: str, frames_a_second: float) -> str:
+def format_cell(point: BenchPoint, quantity: str, frames_a_second: float) -> str:
     errors = point.errors
-    if what == RATES:
+    if quantity == RATES:
         return f"{errors.rate:.2g} ({errors.low:.2g} – {errors.high:.2g})"  # noqa: RUF001
     low, high = errors.bits_a_second_interval(frames_a_second)
     return f"{errors.bits_a_second(frames_a_second):,.0f} ({low:,.0f} – {high:,.0f})"  # noqa: RUF001

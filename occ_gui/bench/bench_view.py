@@ -22,7 +22,7 @@ _GAP = 8  # pixels between check boxes
 
 _LEAST_HEIGHT_WITH_TABLE = 420  # least height in pixels with the table below the plots
 
-_SAMPLE = QSize(14, 14)
+_SAMPLE_SIZE = QSize(14, 14)
 
 
 PUBLISHED, OF_SCENE = "published", "scene"
@@ -39,9 +39,9 @@ class BenchChoice:
 
 
 class BenchView(QWidget):
-    choice_changed = Signal(object)  # the user has chosen what is measured next: a BenchChoice
+    choice_changed = Signal(object)  # the user's choice for the next measurement, a BenchChoice
 
-    asked = Signal()
+    measurement_requested = Signal()
 
     cancelled = Signal()  # the user stops the measurement
 
@@ -49,11 +49,11 @@ class BenchView(QWidget):
         super().__init__()
         self._points: list[BenchPoint] = []
         self._bounds: BenchBounds | None = None
-        self._rate = FRAME_RATE.default
-        self._setting = self._progress = self._ended = self._refusal = ""
+        self._frames_a_second = FRAME_RATE.default
+        self._setting = self._progress = self._end_sentence = self._refusal = ""
         self._is_outdated = False
         self._make_choices(decoders, chosen)
-        self.plots = {what: BenchPlots(what) for what in (RATES, BITS)}
+        self.plots = {quantity: BenchPlots(quantity) for quantity in (RATES, BITS)}
         self._pages = QStackedWidget()
         for plots in self.plots.values():
             self._pages.addWidget(plots)
@@ -65,10 +65,10 @@ class BenchView(QWidget):
         self.state = name_widget(
             ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the bench"
         )
-        self.work = WorkBar("Places that are measured")
+        self.work = WorkBar("Measured places")
         self.work.cancelled.connect(self.cancelled)
         self._lay_out()
-        self._show_what()
+        self._show_quantity()
         self._show_state()
 
     def _make_invitation(self) -> QLabel:
@@ -93,7 +93,7 @@ class BenchView(QWidget):
             {str(bits): f"{bits:,} bits a point" for bits in _EFFORTS},
         )
         self.effort.show_key(str(BenchChoice().bits))
-        self.what = KeyedComboBox(
+        self.quantity = KeyedComboBox(
             "What is shown",
             "Bit error rates, or the bits that arrive in a second of video.",
             {RATES: "bit error rate", BITS: "bits a second"},
@@ -107,21 +107,21 @@ class BenchView(QWidget):
             QuantityEdit(FRAME_RATE), FRAME_RATE.label, FRAME_RATE.meaning
         )
         self.measure = push_button(
-            "Measure", "Measure the chosen decoders in the background.", self.asked
+            "Measure", "Measure the chosen decoders in the background.", self.measurement_requested
         )
         for choice in (self.code_source, self.effort):
             choice.chosen.connect(self._emit_choice)
-        self.what.chosen.connect(self._show_what)
+        self.quantity.chosen.connect(self._show_quantity)
 
     def _lay_out(self) -> None:
         head = fill(QHBoxLayout(), (self.code_source, 3), (self.effort, 2), self.measure)
         boxes = (part for box in self.decoders.values() for part in (box, _GAP))
-        second = fill(QHBoxLayout(), *boxes, (None, 1), self.frame_rate, (self.what, 1))
+        second_row = fill(QHBoxLayout(), *boxes, (None, 1), self.frame_rate, (self.quantity, 1))
         self._legend_place = fill(QHBoxLayout(), self.legend, (None, 1))
         foot = fill(QHBoxLayout(), (self.state, 1), self.work)
         fill(
-            QVBoxLayout(self), head, second, (self._pages, 3), self._legend_place, (self.table, 2),
-            foot, margins=(4, 2, 4, 2), spacing=2,
+            QVBoxLayout(self), head, second_row, (self._pages, 3), self._legend_place,
+            (self.table, 2), foot, margins=(4, 2, 4, 2), spacing=2,
         )  # fmt: skip
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -135,22 +135,24 @@ class BenchView(QWidget):
     def _emit_choice(self) -> None:
         self.choice_changed.emit(self.choice())
 
-    def _show_what(self) -> None:
-        what = self.what.key()
+    def _show_quantity(self) -> None:
+        quantity = self.quantity.key()
         self._show_page()
-        self.frame_rate.setVisible(what == BITS)
+        self.frame_rate.setVisible(quantity == BITS)
         self._show_bound_entry()
         self._draw()
         self._show_state()
 
     def _show_page(self) -> None:
         """Show plots and table; before the first measurement, say what they are for."""
-        there = bool(self._setting)
-        self._pages.setCurrentWidget(self.plots[self.what.key()] if there else self.invitation)
-        self.table.setVisible(there and self.height() >= _LEAST_HEIGHT_WITH_TABLE)
+        has_results = bool(self._setting)
+        self._pages.setCurrentWidget(
+            self.plots[self.quantity.key()] if has_results else self.invitation
+        )
+        self.table.setVisible(has_results and self.height() >= _LEAST_HEIGHT_WITH_TABLE)
 
     def show_begun(self, request: BenchRequest) -> None:
-        self._points, self._bounds, self._ended = [], None, ""
+        self._points, self._bounds, self._end_sentence = [], None, ""
         self._setting = (
             f"{', '.join(request.schemes)}, {inflect(request.payload_bits, 'bit')}, "
             f"{request.rows_a_symbol:.3g} rows a symbol (the row rate needs 1 or more)"
@@ -170,9 +172,9 @@ class BenchView(QWidget):
         for number, name in enumerate(decoders):
             symbol = SYMBOLS[number % len(SYMBOLS)]
             sample = marker(symbol, 8, COLOURS[number % len(COLOURS)])
-            self.legend.add_sample(name, sample, _SAMPLE, name)
+            self.legend.add_sample(name, sample, _SAMPLE_SIZE, name)
         self.legend.add_sample(
-            "unseen", marker("t", 8, None), _SAMPLE, "no error: less than",
+            "no_error", marker("t", 8, None), _SAMPLE_SIZE, "no error: less than",
             "No bit was wrong; the mark is at the upper end of the rate's 95 % interval.",
         )  # fmt: skip
         ink = self.palette().color(QPalette.ColorRole.Text)
@@ -180,14 +182,14 @@ class BenchView(QWidget):
             "nulls", thin_pen(ink, Qt.PenStyle.DotLine), "alternating chips leave no stripes"
         )
         self.legend.add_line(
-            "most", thin_pen(ink, Qt.PenStyle.DashLine), "most that Gaussian light carries"
+            "most", thin_pen(ink, Qt.PenStyle.DashLine), "upper bound for Gaussian light"
         )
         self._show_bound_entry()
 
     def _show_bound_entry(self) -> None:
         if self._setting:
-            self.legend.show_line("most", self.what.key() == BITS)
-            self.legend.show_line("unseen", self.what.key() == RATES)
+            self.legend.show_line("most", self.quantity.key() == BITS)
+            self.legend.show_line("no_error", self.quantity.key() == RATES)
 
     def show_bounds(self, bounds: BenchBounds) -> None:
         self._bounds = bounds
@@ -198,28 +200,28 @@ class BenchView(QWidget):
         self._draw()
 
     def _draw(self) -> None:
-        what = self.what.key()
+        quantity = self.quantity.key()
         if self._bounds is not None:
-            self.plots[what].show_bounds(self._bounds, self._rate)
-        is_possible = what == RATES or not self._refusal
-        self.plots[what].show_points(self._points if is_possible else [], self._rate)
+            self.plots[quantity].show_bounds(self._bounds, self._frames_a_second)
+        is_possible = quantity == RATES or not self._refusal
+        self.plots[quantity].show_points(self._points if is_possible else [], self._frames_a_second)
         if is_possible:
-            self.table.show_points(self._points, what, self._rate)
+            self.table.show_points(self._points, quantity, self._frames_a_second)
 
-    def show_progress(self, done: int, of: int) -> None:
-        self.work.show_progress(done / of)
-        self._progress = f"{done} of {of} places measured"
+    def show_progress(self, done: int, total: int) -> None:
+        self.work.show_progress(done / total)
+        self._progress = f"{done} of {total} places measured"
         self._show_state()
 
     def show_ended(self, sentence: str) -> None:
         """Show that the measurement has ended, and why some points are missing."""
         self.work.end()
         self.measure.setEnabled(True)
-        self._ended = sentence
+        self._end_sentence = sentence
         self._show_state()
 
     def show_frame_rate(self, frames_a_second: float, refusal: str) -> None:
-        self._rate, self._refusal = frames_a_second, refusal
+        self._frames_a_second, self._refusal = frames_a_second, refusal
         self.frame_rate.set_value(frames_a_second)
         self._draw()
         self._show_state()
@@ -232,10 +234,10 @@ class BenchView(QWidget):
         self._show_state()
 
     def _show_state(self) -> None:
-        text = self._ended
+        text = self._end_sentence
         if self._setting:
-            refusal = self._refusal if self.what.key() == BITS else ""
-            parts = (refusal, self._ended, self._progress, self._setting)
+            refusal = self._refusal if self.quantity.key() == BITS else ""
+            parts = (refusal, self._end_sentence, self._progress, self._setting)
             text = "; ".join(part.removesuffix(".") for part in parts if part) + "."
             if self._is_outdated:
                 text = f"Earlier setting: {text}"

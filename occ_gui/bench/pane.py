@@ -29,58 +29,58 @@ def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
     request = BenchRequest(decoders=choice.decoders, bits=choice.bits)
     if choice.code_source == PUBLISHED:
         return request
-    sent, camera = scene.transmitter, scene.camera
-    if sent.pattern:
+    transmitter, camera = scene.transmitter, scene.camera
+    if transmitter.pattern:
         raise ParameterError("The scene sends a raw chip pattern, which has no bits to count.")
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
     if region is None:
         raise ParameterError("The scene's picture shows no panel.")
     return replace(
         request,
-        schemes=(f"{sent.line_code}/{sent.framing}",),
-        payload_bits=sent.payload_length,
-        preamble=sent.preamble,
-        error_correction=sent.error_correction,
-        rows_a_symbol=sent.switching_period / camera.readout_time,
+        schemes=(f"{transmitter.line_code}/{transmitter.framing}",),
+        payload_bits=transmitter.payload_length,
+        preamble=transmitter.preamble,
+        error_correction=transmitter.error_correction,
+        rows_a_symbol=transmitter.switching_period / camera.readout_time,
         rows=region.columns,
         readout_time=camera.readout_time,
     )
 
 
 def setting_of(request: BenchRequest) -> BenchRequest:
-    """Return a request without decoders and effort, which do not make a curve outdated."""
+    """Return a request without decoders and number of bits, which do not make a curve outdated."""
     return replace(request, decoders=(), bits=1)
 
 
 class BenchController(QObject):
-    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: BenchView) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, view: BenchView) -> None:
         super().__init__()
         self._scenes = scenes
         self._frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
-        self.channel, self._pane = channel, pane
+        self.channel, self._view = channel, view
         self._choice = BenchChoice()
         self._request: BenchRequest | None = None
         self._points: list[BenchPoint] = []
-        channel.results_ready.connect(self._take)
+        channel.results_ready.connect(self._enter_results)
         channel.finished.connect(self._finish)
-        channel.failed.connect(pane.show_ended)
-        scenes.changed.connect(self._mark)
+        channel.failed.connect(view.show_ended)
+        scenes.changed.connect(self._mark_outdated)
         self._frame_rate.changed.connect(self._show_frame_rate)
-        pane.show_frame_rate(self._frame_rate.value, "")
+        view.show_frame_rate(self._frame_rate.value, "")
 
     @property
     def complete(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
         """The request and all its points; None while points are missing."""
         request = self._request
-        wanted = 0 if request is None else len(request.points) * len(request.decoders)
-        if request is None or len(self._points) != wanted:
+        total = 0 if request is None else len(request.points) * len(request.decoders)
+        if request is None or len(self._points) != total:
             return None
         return request, tuple(self._points)
 
     def choose(self, choice: BenchChoice) -> None:
         """Set what is measured next; mark results that belong to another choice."""
         self._choice = choice
-        self._mark()
+        self._mark_outdated()
 
     def start(self) -> None:
         self.channel.cancel()
@@ -88,16 +88,16 @@ class BenchController(QObject):
             request = request_of(self._choice, self._scenes.scene)
             check_bench(request)
         except OccError as refusal:
-            self._pane.show_ended(str(refusal))
+            self._view.show_ended(str(refusal))
             return
         if not request.decoders:
-            self._pane.show_ended("No decoder is chosen.")
+            self._view.show_ended("No decoder is chosen.")
             return
         self._request, self._points = request, []
-        self._pane.show_begun(request)
-        self._pane.show_progress(0, len(request.points))
+        self._view.show_begun(request)
+        self._view.show_progress(0, len(request.points))
         self._show_frame_rate()
-        self._mark()
+        self._mark_outdated()
         self.channel.put(request, self._jobs(request))
 
     @staticmethod
@@ -110,25 +110,25 @@ class BenchController(QObject):
         """Stop the measurement; the points measured so far stay."""
         if not self.channel.is_idle:
             self.channel.cancel()
-            self._pane.show_ended("Cancelled: some points are missing.")
+            self._view.show_ended("Cancelled: some points are missing.")
 
-    def _take(
+    def _enter_results(
         self, request: BenchRequest, results: list[BenchBounds | tuple[BenchPoint, ...]]
     ) -> None:
         if request != self._request:
             return
-        for found in results:
-            if isinstance(found, BenchBounds):
-                self._pane.show_bounds(found)
+        for result in results:
+            if isinstance(result, BenchBounds):
+                self._view.show_bounds(result)
             else:
-                self._points += found
+                self._points += result
         order = {place: number for number, place in enumerate(request.points)}
-        self._points.sort(key=lambda one: order[one.scheme, one.axis, one.exposure, one.decibels])
-        self._pane.show_points(self._points)
-        self._pane.show_progress(len(self._points) // len(request.decoders), len(request.points))
+        self._points.sort(key=lambda p: order[p.scheme, p.axis, p.exposure, p.decibels])
+        self._view.show_points(self._points)
+        self._view.show_progress(len(self._points) // len(request.decoders), len(request.points))
 
     def _finish(self, _request: BenchRequest) -> None:
-        self._pane.show_ended("")
+        self._view.show_ended("")
 
     def _show_frame_rate(self) -> None:
         refusal, request = "", self._request
@@ -137,17 +137,17 @@ class BenchController(QObject):
                 check_frame_rate(bench_scene(request, request.schemes[0]), self._frame_rate.value)
         except OccError as error:
             refusal = str(error)
-        self._pane.show_frame_rate(self._frame_rate.value, refusal)
+        self._view.show_frame_rate(self._frame_rate.value, refusal)
 
-    def _mark(self) -> None:
+    def _mark_outdated(self) -> None:
         if self._request is None:
             return
         try:
-            now = request_of(self._choice, self._scenes.scene)
+            request = request_of(self._choice, self._scenes.scene)
         except OccError:
-            self._pane.show_outdated(True)
+            self._view.show_outdated(True)
             return
-        self._pane.show_outdated(setting_of(now) != setting_of(self._request))
+        self._view.show_outdated(setting_of(request) != setting_of(self._request))
 
 
 class BenchPane(Pane[None]):
@@ -161,7 +161,7 @@ class BenchPane(Pane[None]):
         self.controller.choose(view.choice())
         view.choice_changed.connect(self.controller.choose)
         view.frame_rate.refused.connect(self.status_message)
-        view.asked.connect(self.controller.start)
+        view.measurement_requested.connect(self.controller.start)
         view.cancelled.connect(self.controller.cancel)
         store = scenes.store
         view.frame_rate.edited.connect(

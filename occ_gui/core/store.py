@@ -55,7 +55,7 @@ class History:
 
 T = TypeVar("T")
 
-NO_GESTURE = -1  # of a change that is a step of its own
+NO_GESTURE = -1  # gesture of a change that is a step of its own
 MOST_STEPS = 500  # steps that can be undone; each of them keeps two scenes in memory
 
 
@@ -148,8 +148,8 @@ class Store(QObject):
         done = next((place for place in range(present, -1, -1) if states[place] == state), None)
         if done is None:
             return History(state)
-        kept = steps if done == present else steps[:done]
-        return History(first, tuple(step.change for step in kept), done)
+        steps = steps if done == present else steps[:done]
+        return History(first, tuple(step.change for step in steps), done)
 
     def resume(self, history: History) -> None:
         """Restore the steps of an earlier window, if they lead to the present state."""

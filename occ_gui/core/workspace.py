@@ -28,7 +28,7 @@ class UndoState:
     scene: Scene
     force: dict[str, bool]
     room: RoomChoice = field(default_factory=RoomChoice)
-    preset: str = field(default="", compare=False)  # it follows from how the scene was changed
+    preset: str = field(default="", compare=False)  # it follows from the changes of the scene
 
     def put_into(self, workspace: "Workspace") -> "Workspace":
         """Return a workspace with this part replaced."""
@@ -44,7 +44,7 @@ class Workspace:
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
     shown: ShownQuantity = "rate"
-    decoder: str = PAPER_DECODER  # the decoder that has its result and steps shown
+    decoder: str = PAPER_DECODER  # the decoder whose result and steps are shown
     picture_kind: str = PICTURES[0]  # the camera's or the receiver's picture, one of PICTURES
     overlay: str = "beside"
     """How a photo is shown with the picture: beside it, or over it in one of several ways."""
@@ -53,11 +53,11 @@ class Workspace:
     film: FilmChoice = field(default_factory=FilmChoice)
     room: RoomChoice = field(default_factory=RoomChoice)
     pins: Pins = (None, None)
-    preset: str = ""  # the preset that the scene is or was changed from; empty for none
+    preset: str = ""  # the preset from which the scene comes; empty for none
     scene_file: Path | None = None
 
     def __post_init__(self) -> None:
-        # Of a light that is no code nothing is decided: what comes before the decision is limited.
+        # Without a code there is no decision to limit; the signal before it is limited instead.
         if not self.has_code and self.settings.observable == "decision":
             object.__setattr__(self, "settings", replace(self.settings, observable="signal"))
 

@@ -12,13 +12,13 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 from occ_model.scene.payload import PayloadPiece, compare_payload
 
-_CELL = 24
+_CELL_SIZE = 24
 _GAP = 3
-_LABEL = 66
+_LABEL_WIDTH = 66
 
 _LEAST_CELL_WIDTH = 9.0  # pixels of a cell below which a digit does not fit
 _BAR_WIDTH = 3  # pixels of a bar and the gap beside it
-_MARK_OVERHANG = 2  # pixels by which a bar of wrong bits is longer than its row at either end
+_MARK_OVERHANG = 2  # pixels by which a bar with a wrong bit exceeds its row at either end
 _MOST_DIGITS = 64  # most bits that the tool tip writes out
 _FADED_OPACITY = 0.35  # opacity of bits of an earlier scene
 
@@ -29,10 +29,10 @@ _WRONG = QColor(colours.WRONG)
 class BitStrip(QWidget):
     """Two rows of cells, the sent bits over the received ones.
 
-    A right bit is a filled square; a wrong one is larger by its thick frame, crossed out, and
-    orange; one that was not received is a dashed outline. Where there is no room for a digit, bars
-    stand for one bit or more: as high as their fraction of ones; higher than the row, and orange,
-    where one of them is wrong.
+    A one is a filled square, a zero an outline; a wrong bit is orange and crossed out; a bit that
+    was not received is a dashed outline. Where there is no room for digits, each bar stands for one
+    or more bits: it is as high as their fraction of ones, but higher than the row and orange where
+    one of them is wrong.
     """
 
     def __init__(self) -> None:
@@ -71,11 +71,11 @@ class BitStrip(QWidget):
         return find_wrong_bits(self.sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
+        return QSize(_LABEL_WIDTH + 10 * (_CELL_SIZE + _GAP), 2 * _CELL_SIZE + 3 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Allow narrower cells, in rows of full height."""
-        return QSize(_LABEL + 10 * 12, self.sizeHint().height())
+        return QSize(_LABEL_WIDTH + 10 * 12, self.sizeHint().height())
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
@@ -85,17 +85,19 @@ class BitStrip(QWidget):
             painter.setOpacity(_FADED_OPACITY)
         rows = (("sent", self.sent), ("received", self._received))
         count = max(1, len(self.sent))
-        width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)
+        width = min(float(_CELL_SIZE), (self.width() - _LABEL_WIDTH) / count - _GAP)
         wrong = set(self.find_wrong_bits())
         for row, (label, bits) in enumerate(rows):
-            top = _GAP + row * (_CELL + _GAP)
+            top = _GAP + row * (_CELL_SIZE + _GAP)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-            painter.drawText(QRectF(0, top, _LABEL, _CELL), Qt.AlignmentFlag.AlignVCenter, label)
+            painter.drawText(
+                QRectF(0, top, _LABEL_WIDTH, _CELL_SIZE), Qt.AlignmentFlag.AlignVCenter, label
+            )
             if width < _LEAST_CELL_WIDTH:
                 self._draw_bars(painter, top, bits, wrong if row == 1 else set())
                 continue
             for place in range(len(self.sent)):
-                cell = QRectF(_LABEL + place * (width + _GAP), top, width, _CELL)
+                cell = QRectF(_LABEL_WIDTH + place * (width + _GAP), top, width, _CELL_SIZE)
                 if place >= len(bits):
                     self._draw_missing(painter, cell)
                 else:
@@ -104,18 +106,18 @@ class BitStrip(QWidget):
     def _draw_bars(
         self, painter: QPainter, top: float, bits: Sequence[int], wrong: set[int]
     ) -> None:
-        span = self.width() - _LABEL - _GAP
+        span = self.width() - _LABEL_WIDTH - _GAP
         count = len(self.sent)
         bars = max(1, min(count, span // _BAR_WIDTH))
         for bar in range(bars):
             first, last = bar * count // bars, (bar + 1) * count // bars
-            cell = QRectF(_LABEL + bar * span / bars, top, span / bars - 1.0, _CELL)
-            part = bits[first:last]
-            if not part:
-                painter.fillRect(cell.adjusted(0, _CELL - 1, 0, 0), self.palette().mid())
+            cell = QRectF(_LABEL_WIDTH + bar * span / bars, top, span / bars - 1.0, _CELL_SIZE)
+            bits_in_bar = bits[first:last]
+            if not bits_in_bar:
+                painter.fillRect(cell.adjusted(0, _CELL_SIZE - 1, 0, 0), self.palette().mid())
             elif wrong.isdisjoint(range(first, last)):
-                height = max(1.0, _CELL * sum(part) / len(part))
-                painter.fillRect(cell.adjusted(0, _CELL - height, 0, 0), _RIGHT)
+                height = max(1.0, _CELL_SIZE * sum(bits_in_bar) / len(bits_in_bar))
+                painter.fillRect(cell.adjusted(0, _CELL_SIZE - height, 0, 0), _RIGHT)
             else:
                 painter.fillRect(cell.adjusted(0, -_MARK_OVERHANG, 0, _MARK_OVERHANG), _WRONG)
 
@@ -142,7 +144,7 @@ class BitStrip(QWidget):
         painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, str(bit))
 
 
-_MOST_LETTERS = 120  # shown as text; the strip shows the bits of all
+_MOST_LETTERS = 120  # most letters shown as text; the strip shows all bits
 _MISSING = "·"  # in place of a letter that was not received
 
 

@@ -17,7 +17,7 @@ from occ_model.results.decoding import DecodeResult
 _CHIP_STRIP_HEIGHT = 0.16
 """Height of the strip of chips below the signal, as a fraction of the signal's range."""
 
-_LEAST_HEIGHT = 104  # pixels, in which the names of both axes fit
+_LEAST_HEIGHT = 104  # pixels, enough for the labels of both axes
 _COLOURS = (BAND, SIMULATION)  # colours of the run lengths of zeros and of ones
 
 
@@ -111,12 +111,12 @@ class SignalPlot(QWidget):
 
     def _show_chips(self, chips: ByteArray, edges: FloatArray, low: float, strip: float) -> None:
         starts, widths = edges[:-1], np.diff(edges)
-        lit = chips == 1
+        is_lit = chips == 1
         self.chips.setOpts(
-            x0=starts[lit] + 0.05 * widths[lit],
-            width=0.9 * widths[lit],
-            y0=np.full(int(lit.sum()), low - 1.6 * strip),
-            height=np.full(int(lit.sum()), strip),
+            x0=starts[is_lit] + 0.05 * widths[is_lit],
+            width=0.9 * widths[is_lit],
+            y0=np.full(int(is_lit.sum()), low - 1.6 * strip),
+            height=np.full(int(is_lit.sum()), strip),
         )
 
 
@@ -156,7 +156,7 @@ class RunLengthPlot(QWidget):
         self.setVisible(result.histograms is not None)
         if result.histograms is None:
             return
-        most = max(int(h.counts.max()) for h in result.histograms)
+        largest_count = max(int(h.counts.max()) for h in result.histograms)
         longest = max(len(h.counts) for h in result.histograms)
         for histogram, sign, bars, split in zip(
             result.histograms, (-1, 1), self.bars, self.splits, strict=True
@@ -164,9 +164,9 @@ class RunLengthPlot(QWidget):
             lengths = np.flatnonzero(histogram.counts)
             bars.setOpts(x=lengths, height=sign * histogram.counts[lengths])
             x = [] if histogram.split is None else [histogram.split + 0.5] * 2
-            split.setData(x, [0, sign * most][: len(x)])
+            split.setData(x, [0, sign * largest_count][: len(x)])
         self.plot.setXRange(0, longest, padding=0.02)
-        self.plot.setYRange(-most, most, padding=0.05)
+        self.plot.setYRange(-largest_count, largest_count, padding=0.05)
 
 
 def _set_values(curve: pg.PlotDataItem, values: FloatArray) -> None:

@@ -38,17 +38,17 @@ _STEPS = {
 class DecodeView(QWidget):
     """The result in a sentence, the sent and received bits, and the quantities measured."""
 
-    decoder_chosen = Signal(str)  # the name of the decoder whose result the user chose
+    decoder_chosen = Signal(str)  # the name of the decoder that the user chose
 
     def __init__(self, decoders: Sequence[str] = ()) -> None:
         super().__init__()
-        self._names = tuple(decoders)
+        self._decoder_names = tuple(decoders)
         self._reading: Reading | None = None
         self._early_reading: Reading | None = None
         self._drawn_result: DecodeResult | None = None
         self._is_outdated = False
-        self._run = ""
-        tip = "Whose result and steps are shown."
+        self._run_value = ""
+        tip = "The decoder whose result and steps are shown."
         self.decoders = name_widget(QTabBar(drawBase=False), "Decoder", tip)
         self.decoders.currentChanged.connect(self._choose)
         self.verdict = embolden(paragraph())
@@ -57,18 +57,18 @@ class DecodeView(QWidget):
         self.strip = BitStrip()
         self.reason = paragraph()
         self.reason.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.left_out = paragraph(name="What the picture leaves out")
+        self.omissions = paragraph(name="What the picture leaves out")
         self._steps = {name: QLabel() for name in _STEPS}
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
-        texts = (self.origin, self.payload, self.strip, self.reason, self.left_out)
+        sections = (self.origin, self.payload, self.strip, self.reason, self.omissions)
         plots = (self.signal, self.run_lengths)
         fill(
-            QVBoxLayout(self), self.decoders, self.verdict, *texts, self._make_form(),
+            QVBoxLayout(self), self.decoders, self.verdict, *sections, self._make_form(),
             *((plot, 1) for plot in plots), None, margins=(6, 4, 6, 4), spacing=4,
         )  # fmt: skip
         # Before the first result these are empty.
-        for part in (*texts, *plots):
-            part.hide()
+        for widget in (*sections, *plots):
+            widget.hide()
         for step in self._steps.values():
             self._form.setRowVisible(step, False)
 
@@ -96,8 +96,8 @@ class DecodeView(QWidget):
         self._mark_tabs(reading)
         self.origin.show()
         self.strip.setVisible(bool(reading.sent))
-        self.left_out.setVisible(bool(reading.missing_effects))
-        self.left_out.setText(describe_missing(reading))
+        self.omissions.setVisible(bool(reading.missing_effects))
+        self.omissions.setText(describe_missing(reading))
         self._show_result()
 
     def show_outdated(self, outdated: bool) -> None:
@@ -110,14 +110,14 @@ class DecodeView(QWidget):
         self.verdict.setText(self._describe_verdict(reading))
 
     def show_run(self, value: str, _pictured: str) -> None:
-        """Show for which value of a running slider the verdict is; empty while none runs."""
-        if value != self._run:
-            self._run = value
+        """Show the value of a running slider for which the verdict is; empty while none runs."""
+        if value != self._run_value:
+            self._run_value = value
             if self._reading is not None:
                 self.verdict.setText(self._describe_verdict(self._reading))
 
     def _list_results(self, reading: Reading) -> tuple[DecodeResult, ...]:
-        names = dict.fromkeys((*self._names, *reading.results))
+        names = dict.fromkeys((*self._decoder_names, *reading.results))
         return tuple(result_of(reading, name) for name in names)
 
     def _mark_tabs(self, reading: Reading) -> None:
@@ -126,7 +126,7 @@ class DecodeView(QWidget):
             mark = " …" if self._is_outdated else mark
             mark = mark if result.decoder in reading.results else ""
             text = f"{result.decoder}{mark}"
-            if text != self.decoders.tabText(place):  # each text lays all tabs out anew
+            if text != self.decoders.tabText(place):  # a new text makes Qt lay out all tabs
                 self.decoders.setTabText(place, text)
 
     def _find_result(self, reading: Reading) -> DecodeResult:
@@ -199,10 +199,10 @@ class DecodeView(QWidget):
         text = self._write_verdict(reading)
         if self._is_outdated:
             return f"Earlier scene: {text}"
-        return f"{self._run}: {text}" if self._run else text
+        return f"{self._run_value}: {text}" if self._run_value else text
 
     def _describe_location(self, location: Location | None) -> str:
-        if location is None:  # a row that comes and goes would move those below it
+        if location is None:  # a row that appears later would move those below it
             is_early = self._reading is not None and self._reading.source == "profile"
             return "known with the picture" if is_early else ""
         return (

@@ -16,7 +16,7 @@ _LEAST = QSize(320, 264)
 
 
 class DecodePane(Pane[tuple[Reading | None, str]]):
-    """What the decoders read; which of them is shown is chosen here and in the story."""
+    """Shows what the decoders read; the user chooses the decoder here or in the story."""
 
     def __init__(self, store: Store) -> None:
         self.view = view = DecodeView(decoders())

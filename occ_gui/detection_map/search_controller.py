@@ -98,7 +98,7 @@ class SearchController(QObject):
         self._end("")
 
     def _count(self) -> int:
-        return sum(map(self._queue.count_of, self._counters))
+        return sum(map(self._queue.count_heartbeats, self._counters))
 
     def _check_progress(self) -> None:
         if self.channel.is_idle:

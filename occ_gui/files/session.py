@@ -178,7 +178,7 @@ LONGEST_WAIT_MS = 1000
 
 
 def restore_workspace(
-    file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
+    file: SessionFile, first: Workspace, *, names_scene: bool, has_settings: bool
 ) -> Workspace:
     """Return the first workspace: the last session's, but for what the command line asks for.
 
@@ -190,12 +190,12 @@ def restore_workspace(
     # After a crash, everything but the undo state comes from the crashed window; its scene follows
     # as an undo step.
     workspace = last.workspace.undo_state.put_into((file.crashed or last).workspace)
-    if is_scene_asked:
+    if names_scene:
         workspace = replace(
             workspace, scene=first.scene, preset="", scene_file=None, photo=first.photo,
             film=first.film,
         )  # fmt: skip
-    is_new = is_scene_asked or are_settings_asked
+    is_new = names_scene or has_settings
     return replace(workspace, settings=first.settings) if is_new else workspace
 
 
@@ -221,25 +221,25 @@ class Session(QObject):
         self._timer.setInterval(LONGEST_WAIT_MS)
         self._timer.timeout.connect(self.write)
 
-    def begin(self, file: SessionFile, *, is_scene_asked: bool) -> None:
+    def begin(self, file: SessionFile, *, names_scene: bool) -> None:
         """Restore the steps after a crash, and save to the file from now on."""
         self._file = file
         said = [file.put_aside] if file.put_aside else []
         if file.crashed is not None:
-            said.append(self._restore_crashed(file.crashed, is_scene_asked=is_scene_asked))
+            said.append(self._restore_crashed(file.crashed, names_scene=names_scene))
         if said:
             self.status_message.emit(" ".join(said))
         self._store.select(lambda workspace: workspace).changed.connect(self._start_timer)
         self._start_timer()
 
-    def _restore_crashed(self, left: KeptSession, *, is_scene_asked: bool) -> str:
+    def _restore_crashed(self, left: KeptSession, *, names_scene: bool) -> str:
         """Restore the scene and steps of a crashed window; return a sentence that says so."""
         store, asked = self._store, self._store.workspace.undo_state
         crashed = left.workspace.undo_state
         store.put(crashed.put_into(store.workspace), "restoring of the last session")
-        if left.history is not None and (is_scene_asked or crashed == asked):
+        if left.history is not None and (names_scene or crashed == asked):
             store.resume(left.history)
-        if is_scene_asked and crashed != asked:
+        if names_scene and crashed != asked:
             store.put(asked.put_into(store.workspace), "opening of what was asked for")
             return "The last session ended unexpectedly; Undo brings its scene back."
         return "The last session ended unexpectedly: its scene is restored."

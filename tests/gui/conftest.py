@@ -24,7 +24,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.app.garbage_collection import give_memory_back
+from occ_gui.app.garbage_collection import return_freed_memory
 from occ_gui.detection_map import wiring
 from occ_gui.simulation import controller
 from occ_model.parallel.job import Job, JobResult, do_job
@@ -121,7 +121,7 @@ def memory_is_given_back() -> Iterator[None]:
     # Those of a test that ran no event loop wait for one.
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
     gc.collect()
-    give_memory_back()
+    return_freed_memory()
 
 
 @pytest.fixture(autouse=True)

@@ -21,7 +21,7 @@ from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.garbage_collection import GarbageCollector, give_memory_back
+from occ_gui.app.garbage_collection import GarbageCollector, return_freed_memory
 from occ_gui.lessons import lesson_controller as lessons_room
 from occ_model import plugins
 
@@ -66,7 +66,7 @@ def used_memory() -> tuple[float, int]:
     """
     empty_bounded_caches()
     gc.collect()
-    give_memory_back()
+    return_freed_memory()
     report = ctypes.CDLL("libc.so.6").mallinfo2
     report.restype = Allocated
     found = report()

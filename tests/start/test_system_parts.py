@@ -38,21 +38,21 @@ def test_only_libraries_of_the_platform_in_use_are_asked_for(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, platform: str, found_missing: list[str]
 ) -> None:
     absent = {"libEGL.so.1", "libxcb-icccm.so.4", "libwayland-cursor.so.0"}
-    monkeypatch.setattr(system_libraries, "loads", lambda library: library not in absent)
+    monkeypatch.setattr(system_libraries, "can_load", lambda library: library not in absent)
     monkeypatch.setattr(start, "has_font", lambda: True)
     assert list(start.missing_parts(platform, False).values()) == found_missing
 
 
 def test_a_library_counts_as_there_when_the_linker_loads_it() -> None:
-    assert system_libraries.loads("libc.so.6")
-    assert not system_libraries.loads("libnothing-of-this-name.so.1")
+    assert system_libraries.can_load("libc.so.6")
+    assert not system_libraries.can_load("libnothing-of-this-name.so.1")
 
 
 @pytest.mark.parametrize("making_venv", [True, False])
 def test_only_making_a_venv_needs_pythons_venv_package(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, making_venv: bool
 ) -> None:
-    monkeypatch.setattr(system_libraries, "loads", lambda library: True)
+    monkeypatch.setattr(system_libraries, "can_load", lambda library: True)
     monkeypatch.setattr(start, "has_font", lambda: True)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     packages = list(start.missing_parts("", making_venv).values())

@@ -11,7 +11,7 @@ from PySide6.QtCore import QTimer
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import main, make_parser, take_screenshot, wait_until_shown
-from occ_gui.app.system_libraries import missing_libraries
+from occ_gui.app.system_libraries import find_missing_libraries
 from occ_gui.detection_map.wiring import BackgroundRates
 
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
@@ -174,7 +174,7 @@ def test_a_display_that_does_not_answer_gives_a_sentence(starts: Starts) -> None
     assert process.returncode == 2
     *_, sentence = process.stderr.splitlines(keepends=True)
     assert is_one_sentence(sentence)
-    missing = missing_libraries("xcb")
+    missing = find_missing_libraries("xcb")
     assert all(library in sentence for library in missing or ["no display"])
 
 

@@ -68,7 +68,7 @@ def test_a_repeated_exception_is_reported_once(reports: ErrorReports, sentences:
     assert len(sentences) == 1
     logging.getLogger("occ_gui").warning("the lamp is %s", "off")
     logging.getLogger("occ_gui").debug("and this is not wanted")
-    assert reports.last.lines[-1].endswith("the lamp is off")
+    assert reports.last_messages.lines[-1].endswith("the lamp is off")
 
 
 def test_an_exception_in_a_thread_is_a_sentence(

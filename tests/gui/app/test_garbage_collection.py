@@ -52,7 +52,7 @@ def test_memory_is_returned_once_after_each_period_of_work_when_idle(
     clock, returns, ends = [0.0, 0.0], list[float](), list[float]()
     monkeypatch.setattr(time, "monotonic", lambda: clock[0])
     monkeypatch.setattr(time, "process_time", lambda: clock[1])
-    monkeypatch.setattr(garbage_collection, "give_memory_back", lambda: returns.append(clock[0]))
+    monkeypatch.setattr(garbage_collection, "return_freed_memory", lambda: returns.append(clock[0]))
     owner = QObject()
     collector = GarbageCollector(owner)
     for busy, seconds in ((0.9, 3), (0.01, 10), (0.9, 3), (0.01, 10), (0.9, 0.5), (0.01, 10)):
@@ -75,5 +75,5 @@ def test_the_memory_of_freed_arrays_is_returned(qtbot: QtBot) -> None:
     blocks = [np.ones(100_000, np.uint8) for _ in range(1000)]
     before = measure_memory()
     del blocks[::2]
-    garbage_collection.give_memory_back()
+    garbage_collection.return_freed_memory()
     assert before - measure_memory() > 20e6

@@ -94,7 +94,7 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     tmp_path: Path,
 ) -> None:
     session = application.session
-    session.begin(SessionFile(tmp_path), is_scene_asked=True)
+    session.begin(SessionFile(tmp_path), names_scene=True)
     application.settings.set_tolerance(7.0)
     store = application.store.store
     store.put(

@@ -73,10 +73,10 @@ def test_the_process_ends_without_a_plug_in_that_hangs_and_names_it(
 ) -> None:
     exits: list[int] = []
     monkeypatch.setattr(os, "_exit", exits.append)
-    command_line.leave_plugins(0, None)
+    command_line.exit_despite_plugins(0, None)
     assert exits == []
     with plugins.at_work("The plug-in 'sleeper' of the package 'hanging'"):
-        command_line.leave_plugins(0, None)
+        command_line.exit_despite_plugins(0, None)
     assert exits == [0]
     assert capsys.readouterr().err == (
         "occ-gui: The plug-in 'sleeper' of the package 'hanging' does not return: the window "

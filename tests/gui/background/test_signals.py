@@ -187,4 +187,4 @@ def test_stopping_ends_the_workers_and_nothing_arrives_any_more(
     channel.put("late", jobs("b"))
     qtbot.wait(30)
     assert (received.results, received.failures) == ([], [])
-    assert queue_of(HeldWorker()).count_of(0) == 0
+    assert queue_of(HeldWorker()).count_heartbeats(0) == 0

@@ -271,8 +271,8 @@ def busy(qtbot: QtBot) -> Iterator[tuple[TaskThread, threading.Event, list[str]]
     assert begun.wait(PATIENCE_S)
     yield thread, go_on, done
     go_on.set()
-    while tasks.left_behind:
-        tasks.left_behind.pop().wait()
+    while tasks.hanging_threads:
+        tasks.hanging_threads.pop().wait()
 
 
 def test_a_plug_in_that_does_not_come_back_is_left_behind(

@@ -51,17 +51,17 @@ def _rows(view: BandsView) -> dict[str, list[str]]:
 def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -> None:
     view.show_bands(_shown(_LAMP))
     depth = occ.band_depth(_LAMP)
-    assert f"{100 * depth.peak_to_peak:.3g} %" in view.of_scene.line.text()
+    assert f"{100 * depth.peak_to_peak:.3g} %" in view.scene_answer.line.text()
     assert depth.is_visible
-    assert depth.sentence in view.of_scene.details.text()
-    assert "whole multiples of 520.8 µs" in view.of_scene.details.text()
+    assert depth.sentence in view.scene_answer.details.text()
+    assert "whole multiples of 520.8 µs" in view.scene_answer.details.text()
     rows = _rows(view)
     assert rows["1/60 s"] == ["0 %", "0 %", "none"]
     assert rows["1/125 s"][2] == "depends"
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
     view.show_bands(_shown(_LAMP.replace(exposure_time=1 / 1920)))
-    assert "Not visible on a display" in view.of_scene.details.text()
+    assert "Not visible on a display" in view.scene_answer.details.text()
 
 
 @pytest.mark.parametrize(
@@ -73,16 +73,16 @@ def test_bars_that_the_picture_hides_are_not_headlined_as_seen(
     view: BandsView, changes: dict[str, float], why: str
 ) -> None:
     view.show_bands(_shown(_LAMP.replace(**changes)))
-    assert ", not visible: " in view.of_scene.line.text()
-    assert why in view.of_scene.line.text()
-    assert why in view.of_scene.details.text()
+    assert ", not visible: " in view.scene_answer.line.text()
+    assert why in view.scene_answer.line.text()
+    assert why in view.scene_answer.details.text()
 
 
 def test_a_lamp_without_light_has_no_valleys(view: BandsView) -> None:
     view.show_bands(_shown(_LAMP.replace(luminance=0.0)))
     assert not any(line.isVisible() for line in view.map.valleys)
-    assert "Nothing blinks" in view.of_scene.details.text()
-    assert "From" not in view.of_scene.details.text()
+    assert "Nothing blinks" in view.scene_answer.details.text()
+    assert "From" not in view.scene_answer.details.text()
 
 
 def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> None:
@@ -120,7 +120,7 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
 
     view, scenes = bench.add(bands(bench.scenes)).view, bench.scenes
     bench.wait_until_idle()
-    assert view.of_scene.line.text().startswith("Bars of")
+    assert view.scene_answer.line.text().startswith("Bars of")
     row = list(_rows(view)).index("1/60 s")
     monkeypatch.setattr(pane, "compute_bars", shown_late)
     view.table.itemActivated.emit(view.table.item(row, 0))
@@ -128,7 +128,7 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
     assert view.outdated.isHidden()
     qtbot.waitUntil(view.outdated.isVisible)
     was_marked.set()
-    qtbot.waitUntil(lambda: view.of_scene.line.text().startswith("No bars"))
+    qtbot.waitUntil(lambda: view.scene_answer.line.text().startswith("No bars"))
     assert view.outdated.isHidden()
     scenes.undo_stack.undo()
     assert scenes.scene.camera.exposure_time == pytest.approx(136e-6)
@@ -167,12 +167,12 @@ def test_my_lamp_s_bars_are_answered_in_one_line_and_shown_in_the_scene_if_wante
     answer.more.click()
     assert answer.details.isVisible()
     assert "whole multiples of 4.167 ms" in answer.details.text()
-    form.show_it.click()
+    form.show_button.click()
     sent, camera = scenes.scene.transmitter, scenes.scene.camera
     assert (sent.light, sent.lamp_frequency, sent.duty) == ("lamp", 240.0, pytest.approx(0.3))
     assert (camera.exposure_time, camera.readout_time) == (0.01, 12e-6)
     bench.wait_until_idle()
-    assert view.of_scene.line.text().startswith("Bars of")
+    assert view.scene_answer.line.text().startswith("Bars of")
     scenes.undo_stack.undo()
     assert scenes.scene == before
 

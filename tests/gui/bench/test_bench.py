@@ -20,7 +20,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.panes import bench
 from occ_gui.background.signals import WorkQueue
 from occ_gui.bench import bench_results
-from occ_gui.bench.bench_results import BITS, RATES, cell_text, curve_point
+from occ_gui.bench.bench_results import BITS, RATES, format_cell, make_curve_point
 from occ_gui.bench.bench_view import OF_SCENE, PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.pane import BenchController, request_of
 from occ_gui.detection_map.slider_strip_controller import RANK
@@ -47,7 +47,7 @@ class Measuring:
         self.pane = BenchView(("threshold",), ("threshold",))
         qtbot.addWidget(self.pane)
         self.controller = BenchController(self.scenes, self.queue.channels[0], self.pane)
-        self.pane.asked.connect(self.controller.start)
+        self.pane.measurement_requested.connect(self.controller.start)
         self.pane.cancelled.connect(self.controller.cancel)
         self._qtbot = qtbot
 
@@ -90,7 +90,7 @@ def test_what_the_pane_shows_is_what_the_model_measures(measuring: Measuring) ->
     expected = [one for place in request.points for one in measure_bench_point(request, place)]
     assert list(points) == expected
     shown = [measuring.cell(row) for row in range(measuring.pane.table.rowCount())]
-    assert shown == [cell_text(one, RATES, 30.0) for one in expected]
+    assert shown == [format_cell(one, RATES, 30.0) for one in expected]
     assert "15 of 15" in measuring.said()
     x, _ = measuring.pane.plots[RATES].plots["exposure"].viewRange()
     assert x[0] < min(request.exposures)
@@ -154,8 +154,8 @@ def test_a_cancelled_bench_keeps_its_points_and_is_not_whole(
 
 def test_more_pictures_than_are_read_out_are_refused_in_a_sentence(measuring: Measuring) -> None:
     measuring.measure()
-    measuring.pane.what.show_key(BITS)
-    measuring.pane.what.chosen.emit(BITS)
+    measuring.pane.quantity.show_key(BITS)
+    measuring.pane.quantity.chosen.emit(BITS)
     show(measuring.scenes.store, frame_rate=60.0)
     assert "frames_a_second is 60.0; allowed: above 0 to 36" in measuring.said()
     show(measuring.scenes.store, frame_rate=15.0)
@@ -166,7 +166,7 @@ def test_more_pictures_than_are_read_out_are_refused_in_a_sentence(measuring: Me
 @pytest.mark.parametrize(("wrong", "right"), [(0, 10), (10, 9), (500, 0)])
 def test_points_are_drawn_where_their_values_are(wrong: int, right: int) -> None:
     point = point_of(wrong, right)
-    rate, bits = curve_point(point, RATES, 30.0), curve_point(point, BITS, 30.0)
+    rate, bits = make_curve_point(point, RATES, 30.0), make_curve_point(point, BITS, 30.0)
     assert 10.0**rate.high == pytest.approx(point.errors.high)
     assert (rate.value == rate.value) == bool(wrong)  # NaN without an error
     if wrong:
@@ -231,8 +231,8 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for_and_then_what
     assert not pane.plots[RATES].isHidden()
     assert pane.frame_rate.isHidden()
     # What theory says stands beside the points, in either plot.
-    pane.what.show_key(BITS)
-    pane.what.chosen.emit(BITS)
+    pane.quantity.show_key(BITS)
+    pane.quantity.chosen.emit(BITS)
     assert not pane.plots[BITS].isHidden()
     assert not pane.frame_rate.isHidden()  # which bits a second depend on
     for curve in pane.plots[BITS].bounds.values():

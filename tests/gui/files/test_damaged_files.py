@@ -97,7 +97,7 @@ def test_a_file_that_is_not_a_session_is_renamed_with_a_sentence(
         assert (tmp_path / name).read_bytes() == text.encode("latin-1")
         session = Session(Store(Workspace(Scene())), partial(Workspace, Scene()))
         said = collect(session.status_message)
-        session.begin(file, is_scene_asked=False)
+        session.begin(file, names_scene=False)
         sentence = not_none(file.put_aside)
         assert said == [sentence]
         assert sentence.startswith(str(path))

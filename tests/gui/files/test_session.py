@@ -46,11 +46,9 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
         file = SessionFile(tmp_path / "state")
         first, is_asked = Workspace(asked or small_scene), asked is not None
         if not fresh:
-            first = restore_workspace(
-                file, first, is_scene_asked=is_asked, are_settings_asked=False
-            )
+            first = restore_workspace(file, first, names_scene=is_asked, has_settings=False)
         begin = Start(first, is_asked, kept, file, fresh)
-        application = Application(begin.first, kept)
+        application = Application(begin.first_workspace, kept)
         begin.restore(application, with_photo=True)
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)
@@ -69,7 +67,7 @@ def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_p
     first, file = Workspace(Scene(), frame_rate=24.0), SessionFile(tmp_path)
     store = Store(first)
     session = Session(store, lambda: store.workspace)
-    session.begin(file, is_scene_asked=False)
+    session.begin(file, names_scene=False)
     seen = [store.workspace.room]
     for gesture, x in enumerate((0.1, 0.2, 0.3)):
         room = RoomChoice("my.toml", small_room().replace(x=x))
@@ -82,12 +80,10 @@ def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_p
     file.close()  # as when its process ends: nothing more is written
 
     again = SessionFile(tmp_path)
-    begun = restore_workspace(
-        again, Workspace(Scene()), is_scene_asked=False, are_settings_asked=False
-    )
+    begun = restore_workspace(again, Workspace(Scene()), names_scene=False, has_settings=False)
     assert begun == store.workspace
     later = Store(begun)
-    Session(later, lambda: later.workspace).begin(again, is_scene_asked=False)
+    Session(later, lambda: later.workspace).begin(again, names_scene=False)
     assert later.undo_stack.count() == 4
     later.undo_stack.undo()
     assert later.workspace == replace(store.workspace, scene=first.scene)
@@ -193,10 +189,10 @@ def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> N
     file.write(KeptSession(left), in_use=False)
     file.close()
     again = SessionFile(tmp_path)
-    begun = restore_workspace(again, asked, is_scene_asked=True, are_settings_asked=False)
+    begun = restore_workspace(again, asked, names_scene=True, has_settings=False)
     # Nothing is left out of it that was left out of another one.
     assert (begun.scene, begun.settings) == (asked.scene, asked.settings)
-    as_left = restore_workspace(again, asked, is_scene_asked=False, are_settings_asked=False)
+    as_left = restore_workspace(again, asked, names_scene=False, has_settings=False)
     assert (as_left.scene, as_left.settings) == (left.scene, left.settings)
 
 
@@ -209,11 +205,11 @@ def test_only_a_command_line_that_names_a_scene_asks_for_one(
     words: list[str], asks: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("OCC_STATE", str(tmp_path))
-    begun = command_line.begin(command_line.make_parser().parse_args(words))
+    begun = command_line.read_start(command_line.make_parser().parse_args(words))
     file = begun.session_file
     assert file is not None
     file.close()
-    assert begun.is_scene_asked is asks
+    assert begun.names_scene is asks
 
 
 def crash(folder: Path, scene: Scene) -> None:

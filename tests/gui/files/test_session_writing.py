@@ -34,7 +34,7 @@ def begin(scenes: SceneStore) -> Begin:
     def resume(folder: Path) -> Session:
         store = scenes.store
         session = Session(store, lambda: store.workspace)
-        session.begin(SessionFile(folder), is_scene_asked=True)
+        session.begin(SessionFile(folder), names_scene=True)
         return session
 
     return resume

@@ -123,7 +123,7 @@ class Application(Parts):
         """Show the strips if the user wants them, and a code is sent."""
         entry, is_code = self.window.actions_by_name["slider_strips"], self._code_selection.value
         entry.setEnabled(is_code)
-        self.slider_strips.set_shown(entry.isChecked() and is_code)
+        self.slider_strips.set_visible(entry.isChecked() and is_code)
 
     @property
     def is_idle(self) -> bool:

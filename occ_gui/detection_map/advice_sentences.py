@@ -36,7 +36,7 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
     lines = [AdviceLine(_make_title(advice.limits), is_title=True)]
     if advice.cause:
         lines.append(AdviceLine(f"It does not read the scene as it is. {advice.cause}"))
-    for values, theory, low, high in (
+    for values, theory, low_name, high_name in (
         (advice.limits.frequency, advice.frequency, "lowest frequency", _HIGHEST),
         (advice.limits.exposure, advice.exposure, "shortest exposure", "longest exposure"),
     ):
@@ -44,7 +44,10 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
         if lowest is None or highest is None:
             lines.append(AdviceLine(_explain_unread(advice.limits, values)))
         else:
-            lines += [_make_line(parameter, low, lowest), _make_line(parameter, high, highest)]
+            lines += [
+                _make_line(parameter, low_name, lowest),
+                _make_line(parameter, high_name, highest),
+            ]
         if values.gaps:
             lines.append(AdviceLine(gaps_text(values)))
         if values.most_chips is not None:
@@ -99,8 +102,8 @@ def _make_title(limits: Limits) -> str:
     )
 
 
-def _make_line(parameter: str, what: str, end: RangeEnd) -> AdviceLine:
-    sentence = f"The {what} that it reads is {format_value(parameter, end.value)}: "
+def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
+    sentence = f"The {limit} that it reads is {format_value(parameter, end.value)}: "
     sentence += end_text(parameter, end)
     if end.inside is None:
         return AdviceLine(f"{sentence} No value within the limits is sure to be read.")

@@ -30,10 +30,10 @@ _LEAST = QSize(200, 60)
 
 
 class AdviceView(QWidget):
-    asked = Signal()  # the user asks for advice about the present scene
+    search_requested = Signal()  # the user asks for advice about the present scene
 
     cancelled = Signal()
-    back_asked = Signal()
+    map_requested = Signal()
 
     destination_chosen = Signal(str, float, str)
     """The user goes to a limit: a parameter, its value in SI units, and the decoder."""
@@ -47,11 +47,11 @@ class AdviceView(QWidget):
         self.lines: list[QWidget] = []
         self.destinations: dict[QPushButton, tuple[str, QLabel]] = {}
         """The parameter that each button changes, and the sentence beside it."""
-        self._common: list[str] = []
+        self._common_texts: list[str] = []
         self._end_sentence = ""
-        self.back = push_button("Back to the map", "Show the map again.", self.back_asked)
-        self.again = push_button(
-            "Ask again", "Search for the limits of the current scene.", self.asked
+        self.back = push_button("Back to the map", "Show the map again.", self.map_requested)
+        self.search_again = push_button(
+            "Search again", "Search for the limits of the current scene.", self.search_requested
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
         self.progress = name_widget(
@@ -63,7 +63,9 @@ class AdviceView(QWidget):
 
     def _lay_out(self) -> None:
         row = QHBoxLayout()
-        head = fill(row, self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1))
+        head = fill(
+            row, self.back, self.search_again, self.cancel, (self.progress, 1), (self.state, 1)
+        )
         self.hint = paragraph(
             "Searching: the limits of each decoder appear here as soon as they are found."
         )
@@ -73,28 +75,30 @@ class AdviceView(QWidget):
         scroll_pane = ScrollPane(self.content, _LEAST)
         fill(QVBoxLayout(self), head, (scroll_pane, 1), margins=(4, 2, 4, 2))
 
-    def _show_running(self, running: bool) -> None:
-        self.progress.setVisible(running)
-        self.cancel.setVisible(running)
-        self.again.setVisible(not running)
-        self.hint.setVisible(running)
-        self.state.setVisible(not running)
+    def _show_running(self, is_running: bool) -> None:
+        self.progress.setVisible(is_running)
+        self.cancel.setVisible(is_running)
+        self.search_again.setVisible(not is_running)
+        self.hint.setVisible(is_running)
+        self.state.setVisible(not is_running)
 
     def use_frame_rate(self, frames_a_second: float) -> None:
         """Set the number of pictures a second from which later advice computes bits a second."""
         self._frames_a_second = self.cards.frames_a_second = frames_a_second
 
-    def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
+    def show_advice_begun(self, omitted_effects: tuple[str, ...]) -> None:
         """Remove the previous advice, and show that a search is running and what it leaves out."""
         for line in self.lines:
             self._column.removeWidget(line)
             line.deleteLater()
-        self.lines, self.destinations, self._common = [], {}, []
+        self.lines, self.destinations, self._common_texts = [], {}, []
         self.progress.setValue(0)
         self._show_running(True)
         self.cards.show_begun()
-        if left_out:
-            self._add(AdviceLine(f"This advice leaves out: {', '.join(left_out)}.", is_title=True))
+        if omitted_effects:
+            self._add(
+                AdviceLine(f"This advice leaves out: {', '.join(omitted_effects)}.", is_title=True)
+            )
 
     def show_advice_progress(self, fraction: float) -> None:
         self.progress.setValue(round(100 * fraction))
@@ -105,8 +109,8 @@ class AdviceView(QWidget):
         for line in make_advice_lines(advice, self._frames_a_second):
             if not line.is_common:
                 self._add(line, advice.limits.decoder)
-            elif line.text not in self._common:
-                if not self._common:
+            elif line.text not in self._common_texts:
+                if not self._common_texts:
                     self._add_common(AdviceLine("For every decoder", is_title=True))
                 self._add_common(line)
 
@@ -116,26 +120,26 @@ class AdviceView(QWidget):
         self.state.set_full_text(sentence)
         self._show_running(False)
 
-    def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
-        """Mark the advice as outdated; ``reachable``: parameters whose limits still hold."""
-        self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
+    def show_advice_outdated(self, outdated: bool, valid_parameters: frozenset[str]) -> None:
+        """Mark the advice as outdated; ``valid_parameters``: those whose limits still hold."""
+        self.cards.show_outdated(outdated and "switching_frequency" not in valid_parameters)
         if not self.lines:
             return
-        text = describe_outdated(reachable)
+        text = describe_outdated(valid_parameters)
         self.state.set_full_text(text if outdated else self._end_sentence)
         for line in self.lines:
             for label in line.findChildren(QLabel):
                 label.setEnabled(not outdated)
         for button, (parameter, label) in self.destinations.items():
-            for part in (button, label):
-                part.setEnabled(not outdated or parameter in reachable)
+            for widget in (button, label):
+                widget.setEnabled(not outdated or parameter in valid_parameters)
 
     def _add_common(self, line: AdviceLine) -> None:
-        self._common.append(line.text)
+        self._common_texts.append(line.text)
         self._insert(self._column.count() - 1, line)
 
     def _add(self, line: AdviceLine, decoder: str = "") -> None:
-        self._insert(self._column.count() - 1 - len(self._common), line, decoder)
+        self._insert(self._column.count() - 1 - len(self._common_texts), line, decoder)
 
     def _insert(self, place: int, line: AdviceLine, decoder: str = "") -> None:
         row = QWidget()

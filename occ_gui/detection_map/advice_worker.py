@@ -13,17 +13,17 @@ def advise(
     scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
 ) -> Advice:
     """Find the limits of a decoder's working range, and the theoretical limits."""
-    searched = limits(
+    found_limits = limits(
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
         tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
     )  # fmt: skip
-    return advice_of(searched)
+    return advice_of(found_limits)
 
 
 def search_most_bits(
     scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
 ) -> MostBits:
-    most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
-    frames = min(frames_a_second, most)
-    (best,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)
+    most_frames = 1.0 / (scene.camera.columns * scene.camera.readout_time)
+    frame_rate = min(frames_a_second, most_frames)
+    (best,) = most_bits(scene, (decoder,), frames_a_second=frame_rate, heartbeat=heartbeat)
     return best

@@ -14,7 +14,7 @@ from occ_model.arrays import ByteArray, FloatArray
 
 RATES, DIFFERENCES = "viridis", "CET-CBD1"
 
-_STEPS = 256
+_COLOURS = 256
 
 
 @cache
@@ -31,7 +31,7 @@ def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteAr
     """Map values, shape (x, y), to colours, shape (x, y, 4); not-a-number becomes transparent."""
     is_known = np.isfinite(values)
     fraction = np.where(is_known, (values - low) / (high - low), 0.0)
-    steps = np.rint(np.clip(fraction, 0.0, 1.0) * (_STEPS - 1)).astype(np.int64)
+    steps = np.rint(np.clip(fraction, 0.0, 1.0) * (_COLOURS - 1)).astype(np.int64)
     colours = np.empty((*values.shape, 4), dtype=np.uint8)
     colours[..., :3] = colour_table(name)[steps]
     colours[..., 3] = np.where(is_known, 255, 0)
@@ -82,15 +82,15 @@ class ColourBar(QWidget):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
-        line = self.fontMetrics().height()
-        bar = QRectF(_GAP, line / 2, _BAR_WIDTH, self.height() - line)
+        line_height = self.fontMetrics().height()
+        bar = QRectF(_GAP, line_height / 2, _BAR_WIDTH, self.height() - line_height)
         painter.drawImage(bar, self._colours)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.drawRect(bar)
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-        most = max(2, int(self.height() / (1.4 * line)))
-        step = 1 if len(self.numbers) <= most else len(self.numbers) - 1
-        for place, text in self.numbers[::step]:
-            middle = bar.bottom() - place * bar.height()
-            spot = QRectF(bar.right() + _GAP, middle - line / 2, self.width(), line)
-            painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter, text)
+        most_numbers = max(2, int(self.height() / (1.4 * line_height)))
+        step = 1 if len(self.numbers) <= most_numbers else len(self.numbers) - 1
+        for position, text in self.numbers[::step]:
+            top = bar.bottom() - position * bar.height() - line_height / 2
+            area = QRectF(bar.right() + _GAP, top, self.width(), line_height)
+            painter.drawText(area, Qt.AlignmentFlag.AlignVCenter, text)

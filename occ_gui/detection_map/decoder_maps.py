@@ -27,7 +27,7 @@ from occ_model.scene.recording import FRAME_RATE
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
 """Limits of each colour map, in percent."""
 
-_MOST_IN_A_ROW, _LEAST_HEIGHT_OF_TWO_ROWS = 2, 360
+_MOST_MAPS_IN_A_ROW, _LEAST_HEIGHT_OF_TWO_ROWS = 2, 360
 """Most maps in a row, and the least height in pixels of two rows."""
 
 
@@ -61,8 +61,10 @@ class MapPlots(QWidget):
 
     def _place_plots(self) -> None:
         visible = [plot for plot in self.plots if not plot.isHidden()]
-        in_rows = len(visible) > _MOST_IN_A_ROW and self.height() >= _LEAST_HEIGHT_OF_TWO_ROWS
-        columns = -(-len(visible) // 2) if in_rows else max(len(visible), 1)
+        are_in_rows = (
+            len(visible) > _MOST_MAPS_IN_A_ROW and self.height() >= _LEAST_HEIGHT_OF_TWO_ROWS
+        )
+        columns = -(-len(visible) // 2) if are_in_rows else max(len(visible), 1)
         if columns == self._columns:
             return
         self._columns = columns
@@ -88,37 +90,37 @@ class MapPlots(QWidget):
     def _name_plots(self) -> None:
         names = self._list_names()
         for plot, name in zip(self.plots, names, strict=False):
-            plot.title = self._title(name)
+            plot.title = self._write_title(name)
             plot.setAccessibleName(f"Detection map: {plot.title}")
         for place, plot in enumerate(self.plots):
             plot.setVisible(place < len(names))
         self._place_plots()
         self._bar_key = ""
 
-    def _title(self, name: str) -> str:
+    def _write_title(self, name: str) -> str:
         if name == "difference":
             return f"{self._decoders[1]} minus {self._decoders[0]}"
         return name
 
-    def show_what(self, what: str) -> None:
+    def show_choice(self, choice: str) -> None:
         """Show all decoders (``"both"``), one, or the ``"difference"`` of two."""
-        self._choice = what
+        self._choice = choice
         self._name_plots()
         self._redraw()
 
-    def show_bits(self, shown: ShownQuantity, frames_a_second: float) -> None:
+    def show_quantity(self, shown: ShownQuantity, frames_a_second: float) -> None:
         self._shown_quantity, self._frames_a_second = shown, frames_a_second
         self._bar_key = ""
         self._redraw()
 
-    def show_limit(self, limit: str, shown: bool) -> None:
-        if shown:
+    def show_limit(self, limit: str, is_visible: bool) -> None:
+        if is_visible:
             self._hidden_limits.discard(limit)
         else:
             self._hidden_limits.add(limit)
         self._show_lines()
 
-    def limits(self) -> Collection[str]:
+    def list_limits(self) -> Collection[str]:
         return [key for key in LINES if self._lines.get(key)]
 
     def show_axes(self, x: str, y: str) -> None:
@@ -141,30 +143,30 @@ class MapPlots(QWidget):
 
     def _redraw(self) -> None:
         scheme = DIFFERENCES if self._choice == "difference" else RATES
-        low, high = self._scale(scheme)
+        low, high = self._find_scale(scheme)
         if self._bar_key != f"{scheme} {high}":
             self._draw_bar(scheme)
         rates = self._rates
         if rates is None:
             return
         owners = rates.find_owners()
-        unknown = owners[0] < 0
-        refused = np.where(unknown, 0, rates.find_refused()[owners])
+        is_unknown = owners[0] < 0
+        refused = np.where(is_unknown, 0, rates.find_refused()[owners])
         for plot, name in zip(self.plots, self._list_names(), strict=False):
-            values = np.where(unknown, np.nan, self._values(rates, name)[owners])
+            values = np.where(is_unknown, np.nan, self._find_values(rates, name)[owners])
             image = make_image(to_colours(values, low, high, scheme))
             plot.show_picture(image, rates.shape, refused)
         self._show_lines()
 
-    def _scale(self, scheme: str) -> tuple[float, float]:
+    def _find_scale(self, scheme: str) -> tuple[float, float]:
         low, high = _SCALES[scheme]
         if self._shown_quantity == "rate":
             return low, high
         rates = self._rates
-        known = 0.0 if rates is None else float(rates.most_bits(self._frames_a_second).max())
-        return math.copysign(known, low) if low else 0.0, known or 1.0
+        largest = 0.0 if rates is None else float(rates.most_bits(self._frames_a_second).max())
+        return math.copysign(largest, low) if low else 0.0, largest or 1.0
 
-    def _values(self, rates: RateMap, name: str) -> FloatArray:
+    def _find_values(self, rates: RateMap, name: str) -> FloatArray:
         if name == "difference":
             return self._select(rates, self._decoders[1]) - self._select(rates, self._decoders[0])
         return self._select(rates, name)
@@ -175,18 +177,18 @@ class MapPlots(QWidget):
         return rates.bits_a_second(decoder, self._frames_a_second)
 
     def _show_lines(self) -> None:
-        lines = {key: each for key, each in self._lines.items() if key not in self._hidden_limits}
+        lines = {k: lines for k, lines in self._lines.items() if k not in self._hidden_limits}
         for plot in self.plots:
             plot.lines = lines
             plot.update()
 
     def _draw_bar(self, scheme: str) -> None:
         table = colour_table(scheme)
-        low, high = self._scale(scheme)
+        low, high = self._find_scale(scheme)
         opaque = np.full((len(table), 1), 255, dtype=np.uint8)
         image: QImage = make_image(np.hstack([table, opaque])[None])
         numbers = tuple(
-            (fraction, self._format(low + fraction * (high - low), bool(low)))
+            (fraction, self._format_number(low + fraction * (high - low), bool(low)))
             for fraction in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
         name = "Fraction of the bits that are read correctly, in percent"
@@ -197,13 +199,13 @@ class MapPlots(QWidget):
         self.bar.show_colours(image, numbers, name)
         self._bar_key = f"{scheme} {high}"
 
-    def _format(self, value: float, signed: bool) -> str:
+    def _format_number(self, value: float, signed: bool) -> str:
         if self._shown_quantity == "bits":
             return f"{value:+,.0f}" if signed and value else f"{value:,.0f}"
         return f"{value:+.0f} %" if signed and value else f"{value:.0f} %"
 
 
-_LIMITS = {
+_LIMIT_TEXTS = {
     "band": ("t = 1 chip", "The exposure lasts as long as a chip: the limit of the band model."),
     "null": ("null, f = 2/t", "The exposure lasts two chips: alternating chips leave no stripes."),
     "packets": ("two packets", "Below this frequency, two packets do not fit the panel's image."),
@@ -221,7 +223,7 @@ class MapLegend(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.buttons = {key: self._make_button(key, *words) for key, words in _LIMITS.items()}
+        self.buttons = {key: self._make_button(key, *words) for key, words in _LIMIT_TEXTS.items()}
         fill(QHBoxLayout(self), *self.buttons.values(), (None, 1), margins=0, spacing=2)
         self._draw_swatches()
 

@@ -1,4 +1,4 @@
-"""Cards above the map: the frequencies that each decoder reads, and what carries most bits."""
+"""Cards above the map: the frequencies that each decoder reads, and the most bits a second."""
 
 from collections.abc import Sequence
 
@@ -41,7 +41,7 @@ def _format_frequency(frequency: float) -> str:
 class LimitCards(QWidget):
     """A card for each decoder; visible cards request the limits of each new scene."""
 
-    asked = Signal()  # the limits of the present scene are needed
+    search_requested = Signal()  # the limits of the present scene are needed
 
     destination_chosen = Signal(str, float, str)
     """The user goes to a limit: a parameter, its value in SI units, and the decoder."""
@@ -57,20 +57,20 @@ class LimitCards(QWidget):
         self._is_complete = self._is_running = self._is_outdated = False
         self.rest_timer = QTimer(self, singleShot=True)
         self.rest_timer.setInterval(REST_MS)
-        self.rest_timer.timeout.connect(self.asked)
+        self.rest_timer.timeout.connect(self.search_requested)
 
     def _go(self, frequency: float, decoder: str) -> None:
         self.destination_chosen.emit(_PARAMETER, frequency, decoder)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
-        self._plan()
+        self._schedule_search()
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
         super().hideEvent(event)
         self.rest_timer.stop()
 
-    def _plan(self) -> None:
+    def _schedule_search(self) -> None:
         is_needed = self._is_outdated or not self._is_complete
         if is_needed and not self._is_running and self.isVisible():
             self.rest_timer.start()
@@ -93,18 +93,19 @@ class LimitCards(QWidget):
             card.show_limit(frequencies.highest, tip, advice.limits.rate)
             card.show_range(frequencies, "" if frequencies.intervals else advice.cause)
 
-    def show_ended(self, why_not: str = "") -> None:
-        self._is_running, self._is_complete = False, not why_not
-        if why_not:
+    def show_ended(self, reason: str = "") -> None:
+        """Show that the search has ended; ``reason``: why it is incomplete, else empty."""
+        self._is_running, self._is_complete = False, not reason
+        if reason:
             for card in self.cards.values():
-                card.show_unknown(why_not)
+                card.show_unknown(reason)
 
     def show_outdated(self, outdated: bool) -> None:
         self._is_outdated = outdated
         for card in self.cards.values():
             card.set_outdated(outdated)
         self.rest_timer.stop()
-        self._plan()
+        self._schedule_search()
 
 
 class LimitCard(QFrame):
@@ -170,7 +171,7 @@ class LimitCard(QFrame):
         self._update_button()
 
     def _update_button(self) -> None:
-        """Enable the button if the limit is of the present scene; else explain why it is not."""
+        """Enable the button for a limit of the present scene; explain why it is disabled."""
         self.go.setEnabled(self._destination is not None and not self._is_outdated)
         self.go.setToolTip(
             "Of an earlier scene; while this card is visible, a new search starts by itself."
@@ -178,36 +179,36 @@ class LimitCard(QFrame):
             else self.value.toolTip()
         )
 
-    def show_unknown(self, why: str = "") -> None:
-        if why:
-            self.name.setText(why)
-        self._show("?" if why else "", why or "Not searched for yet.", None)
+    def show_unknown(self, reason: str = "") -> None:
+        if reason:
+            self.name.setText(reason)
+        self._show("?" if reason else "", reason or "Not searched for yet.", None)
 
     def show_searching(self) -> None:
         self._show("…", "Searching for the highest frequency that is read.", None)
         self.set_outdated(False)
 
-    def show_limit(self, end: RangeEnd | None, text: str, rate: float) -> None:
+    def show_limit(self, end: RangeEnd | None, tip: str, rate: float) -> None:
         """Show the upper end of the range, or that nothing is read.
 
         ``rate``: the least success rate of the range, in percent.
         """
         if end is None:
-            self._show("none", text, None)
+            self._show("none", tip, None)
             return
         inside = end.inside
         value = _format_frequency(end.value)
         limit = f"at least {value}" if end.fails is None else f"{value} ({rate:g} %)"
-        self._show(limit, text, None if inside is None else inside.value)
+        self._show(limit, tip, None if inside is None else inside.value)
 
     def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""
         texts = [text for text in (cause, "a plug-in failed" if frequencies.faults else "") if text]
         if frequencies.gaps:
-            end, after = frequencies.gaps[0]
-            more = len(frequencies.gaps) - 1
-            gap = f"gap {_format_frequency(end.value)} to {_format_frequency(after.value)}"
-            texts.insert(0, f"{gap} and {inflect(more, 'gap')} more" if more else gap)
+            low, high = frequencies.gaps[0]
+            others = len(frequencies.gaps) - 1
+            gap = f"gap {_format_frequency(low.value)} to {_format_frequency(high.value)}"
+            texts.insert(0, f"{gap} and {inflect(others, 'gap')} more" if others else gap)
         if frequencies.lowest is not None:
             texts.insert(0, f"from {_format_frequency(frequencies.lowest.value)}")
         self.range.set_full_text("; ".join(texts))
@@ -231,7 +232,7 @@ _DIGITS = 3
 class MostBitsCard(QFrame):
     """A line with the best result, a button to search or cancel, and one to go to the result."""
 
-    asked = Signal()
+    search_requested = Signal()
     cancelled = Signal()
 
     chosen = Signal(object)  # the user goes to the result, a :class:`~occ_model.results.MostBits`
@@ -249,7 +250,7 @@ class MostBitsCard(QFrame):
             "Try line codes, frequencies and numbers of bits at the scene's exposure and "
             "distance, with each decoder. This takes some seconds, and a minute for the last "
             "decoder.",
-            self.asked,
+            self.search_requested,
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
         self.go = push_button(
@@ -293,9 +294,9 @@ class MostBitsCard(QFrame):
         self.go.setVisible(best is not None)
         self.go.setEnabled(not self._is_outdated)
         self.text.setEnabled(not self._is_outdated)
-        self.text.set_full_text(self._with_state(self._describe(best)))
+        self.text.set_full_text(self._append_state(self._describe(best)))
 
-    def _with_state(self, sentence: str) -> str:
+    def _append_state(self, sentence: str) -> str:
         """Append the progress of the search, or the reasons why it has no result."""
         parts = (sentence, self._state, *(self._failures if self._best is None else ()))
         return "; ".join(part for part in parts if part)
@@ -303,11 +304,12 @@ class MostBitsCard(QFrame):
     def _describe(self, best: MostBits | None) -> str:
         if best is None or best.scene is None:
             return "Which code, frequency and number of bits carry most?"
-        sent = best.scene.transmitter
+        transmitter = best.scene.transmitter
         text = (
-            f"{best.bits_a_second:,.0f} bits a second, {sent.payload_length} a picture in "
-            f"{sent.line_code} at {HERTZ.format(sent.switching_frequency, _DIGITS)}, "
+            f"{best.bits_a_second:,.0f} bits a second, {transmitter.payload_length} a picture in "
+            f"{transmitter.line_code} at "
+            f"{HERTZ.format(transmitter.switching_frequency, _DIGITS)}, "
             f"read by {best.decoder}"
         )
-        when = "Earlier scene" if self._is_outdated else "So far" if self._state else "Most"
-        return f"{when}: {text}"
+        prefix = "Earlier scene" if self._is_outdated else "So far" if self._state else "Most"
+        return f"{prefix}: {text}"

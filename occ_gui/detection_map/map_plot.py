@@ -31,41 +31,41 @@ class Tick:
     text: str  # the number, in the axis's unit
 
 
-def axis_unit(quantity: Quantity) -> tuple[str, float]:
+def choose_axis_unit(quantity: Quantity) -> tuple[str, float]:
     """Choose the unit of an axis: its symbol and its factor in SI units."""
     low, high = quantity.slider
     middle = math.sqrt(low * high) if quantity.scale == "log" else max(abs(low), abs(high))
     return quantity.unit.display(middle)
 
 
-def axis_title(quantity: Quantity, short: bool = False) -> str:
+def write_axis_title(quantity: Quantity, short: bool = False) -> str:
     """Return the title of an axis with its unit; a short one uses the symbol, if any."""
-    symbol = axis_unit(quantity)[0]
+    symbol = choose_axis_unit(quantity)[0]
     name = quantity.symbol.replace("_", "") if short and quantity.symbol else quantity.label
     return f"{name} ({symbol})" if symbol else name
 
 
-def ticks(quantity: Quantity, most: int) -> list[Tick]:
-    factor = axis_unit(quantity)[1]
-    values = _log_values if quantity.scale == "log" else _linear_values
+def make_ticks(quantity: Quantity, most: int) -> list[Tick]:
+    factor = choose_axis_unit(quantity)[1]
+    choose = _choose_log_numbers if quantity.scale == "log" else _choose_linear_numbers
     low, high = (end / factor for end in quantity.slider)
-    numbers = values(low, high, max(2, most))
+    numbers = choose(low, high, max(2, most))
     return [Tick(quantity.fraction(value * factor), f"{value:g}") for value in numbers]
 
 
-def _log_values(low: float, high: float, most: int) -> list[float]:
+def _choose_log_numbers(low: float, high: float, most: int) -> list[float]:
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    within: list[float] = []
+    numbers: list[float] = []
     for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
         # Rounded as decimal text: 2e-05, not 2.0000000000000003e-05.
         values = [float(f"{step}e{power}") for power in powers for step in steps]
-        within = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
-        if len(within) <= most:
+        numbers = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
+        if len(numbers) <= most:
             break
-    return within[:: math.ceil(len(within) / most)] if within else [low, high]
+    return numbers[:: math.ceil(len(numbers) / most)] if numbers else [low, high]
 
 
-def _linear_values(low: float, high: float, most: int) -> list[float]:
+def _choose_linear_numbers(low: float, high: float, most: int) -> list[float]:
     step = round_step((high - low) / most)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     return [float(f"{number * step:.12g}") for number in range(first, last + 1)]
@@ -184,7 +184,7 @@ class MapPlot(QWidget):
         painter.drawImage(area, self._image)
         hatch = QBrush(self.palette().color(QPalette.ColorRole.Mid), Qt.BrushStyle.BDiagPattern)
         for cell in self._refused_cells:
-            painter.fillRect(self._cell(*cell), hatch)
+            painter.fillRect(self._find_cell_area(*cell), hatch)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.drawRect(area)
         self.draw_axes(painter, area)
@@ -194,7 +194,7 @@ class MapPlot(QWidget):
             self._draw_lines(painter, key, lines)
         self._draw_marks(painter, area)
 
-    def _cell(self, x: int, y: int) -> QRectF:
+    def _find_cell_area(self, x: int, y: int) -> QRectF:
         area = self.area()
         width, height = area.width() / self._shape[0], area.height() / self._shape[1]
         return QRectF(area.left() + x * width, area.bottom() - (y + 1) * height, width, height)
@@ -207,19 +207,21 @@ class MapPlot(QWidget):
         painter.setPen(text)
         centre = Qt.AlignmentFlag.AlignCenter
         x, y = self._axes
-        for tick in ticks(x, int(area.width() / 38)):
-            at = self.place_of((tick.place, 0.0)).x()
-            painter.drawLine(QPointF(at, area.bottom()), QPointF(at, area.bottom() + _TICK))
-            painter.drawText(QRectF(at - 30, area.bottom() + _TICK, 60, line), centre, tick.text)
-        for tick in ticks(y, int(area.height() / (1.3 * line))):
-            at = self.place_of((0.0, tick.place)).y()
-            painter.drawLine(QPointF(area.left() - _TICK, at), QPointF(area.left(), at))
-            spot = QRectF(0, at - line / 2, area.left() - _TICK - _GAP, line)
+        for tick in make_ticks(x, int(area.width() / 38)):
+            tick_x = self.place_of((tick.place, 0.0)).x()
+            painter.drawLine(QPointF(tick_x, area.bottom()), QPointF(tick_x, area.bottom() + _TICK))
             painter.drawText(
-                spot, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, tick.text
+                QRectF(tick_x - 30, area.bottom() + _TICK, 60, line), centre, tick.text
             )
-        below = QRectF(area.left(), self.height() - line, area.width(), line)
-        painter.drawText(below, centre, self._fit_title(x, area.width()))
+        for tick in make_ticks(y, int(area.height() / (1.3 * line))):
+            tick_y = self.place_of((0.0, tick.place)).y()
+            painter.drawLine(QPointF(area.left() - _TICK, tick_y), QPointF(area.left(), tick_y))
+            number_area = QRectF(0, tick_y - line / 2, area.left() - _TICK - _GAP, line)
+            painter.drawText(
+                number_area, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, tick.text
+            )
+        title_area = QRectF(area.left(), self.height() - line, area.width(), line)
+        painter.drawText(title_area, centre, self._fit_title(x, area.width()))
         painter.drawText(QRectF(area.left(), 0, area.width(), line), centre, self.title)
         painter.save()
         painter.translate(0, area.bottom())
@@ -231,10 +233,10 @@ class MapPlot(QWidget):
 
     def _fit_title(self, quantity: Quantity, width: float) -> str:
         metrics = self.fontMetrics()
-        whole = axis_title(quantity)
-        if metrics.horizontalAdvance(whole) <= width:
-            return whole
-        short = axis_title(quantity, short=True)
+        title = write_axis_title(quantity)
+        if metrics.horizontalAdvance(title) <= width:
+            return title
+        short = write_axis_title(quantity, short=True)
         return metrics.elidedText(short, Qt.TextElideMode.ElideRight, int(width))
 
     def _draw_lines(self, painter: QPainter, key: str, lines: list[FloatArray]) -> None:
@@ -242,8 +244,8 @@ class MapPlot(QWidget):
         casing = QPen(_CASING, 3.6)
         for line in lines:
             path = QPolygonF([self.place_of(point) for point in self._extend_to_edges(line)])
-            for each in (casing, pen):
-                painter.setPen(each)
+            for layer in (casing, pen):
+                painter.setPen(layer)
                 painter.drawPolyline(path)
 
     def _extend_to_edges(self, line: FloatArray) -> list[Point]:
@@ -252,39 +254,39 @@ class MapPlot(QWidget):
         if len(points) < 2 or self._image.isNull():
             return points
         first, last = points[0], points[-1]
-        ahead = self._find_exit(points[1], first)
-        behind = self._find_exit(points[-2], last)
-        return [*([ahead] if ahead else []), *points, *([behind] if behind else [])]
+        start = self._find_exit(points[1], first)
+        end = self._find_exit(points[-2], last)
+        return [*([start] if start else []), *points, *([end] if end else [])]
 
-    def _find_exit(self, before: Point, end: Point) -> Point | None:
+    def _find_exit(self, previous: Point, end: Point) -> Point | None:
         """Return where a line leaves the map; None if it ends inside the range of both axes."""
         steps = []
-        for from_, to, count in zip(before, end, self._shape, strict=True):
-            change, margin = to - from_, 0.5 / max(count - 1, 1)
-            is_at_end = min(abs(to), abs(1.0 - to)) < _END_TOLERANCE
-            if is_at_end and change and (change > 0.0) == (to > 0.5):
+        for start, stop, count in zip(previous, end, self._shape, strict=True):
+            change, margin = stop - start, 0.5 / max(count - 1, 1)
+            is_at_end = min(abs(stop), abs(1.0 - stop)) < _END_TOLERANCE
+            if is_at_end and change and (change > 0.0) == (stop > 0.5):
                 steps.append(margin / abs(change))
         if not steps:
             return None
         step = min(steps)
-        (x0, y0), (x1, y1) = before, end
+        (x0, y0), (x1, y1) = previous, end
         return x1 + step * (x1 - x0), y1 + step * (y1 - y0)
 
     def _draw_marks(self, painter: QPainter, area: QRectF) -> None:
         if self._cursor is not None:
             painter.setPen(QPen(_PAPER, 1.5))
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawRect(self._cell(*self._cursor))
+            painter.drawRect(self._find_cell_area(*self._cursor))
         if self.setting is None:
             return
-        at = self.place_of(self.setting)
+        centre = self.place_of(self.setting)
         for pen in (QPen(QColor(0, 0, 0, 160), 3.0), QPen(_PAPER, 1.0)):
             painter.setPen(pen)
-            painter.drawLine(QPointF(at.x(), area.top()), QPointF(at.x(), area.bottom()))
-            painter.drawLine(QPointF(area.left(), at.y()), QPointF(area.right(), at.y()))
+            painter.drawLine(QPointF(centre.x(), area.top()), QPointF(centre.x(), area.bottom()))
+            painter.drawLine(QPointF(area.left(), centre.y()), QPointF(area.right(), centre.y()))
         painter.setPen(QPen(_INK, 1.5))
         painter.setBrush(_PAPER)
-        painter.drawEllipse(at, 4.0, 4.0)
+        painter.drawEllipse(centre, 4.0, 4.0)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         self._point_at(self.cell_at(event.position()))

@@ -6,8 +6,12 @@ from itertools import groupby, islice
 
 import numpy as np
 
-from occ_gui.detection_map.rate_map import STRIDES, RateMap, lattice
-from occ_gui.detection_map.worker import find_left_out, rate_settings, theory_fields
+from occ_gui.detection_map.rate_map import STRIDES, RateMap, make_lattice
+from occ_gui.detection_map.worker import (
+    compute_theory_fields,
+    find_omitted_effects,
+    make_rate_settings,
+)
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.parallel.job import Job
 from occ_model.receiver.decode import QUICK_DECODERS
@@ -18,7 +22,7 @@ from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.sweep.sweep import measure_points, rate_intervals
 
 SHAPE = (25, 13)
-"""Points along both axes: with two processes, the first points take some 40 ms, and all points
+"""Points along both axes; with two processes, the first points take some 40 ms, and all points
 less than a second."""
 
 IMAGES = (1, 2, 5)  # images of each point, in successive stages
@@ -39,40 +43,40 @@ class MapRequest:
     # Whether rows of the picture are simulated if the scene needs it
     with_image_effects: bool = True
 
-    def empty_map(self) -> RateMap:
-        values = (lattice(self.x, SHAPE[0]), lattice(self.y, SHAPE[1]))
+    def make_empty_map(self) -> RateMap:
+        values = (make_lattice(self.x, SHAPE[0]), make_lattice(self.y, SHAPE[1]))
         camera = self.scene.camera
         readout: list[FloatArray] = [
-            np.array(along) if name == "readout_time" else np.array([camera.readout_time])
-            for name, along in zip((self.x, self.y), values, strict=True)
+            np.array(axis_values) if name == "readout_time" else np.array([camera.readout_time])
+            for name, axis_values in zip((self.x, self.y), values, strict=True)
         ]
         # Only one of the axes can be the readout time.
         times = readout[0][:, None] * readout[1] / camera.readout_time * camera.columns
         return RateMap(self.x, self.y, *values, QUICK_DECODERS, times)
 
-    def sweep(self, images: int, decoders: tuple[str, ...] = QUICK_DECODERS) -> SweepRequest:
-        axes = {self.x: lattice(self.x, SHAPE[0]), self.y: lattice(self.y, SHAPE[1])}
-        settings = rate_settings(self.settings, images, decoders, self.with_image_effects)
+    def make_sweep(self, images: int, decoders: tuple[str, ...] = QUICK_DECODERS) -> SweepRequest:
+        axes = {self.x: make_lattice(self.x, SHAPE[0]), self.y: make_lattice(self.y, SHAPE[1])}
+        settings = make_rate_settings(self.settings, images, decoders, self.with_image_effects)
         return SweepRequest(self.scene, axes, settings)
 
     def jobs(
         self, images: IndexArray, with_theory: bool, on_slow: Callable[[], object] = lambda: None
     ) -> Iterator[Job]:
         """Yield the remaining jobs; call ``on_slow`` if the first points already take long."""
-        is_slow = self.with_image_effects and bool(find_left_out(self.scene, self.settings))
+        is_slow = self.with_image_effects and bool(find_omitted_effects(self.scene, self.settings))
         if is_slow:
             on_slow()
-        yield from map_jobs(tuple(map(self.sweep, IMAGES)), images, with_theory, is_slow)
+        yield from make_map_jobs(tuple(map(self.make_sweep, IMAGES)), images, with_theory, is_slow)
 
 
 def make_table(
     rates: RateMap, map_request: MapRequest, frames_a_second: float = FRAMES_A_SECOND
 ) -> SweepTable:
     """Return a complete map as a table, a copy that later points do not change."""
-    request = map_request.sweep(rates.least_images, rates.decoders)
+    request = map_request.make_sweep(rates.least_images, rates.decoders)
     settings = replace(request.settings, frames_a_second=frames_a_second)
     sent, right = rates.sent.copy(), rates.right.copy()
-    ends = np.array(
+    intervals = np.array(
         [
             rate_intervals(SweepPoint(index, int(bits), tuple(map(int, read))), settings.images)
             for index, (bits, read) in enumerate(
@@ -81,12 +85,12 @@ def make_table(
         ]
     ).reshape(*right.shape, 2)
     return SweepTable(
-        replace(request, settings=settings), sent, right, ends[..., 0], ends[..., 1],
+        replace(request, settings=settings), sent, right, intervals[..., 0], intervals[..., 1],
         dict(rates.notes), rates.whole.copy(),
     )  # fmt: skip
 
 
-def map_jobs(
+def make_map_jobs(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, is_slow: bool
 ) -> Iterator[Job]:
     """Yield the jobs of a map.
@@ -95,47 +99,48 @@ def map_jobs(
     """
     first, *others = requests
     order = list(first.in_order_of_work())
-    done = images.ravel()
+    image_counts = images.ravel()
     for stride in STRIDES:
-        is_on = _on_lattice(first.shape, stride)
-        new = [i for i in order if is_on[i] and done[i] < first.settings.images]
-        done = np.where(is_on, np.maximum(done, first.settings.images), done)
-        jobs = _jobs(first, new, is_slow)
+        is_on_lattice = _find_lattice_points(first.shape, stride)
+        count = first.settings.images
+        new = [i for i in order if is_on_lattice[i] and image_counts[i] < count]
+        image_counts = np.where(is_on_lattice, np.maximum(image_counts, count), image_counts)
+        jobs = _make_jobs(first, new, is_slow)
         is_coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
             # Last, so that it runs in a process that has no more points to measure.
-            jobs = (*jobs, _theory_job(first, _THEORY_SHAPES[0 if is_coarse else 1]))
+            jobs = (*jobs, _make_theory_job(first, _THEORY_SHAPES[0 if is_coarse else 1]))
         # Slow points take too long to be finished for an outdated request.
         for job in jobs:
             rank = COARSE if is_coarse else FINE
             yield replace(job, rank=rank, uninterruptible=is_coarse and not is_slow)
     for request in others:
-        new = [i for i in order if done[i] < request.settings.images]
-        for job in _jobs(request, new, is_slow):
+        new = [i for i in order if image_counts[i] < request.settings.images]
+        for job in _make_jobs(request, new, is_slow):
             yield replace(job, rank=MORE_IMAGES)
 
 
-def _theory_job(request: SweepRequest, shape: tuple[int, int]) -> Job:
+def _make_theory_job(request: SweepRequest, shape: tuple[int, int]) -> Job:
     x, y = request.axes
-    return Job(theory_fields, (request.scene, x, y, shape))
+    return Job(compute_theory_fields, (request.scene, x, y, shape))
 
 
-def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
-    along = [np.arange(n) % stride == 0 for n in shape]
-    return np.asarray(np.logical_and.outer(*along).ravel())
+def _find_lattice_points(shape: tuple[int, ...], stride: int) -> IndexArray:
+    on_axes = [np.arange(n) % stride == 0 for n in shape]
+    return np.asarray(np.logical_and.outer(*on_axes).ravel())
 
 
-def _jobs(request: SweepRequest, indices: list[int], is_slow: bool) -> tuple[Job, ...]:
+def _make_jobs(request: SweepRequest, indices: list[int], is_slow: bool) -> tuple[Job, ...]:
     """Make a job of each line of points, along which decoders can reuse what they prepare."""
     if is_slow:
-        return tuple(_job(request, (index,)) for index in indices)
-    along_y = request.shape[1]
+        return tuple(_make_job(request, (index,)) for index in indices)
+    y_count = request.shape[1]
     first, second = islice(request.in_order_of_work(), 2)
-    by_x = first // along_y == second // along_y
-    lines = groupby(indices, lambda i: i // along_y if by_x else i % along_y)
-    return tuple(_job(request, line) for _, line in lines)
+    is_x_constant = first // y_count == second // y_count
+    lines = groupby(indices, lambda i: i // y_count if is_x_constant else i % y_count)
+    return tuple(_make_job(request, line) for _, line in lines)
 
 
-def _job(request: SweepRequest, indices: Iterable[int]) -> Job:
+def _make_job(request: SweepRequest, indices: Iterable[int]) -> Job:
     points = tuple((index, request.values(index)) for index in indices)
     return Job(measure_points, (request.scene, request.settings, points))

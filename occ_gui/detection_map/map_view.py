@@ -26,7 +26,9 @@ class MapView(QWidget):
 
     axes_chosen = Signal(str, str)  # the parameters that the user chose for the axes, x and y
 
-    def __init__(self, decoders: Sequence[str], for_advice: Sequence[str] | None = None) -> None:
+    def __init__(
+        self, decoders: Sequence[str], advice_decoders: Sequence[str] | None = None
+    ) -> None:
         super().__init__()
         self._failure = self._refusal = ""
         self._progress = "measuring the first points…"
@@ -49,9 +51,9 @@ class MapView(QWidget):
             self._show_advice,
         )
         self.status = name_widget(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the map")
-        self.left_out = name_widget(ElidedLabel(), "Effects that the map leaves out")
-        self.left_out.hide()
-        self.advice = AdviceView(decoders if for_advice is None else for_advice)
+        self.omissions = name_widget(ElidedLabel(), "Effects that the map leaves out")
+        self.omissions.hide()
+        self.advice = AdviceView(decoders if advice_decoders is None else advice_decoders)
         self.cards = self.advice.cards
         self.most_bits = MostBitsCard()
         self._lay_out()
@@ -61,17 +63,21 @@ class MapView(QWidget):
 
     def _make_choices(self, decoders: Sequence[str]) -> None:
         names = {name: quantity(name).label for name in MAP_PARAMETERS}
-        self.across = KeyedComboBox(
+        self.x_parameter = KeyedComboBox(
             "Horizontal axis", "The parameter of the horizontal axis.", names
         )
-        self.up = KeyedComboBox("Vertical axis", "The parameter of the vertical axis.", names)
-        every = "both decoders" if len(decoders) == 2 else "all decoders"
-        words = {"both": every, **{name: name for name in decoders}}
+        self.y_parameter = KeyedComboBox(
+            "Vertical axis", "The parameter of the vertical axis.", names
+        )
+        all_decoders = "both decoders" if len(decoders) == 2 else "all decoders"
+        choices = {"both": all_decoders, **{name: name for name in decoders}}
         if len(decoders) > 1:
-            words["difference"] = "difference"
-        self.what = KeyedComboBox("Decoders", "The decoder whose success rates are shown.", words)
+            choices["difference"] = "difference"
+        self.decoder_choice = KeyedComboBox(
+            "Decoders", "The decoder whose success rates are shown.", choices
+        )
 
-        self.shown = KeyedComboBox(
+        self.quantity = KeyedComboBox(
             "What is shown",
             "Success rates, the fractions of the bits that are read; or the net bits a second of "
             "a video with one payload in each picture.",
@@ -83,8 +89,8 @@ class MapView(QWidget):
 
     def _lay_out(self) -> None:
         head = fill(
-            QHBoxLayout(), (self.across, 3), QLabel("×"),  # noqa: RUF001 - the sign for it
-            (self.up, 3), (self.what, 2), (self.shown, 2), self.frame_rate,
+            QHBoxLayout(), (self.x_parameter, 3), QLabel("×"),  # noqa: RUF001 - the sign for it
+            (self.y_parameter, 3), (self.decoder_choice, 2), (self.quantity, 2), self.frame_rate,
         )  # fmt: skip
         self._searches = fill(QHBoxLayout(), (self.most_bits, 1), self.advise)
         foot = fill(QHBoxLayout(), (self.legend, 1), self.image_effects)
@@ -92,7 +98,7 @@ class MapView(QWidget):
         page = QWidget()
         fill(
             QVBoxLayout(page), self.cards, self._searches, head, (self.plots, 1), foot,
-            self.left_out, self._state, margins=(4, 2, 4, 2), spacing=2,
+            self.omissions, self._state, margins=(4, 2, 4, 2), spacing=2,
         )  # fmt: skip
         self._pages = QStackedWidget()
         self._pages.addWidget(page)
@@ -110,28 +116,28 @@ class MapView(QWidget):
             line.addWidget(self.advise)
 
     def _connect(self) -> None:
-        self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))
-        self.up.chosen.connect(lambda y: self.axes_chosen.emit(self._axes[0], y))
-        self.what.chosen.connect(self.plots.show_what)
+        self.x_parameter.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))
+        self.y_parameter.chosen.connect(lambda y: self.axes_chosen.emit(self._axes[0], y))
+        self.decoder_choice.chosen.connect(self.plots.show_choice)
         self.frame_rate.refused.connect(self.show_failure)
         self.legend.toggled.connect(self.plots.show_limit)
-        self.advice.back_asked.connect(lambda: self._pages.setCurrentIndex(0))
+        self.advice.map_requested.connect(lambda: self._pages.setCurrentIndex(0))
 
     def _show_advice(self) -> None:
         self._pages.setCurrentWidget(self.advice)
-        self.advice.asked.emit()
+        self.advice.search_requested.emit()
 
     def show_axes(self, x: str, y: str) -> None:
         self._axes = (x, y)
-        self.across.show_key(x)
-        self.up.show_key(y)
+        self.x_parameter.show_key(x)
+        self.y_parameter.show_key(y)
         self.plots.show_axes(x, y)
         self.show_facts(None)
 
     def show_map(self, rates: RateMap) -> None:
         self._refusal = rates.explain_refusal()
         self.plots.show_map(rates)
-        self.legend.enable_limits(self.plots.limits())
+        self.legend.enable_limits(self.plots.list_limits())
 
     def show_scene(self, scene: Scene) -> None:
         x, y = (quantity(name).fraction(float(scene.value(name))) for name in self._axes)
@@ -143,7 +149,7 @@ class MapView(QWidget):
         if known >= total:
             self._progress = (
                 f"{total} points, each in the middle of its cell; images a point: {images} or "
-                "more; colour: {what}"
+                "more; colour: {quantity}"
             )
         self._show_status()
 
@@ -158,15 +164,15 @@ class MapView(QWidget):
         self.outdated.show_age(age, "computing…")
         self._show_status()
 
-    def show_left_out(self, effects: tuple[str, ...]) -> None:
-        self.left_out.setVisible(bool(effects))
-        self.left_out.set_full_text(f"The map leaves out: {', '.join(effects)}.")
+    def show_omissions(self, effects: tuple[str, ...]) -> None:
+        self.omissions.setVisible(bool(effects))
+        self.omissions.set_full_text(f"The map leaves out: {', '.join(effects)}.")
 
-    def show_bits(self, shown: ShownQuantity, frames_a_second: float) -> None:
-        self.shown.show_key(shown)
+    def show_quantity(self, shown: ShownQuantity, frames_a_second: float) -> None:
+        self.quantity.show_key(shown)
         self.frame_rate.setVisible(shown == "bits")
         self.frame_rate.set_value(frames_a_second)
-        self.plots.show_bits(shown, frames_a_second)
+        self.plots.show_quantity(shown, frames_a_second)
         self._show_status()
 
     def show_facts(self, facts: PointFacts | None) -> None:
@@ -176,12 +182,12 @@ class MapView(QWidget):
     def _show_status(self) -> None:
         facts = self._facts
         if facts is None:
-            progress = self._progress.replace("{what}", self.shown.currentText())
+            progress = self._progress.replace("{quantity}", self.quantity.currentText())
             text = self._failure or self._refusal or progress
         else:
             counts = self._describe_counts(facts) if facts.sent else ""
-            known = "; ".join(text for text in (counts, facts.note) if text)
-            text = f"{self._describe_place(facts)}: {known}"
+            description = "; ".join(text for text in (counts, facts.note) if text)
+            text = f"{self._describe_place(facts)}: {description}"
         if self._is_outdated and not self._failure:
             text = f"Earlier scene: {text}"
         self.status.set_full_text(text)
@@ -191,7 +197,7 @@ class MapView(QWidget):
         return f"{x.format(facts.x, 4)}, {y.format(facts.y, 4)}"
 
     def _describe_counts(self, facts: PointFacts) -> str:
-        if self.shown.key() == "bits":
+        if self.quantity.key() == "bits":
             return "; ".join(
                 f"{decoder} {facts.most_bits * whole / facts.images:,.0f} bits a second, "
                 f"{whole} of {facts.images} pictures whole"

@@ -17,7 +17,7 @@ from occ_gui.detection_map.search_controller import (
     MostBitsController,
 )
 from occ_gui.detection_map.wiring import BackgroundRates
-from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_left_out
+from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_omitted_effects
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
@@ -29,12 +29,12 @@ FIRST_AXES = ("switching_frequency", "distance")
 
 
 class DetectionMapController(QObject):
-    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: MapView) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, view: MapView) -> None:
         super().__init__()
         self._scenes = scenes
-        self.channel, self._pane = channel, pane
+        self.channel, self._view = channel, view
         bits = scenes.store.select(lambda workspace: (workspace.shown, workspace.frame_rate))
-        bits.changed.connect(lambda choice: pane.show_bits(*choice))
+        bits.changed.connect(lambda choice: view.show_quantity(*choice))
         self._axes = FIRST_AXES
         self._with_image_effects = True
         self._is_visible = False
@@ -43,10 +43,10 @@ class DetectionMapController(QObject):
         self._awaited_request: MapRequest | None = None
         self.map: RateMap | None = None
         self._ages = ResultAges(self._request())
-        channel.results_ready.connect(self._enter)
+        channel.results_ready.connect(self._enter_results)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._fail)
-        channel.status_message.connect(pane.show_failure)
+        channel.status_message.connect(view.show_failure)
         for store in (scenes, scenes.settings):
             store.changed.connect(self._follow_change)
 
@@ -81,11 +81,11 @@ class DetectionMapController(QObject):
 
     def choose_axes(self, x: str, y: str) -> None:
         """Set the axes; if the user chooses the parameter of the other axis, the axes swap."""
-        before = self._axes
+        old_x, old_y = self._axes
         if x == y:
-            x, y = (x, before[0]) if x == before[1] else (before[1], y)
+            x, y = (x, old_x) if x == old_y else (old_y, y)
         self._axes = (x, y)
-        self._pane.show_axes(x, y)
+        self._view.show_axes(x, y)
         self._follow_change()
 
     def use_image_effects(self, used: bool) -> None:
@@ -96,50 +96,54 @@ class DetectionMapController(QObject):
     def _follow_change(self) -> None:
         if not self._is_visible:
             return
-        self._pane.show_scene(self._scenes.scene)
-        self._show_left_out()
+        self._view.show_scene(self._scenes.scene)
+        self._show_omissions()
         request = self._request()
         self._ages.begin(request)
         self._show_age()
         if request == self._last_request:
             return
         self._last_request = request
-        self._pane.show_failure("")
-        present = self.map if request == self._map_request else None
-        rates = request.empty_map() if present is None else present
-        self._awaited_request = request if present is None else None
+        self._view.show_failure("")
+        known_map = self.map if request == self._map_request else None
+        rates = request.make_empty_map() if known_map is None else known_map
+        self._awaited_request = request if known_map is None else None
         on_slow = partial(self._end_wait, request)
         jobs = request.jobs(rates.images.copy(), rates.theory is None, on_slow)
         self.channel.put(request, jobs)
 
-    def _show_left_out(self) -> None:
+    def _show_omissions(self) -> None:
         scene, settings = self._scenes.scene, self._scenes.settings.settings
-        self._pane.show_left_out(() if self._with_image_effects else find_left_out(scene, settings))
+        self._view.show_omissions(
+            () if self._with_image_effects else find_omitted_effects(scene, settings)
+        )
 
     def _end_wait(self, request: MapRequest) -> None:
         if self._awaited_request is request:
             self._awaited_request = None
 
-    def _enter(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
+    def _enter_results(
+        self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]
+    ) -> None:
         self._end_wait(request)
         if request != self._map_request or self.map is None:
-            self.map, self._map_request = request.empty_map(), request
+            self.map, self._map_request = request.make_empty_map(), request
         for result in results:
             if isinstance(result, TheoryFields):
                 self.map.theory = result
             else:
                 self.map.enter(list(result.points), result.images)
         self._show_age()
-        self._pane.show_map(self.map)
+        self._view.show_map(self.map)
         self._show_progress()
 
     def _show_age(self) -> None:
-        self._pane.show_age(0.0 if self._map_request is None else self._ages.age(self._map_request))
+        self._view.show_age(0.0 if self._map_request is None else self._ages.age(self._map_request))
 
     def _show_progress(self) -> None:
         assert self.map is not None  # noqa: S101 - it is called when there is a map
         total = self.map.images.size
-        self._pane.show_progress(self.map.known_count, total, self.map.least_images)
+        self._view.show_progress(self.map.known_count, total, self.map.least_images)
 
     def _finish(self, request: MapRequest) -> None:
         if request == self._map_request:
@@ -147,7 +151,7 @@ class DetectionMapController(QObject):
 
     def _fail(self, sentence: str) -> None:
         self._awaited_request = None
-        self._pane.show_failure(sentence)
+        self._view.show_failure(sentence)
 
     def _stop(self) -> None:
         self.channel.cancel()
@@ -160,7 +164,7 @@ class DetectionMapController(QObject):
         if place is not None and rates is not None:
             x, y = (int(owner[place]) for owner in rates.find_owners())
         if rates is None or x < 0:
-            self._pane.show_facts(None)
+            self._view.show_facts(None)
             return
         index, sent = x * rates.shape[1] + y, int(rates.sent[x, y])
         right = tuple(int(count) for count in rates.right[x, y])
@@ -169,7 +173,7 @@ class DetectionMapController(QObject):
             (name, count, low, high)
             for name, count, (low, high) in zip(rates.decoders, right, ends, strict=True)
         )
-        self._pane.show_facts(
+        self._view.show_facts(
             PointFacts(
                 rates.x_values[x], rates.y_values[y], counts, sent,
                 int(rates.images[x, y]), rates.notes.get(index, ""),
@@ -203,21 +207,21 @@ class MapPane(Pane[None]):
         view.axes_chosen.connect(self.map.choose_axes)
         view.plots.picked.connect(self.map.go_to)
         view.plots.pointed.connect(self.map.point_at)
-        view.shown.chosen.connect(lambda what: store.put(replace(store.workspace, shown=what)))
+        view.quantity.chosen.connect(lambda key: store.put(replace(store.workspace, shown=key)))
         view.frame_rate.edited.connect(
             lambda rate: store.put(replace(store.workspace, frame_rate=rate))
         )
         rate = store.select(lambda workspace: workspace.frame_rate)
         rate.changed.connect(view.advice.use_frame_rate)
         view.advice.use_frame_rate(rate.value)  # another pane may have changed it
-        view.show_bits(store.workspace.shown, rate.value)
+        view.show_quantity(store.workspace.shown, rate.value)
         view.image_effects.toggled.connect(self.map.use_image_effects)
         view.image_effects.toggled.connect(self.advisor.use_image_effects)
-        view.advice.asked.connect(self.advisor.start)
-        view.advice.cards.asked.connect(lambda: self.advisor.start(IN_TURN_RANK))
+        view.advice.search_requested.connect(self.advisor.start)
+        view.advice.cards.search_requested.connect(lambda: self.advisor.start(IN_TURN_RANK))
         view.advice.cancelled.connect(self.advisor.cancel)
         view.advice.destination_chosen.connect(self.advisor.go_to_limit)
-        view.most_bits.asked.connect(self.most_bits.start)
+        view.most_bits.search_requested.connect(self.most_bits.start)
         view.most_bits.cancelled.connect(self.most_bits.cancel)
         view.most_bits.chosen.connect(self.most_bits.go)
 

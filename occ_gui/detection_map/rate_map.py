@@ -25,7 +25,7 @@ STRIDES = (6, 3, 1)
 LINES = ("band", "null", "packets", "saturation")
 
 
-def lattice(name: str, count: int) -> tuple[float, ...]:
+def make_lattice(name: str, count: int) -> tuple[float, ...]:
     """Return values spaced evenly over a slider's range, on its scale."""
     parameter = quantity(name)
     return tuple(parameter.at(place / (count - 1)) for place in range(count))
@@ -71,8 +71,8 @@ class PointFacts:
     sent: int  # bits sent; 0 if nothing is known
     images: int
     note: str
-    whole: tuple[int, ...] = ()
-    most_bits: float = 0.0
+    whole: tuple[int, ...] = ()  # for each decoder, the images read without an error
+    most_bits: float = 0.0  # bits a second if all were read
 
 
 @dataclass(eq=False, slots=True)
@@ -85,11 +85,12 @@ class RateMap:
     # Shape (points along x, points along y), or float: seconds in which a picture is read out,
     # which limits the number of pictures a second
     picture_times: FloatArray | float = 0.0
-    sent: IndexArray = field(init=False)
-    right: IndexArray = field(init=False)
-    whole: IndexArray = field(init=False)
-    images: IndexArray = field(init=False)
-    notes: dict[int, str] = field(init=False, default_factory=dict)
+    # Shape (points along x, points along y), and (..., decoders) for right and whole
+    sent: IndexArray = field(init=False)  # bits sent
+    right: IndexArray = field(init=False)  # bits read correctly
+    whole: IndexArray = field(init=False)  # images read without an error
+    images: IndexArray = field(init=False)  # images measured; 0 where nothing is known
+    notes: dict[int, str] = field(init=False, default_factory=dict)  # by the index of the point
     theory: TheoryFields | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
@@ -154,10 +155,10 @@ class RateMap:
         """Return why all known points are refused, or that a plug-in has failed; else empty."""
         sent = self.sent.ravel()
         has_rate = np.any(sent > 0)
-        return next((note for at, note in self.notes.items() if sent[at] or not has_rate), "")
+        return next((note for i, note in self.notes.items() if sent[i] or not has_rate), "")
 
     def find_owners(self) -> tuple[IndexArray, IndexArray]:
-        """Return the indices of the known point whose rate each point shows, along x and y.
+        """Return, for each point, the indices along x and y of the known point whose rate it shows.
 
         Points that are not measured yet show the rate of a measured point nearby; -1 if there is
         none.

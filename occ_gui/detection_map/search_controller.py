@@ -1,4 +1,4 @@
-"""Controllers of searches that the user starts: limits of a scene, and what carries most bits."""
+"""Controllers of searches that the user starts: the limits of a scene, and the most bits."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -11,7 +11,7 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.advice_worker import advise, search_most_bits
 from occ_gui.detection_map.limit_cards import MostBitsCard
-from occ_gui.detection_map.worker import find_left_out, rate_settings
+from occ_gui.detection_map.worker import find_omitted_effects, make_rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
 from occ_model.receiver.decode import DECODERS
@@ -44,7 +44,7 @@ class SearchController(QObject):
     A subclass returns the present request from :meth:`_request`.
     """
 
-    cancel_text = change_text = ""  # what the pane shows after the user, or a change, ends a search
+    cancel_text = change_text = ""  # shown after the user, or a change, has ended a search
 
     def __init__(
         self,
@@ -57,7 +57,7 @@ class SearchController(QObject):
     ) -> None:
         super().__init__()
         self._scenes, self._queue, self.channel = scenes, queue, channel
-        self._counters, self._show_result, self._end = counters, show_result, show_end
+        self._counters, self._show_result, self._show_end = counters, show_result, show_end
         self._last_request: Any = None
         self._result_count = self._start_count = 0
         self._timer = QTimer(self)
@@ -65,11 +65,15 @@ class SearchController(QObject):
         self._timer.timeout.connect(self._check_progress)
         channel.results_ready.connect(self._show_results)
         channel.finished.connect(self._finish)
-        channel.failed.connect(self._end)
+        channel.failed.connect(self._show_end)
         scenes.changed.connect(self._follow_change)
 
     def _begin(self, request: Any, jobs: Iterator[Job]) -> None:
-        self._last_request, self._result_count, self._start_count = request, 0, self._count()
+        self._last_request, self._result_count, self._start_count = (
+            request,
+            0,
+            self._count_pictures(),
+        )
         self.channel.put(request, jobs)
         self._timer.start()
 
@@ -83,7 +87,7 @@ class SearchController(QObject):
         """Stop the search; its results so far stay."""
         if not self.channel.is_idle:
             self.channel.cancel()
-            self._end(self.cancel_text)
+            self._show_end(self.cancel_text)
 
     def _follow_change(self) -> None:
         if self._last_request is None:
@@ -91,20 +95,20 @@ class SearchController(QObject):
         is_outdated = self._request() != self._last_request
         if is_outdated and not self.channel.is_idle:
             self.channel.cancel()
-            self._end(self.change_text)
+            self._show_end(self.change_text)
         self._show_outdated(is_outdated)
 
     def _finish(self, _request: object) -> None:
-        self._end("")
+        self._show_end("")
 
-    def _count(self) -> int:
+    def _count_pictures(self) -> int:
         return sum(map(self._queue.count_heartbeats, self._counters))
 
     def _check_progress(self) -> None:
         if self.channel.is_idle:
             self._timer.stop()
         else:
-            self._show_progress(self._count() - self._start_count)
+            self._show_progress(self._count_pictures() - self._start_count)
 
     def _show_results(self, _request: object, results: list[Any]) -> None:
         self._result_count += len(results)
@@ -134,7 +138,9 @@ class AdviceRequest:
 
     def jobs(self, rank: int) -> Iterator[Job]:
         for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
-            settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
+            settings = make_rate_settings(
+                self.settings, IMAGES, (decoder,), self.with_image_effects
+            )
             yield Job(advise, (self.scene, settings, decoder, READ_RATE), counter, rank)
 
 
@@ -144,8 +150,8 @@ class AdvisorController(SearchController):
     def __init__(
         self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: AdviceView
     ) -> None:
-        shows = pane.show_advice, pane.show_advice_ended
-        super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *shows)
+        callbacks = pane.show_advice, pane.show_advice_ended
+        super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *callbacks)
         self._pane = pane
         self._with_image_effects = True
         scenes.settings.changed.connect(self._follow_change)
@@ -162,8 +168,12 @@ class AdvisorController(SearchController):
     def start(self, rank: int = FIRST_RANK) -> None:
         """Search for the limits of the present scene."""
         request = self._request()
-        omitted = () if self._with_image_effects else find_left_out(request.scene, request.settings)
-        self._pane.show_advice_begun(omitted)
+        omitted_effects = (
+            ()
+            if self._with_image_effects
+            else find_omitted_effects(request.scene, request.settings)
+        )
+        self._pane.show_advice_begun(omitted_effects)
         self._begin(request, request.jobs(rank))
 
     def go_to_limit(self, name: str, value: float, decoder: str) -> None:
@@ -174,12 +184,10 @@ class AdvisorController(SearchController):
 
     def _show_outdated(self, outdated: bool) -> None:
         last, present = self._last_request, self._request()
-        reachable = [
-            name
-            for name in SEARCHED_PARAMETERS
-            if last.omit_value(name) == present.omit_value(name)
+        valid_parameters = [
+            name for name in SEARCHED_PARAMETERS if last.omit_value(name) == present.omit_value(name)
         ]
-        self._pane.show_advice_outdated(outdated, frozenset(reachable))
+        self._pane.show_advice_outdated(outdated, frozenset(valid_parameters))
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,8 +209,8 @@ class MostBitsController(SearchController):
     def __init__(
         self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: MostBitsCard
     ) -> None:
-        shows = pane.show_result, pane.show_ended
-        super().__init__(scenes, queue, channel, [_MOST_COUNTER], *shows)
+        callbacks = pane.show_result, pane.show_ended
+        super().__init__(scenes, queue, channel, [_MOST_COUNTER], *callbacks)
         self._pane = pane
         frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
         frame_rate.changed.connect(self._follow_change)

@@ -17,11 +17,11 @@ from occ_model.scene.parameters import PARAMETERS
 IMAGES = 5  # pictures of each position, as many as of a point of the complete map
 
 _HEIGHT = 6
-_BAR, _GAP = QSize(56, 6), 6  # the bar of the legend, and the pixels beside it
+_BAR_SIZE, _GAP = QSize(56, 6), 6  # the bar of the legend, and the pixels beside it
 
 _OUTDATED_OPACITY = 0.35
 
-_HANDLE_MARGIN = 3  # pixels on each side of the handle with the colour of the present scene
+_HANDLE_MARGIN = 3  # pixels on each side of the handle in the colour of the present scene's rate
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class SliderStrip(QWidget):
         super().__init__()
         self.slider = slider
         self.fractions: tuple[float | None, ...] = ()
-        self.present: SceneRate | None = None  # the success rate at the scene's own value
+        self.present_rate: SceneRate | None = None  # the success rate at the scene's own value
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fade_timer = QTimer(self, singleShot=True)
@@ -63,17 +63,21 @@ class SliderStrip(QWidget):
             f"else being equal: violet none, yellow all, grey unknown. A mean over {IMAGES} "
             "pictures with different start times."
         )
-        if self.present is not None:
+        if self.present_rate is not None:
             fraction, low, high = (
                 100.0 * value
-                for value in (self.present.fraction, self.present.low, self.present.high)
+                for value in (
+                    self.present_rate.fraction,
+                    self.present_rate.low,
+                    self.present_rate.high,
+                )
             )
             text += (
-                f"\nAt the handle: {fraction:.3g} % of the bits of {self.present.images} pictures "
-                f"({low:.1f} to {high:.1f} %)."
+                f"\nAt the handle: {fraction:.3g} % of the bits of {self.present_rate.images} "
+                f"pictures ({low:.1f} to {high:.1f} %)."
             )
-        good = sum(fraction > 0.99 for fraction in known)
-        summary = f"read at {good} of {len(known)} positions"
+        read_count = sum(fraction > 0.99 for fraction in known)
+        summary = f"read at {read_count} of {len(known)} positions"
         if self._is_outdated:
             text += "\nComputing; the colours are of an earlier scene."
             summary = f"earlier scene: {summary}"
@@ -86,10 +90,10 @@ class SliderStrip(QWidget):
         self._explain()
         self.update()
 
-    def show_present(self, rate: SceneRate | None) -> None:
+    def show_present_rate(self, rate: SceneRate | None) -> None:
         """Show the rate of the present scene, at the handle; None if unknown."""
-        if rate != self.present:
-            self.present = rate
+        if rate != self.present_rate:
+            self.present_rate = rate
             self._explain()
             self.update()
 
@@ -135,18 +139,20 @@ class SliderStrip(QWidget):
         first, last = self.span()
         count = max(2, len(self.fractions))
         half = (last - first) / (count - 1) / 2
-        whole = QRectF(first - half, 0, last - first + 2 * half, self.height())
+        colour_area = QRectF(first - half, 0, last - first + 2 * half, self.height())
         painter.setClipRect(QRectF(first, 0, last - first, self.height()))
-        painter.fillRect(whole, self.palette().color(QPalette.ColorRole.Midlight))
+        painter.fillRect(colour_area, self.palette().color(QPalette.ColorRole.Midlight))
         if self.fractions:
             painter.setOpacity(_OUTDATED_OPACITY if self._is_faded else 1.0)
             fractions = np.array(
                 [[np.nan if fraction is None else fraction] for fraction in self.fractions]
             )
-            painter.drawImage(whole, make_image(to_colours(fractions, 0.0, 1.0, RATES)))
+            painter.drawImage(colour_area, make_image(to_colours(fractions, 0.0, 1.0, RATES)))
         painter.setOpacity(1.0)
-        if self.present is not None:
-            colour = make_image(to_colours(np.array([[self.present.fraction]]), 0.0, 1.0, RATES))
+        if self.present_rate is not None:
+            colour = make_image(
+                to_colours(np.array([[self.present_rate.fraction]]), 0.0, 1.0, RATES)
+            )
             painter.drawImage(self._handle_area(), colour)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
@@ -184,10 +190,10 @@ class StripLegend(QWidget):
         left, middle = 0.0, self.height() / 2
         for text in ("misread", None, "read"):
             if text is None:
-                fractions = np.linspace(0.0, 1.0, _BAR.width())[:, None]
-                place = QRectF(QPointF(left, middle - _BAR.height() / 2), _BAR.toSizeF())
+                fractions = np.linspace(0.0, 1.0, _BAR_SIZE.width())[:, None]
+                place = QRectF(QPointF(left, middle - _BAR_SIZE.height() / 2), _BAR_SIZE.toSizeF())
                 painter.drawImage(place, make_image(to_colours(fractions, 0.0, 1.0, RATES)))
-                left += _BAR.width() + _GAP
+                left += _BAR_SIZE.width() + _GAP
                 continue
             width = self.fontMetrics().horizontalAdvance(text)
             place = QRectF(left, 0, width + 1, self.height())
@@ -200,7 +206,7 @@ class SliderStrips(QObject):
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
-        # Of other lights no bits are read.
+        # Other lights send no bits.
         self.rows = {name: row for name, row in rows.items() if PARAMETERS[name].is_of("code")}
         self.legend = StripLegend()  # shown below the sliders
         self.strips: dict[str, SliderStrip] = {}
@@ -215,13 +221,13 @@ class SliderStrips(QObject):
             self.visibility_changed.emit(event.type() == QEvent.Type.Show)
         return super().eventFilter(watched, event)
 
-    def set_shown(self, shown: bool) -> None:
+    def set_visible(self, is_visible: bool) -> None:
         for name, strip in self.strips.items():
-            strip.setVisible(shown)
-            self.rows[name].show_track(shown)
+            strip.setVisible(is_visible)
+            self.rows[name].show_track(is_visible)
         if self.legend.parentWidget() is not None:
-            self.legend.setVisible(shown)
+            self.legend.setVisible(is_visible)
 
-    def show_present(self, rate: SceneRate | None) -> None:
+    def show_present_rate(self, rate: SceneRate | None) -> None:
         for strip in self.strips.values():
-            strip.show_present(rate)
+            strip.show_present_rate(rate)

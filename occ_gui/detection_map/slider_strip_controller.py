@@ -8,14 +8,14 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
-from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.rate_map import make_lattice
 from occ_gui.detection_map.slider_strip import IMAGES, SceneRate, SliderStrips
 from occ_gui.detection_map.worker import (
     UNSEEN_PARAMETERS,
     StripPoints,
-    find_left_out,
+    find_omitted_effects,
+    make_rate_settings,
     measure_strip,
-    rate_settings,
 )
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
@@ -95,7 +95,7 @@ STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, 
 RANK = 3  # after all points of a visible map, but before more images of them
 
 
-def strip_jobs(
+def make_strip_jobs(
     missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
 ) -> Iterator[Job]:
     """Yield the remaining jobs.
@@ -104,15 +104,15 @@ def strip_jobs(
     request can stop. This generator runs when the work begins, so that finding out whether points
     are slow does not delay a slider.
     """
-    is_slow = bool(find_left_out(present.scene, present.settings))
-    done: set[int] = set()
+    is_slow = bool(find_omitted_effects(present.scene, present.settings))
+    scheduled: set[int] = set()
     for stride in STRIDES:
-        new = set(range(0, POSITIONS, stride)) - done
-        done |= new
+        new = set(range(0, POSITIONS, stride)) - scheduled
+        scheduled |= new
         is_first = stride == STRIDES[0] and not is_slow
         for name, (request, places) in missing.items():
-            for part in _divide(sorted(new & places), is_slow):
-                yield replace(_job(request, name, part), uninterruptible=is_first)
+            for group in _divide(sorted(new & places), is_slow):
+                yield replace(_make_job(request, name, group), uninterruptible=is_first)
 
 
 def _divide(places: list[int], is_slow: bool) -> list[list[int]]:
@@ -121,9 +121,9 @@ def _divide(places: list[int], is_slow: bool) -> list[list[int]]:
     return [places] if places else []
 
 
-def _job(request: RateRequest, name: str, places: list[int]) -> Job:
-    settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
-    values = lattice(name, POSITIONS)
+def _make_job(request: RateRequest, name: str, places: list[int]) -> Job:
+    settings = make_rate_settings(request.settings, IMAGES, (request.decoder,), True)
+    values = make_lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
     return Job(measure_strip, (request.scene, settings, name, points), rank=RANK)
 
@@ -164,7 +164,7 @@ class SliderStripController(RateController):
         request = self._last_request
         if request is not None:
             missing, self._missing = self._missing, {}
-            self._channel.put(request, strip_jobs(missing, request))
+            self._channel.put(request, make_strip_jobs(missing, request))
 
     def _show_results(self, request: RateRequest, results: list[StripPoints]) -> None:
         for result in results:
@@ -177,7 +177,9 @@ class SliderStripController(RateController):
             strip_request, fractions = self._known[name]
             strip = self._pane.strips[name]
             strip.show_outdated(strip_request != self._request().omit_value(name))
-            strip.show_fractions(tuple(_nearest(fractions, place) for place in range(POSITIONS)))
+            strip.show_fractions(
+                tuple(_find_nearest(fractions, place) for place in range(POSITIONS))
+            )
 
 
 def fraction_of(point: SweepPoint) -> float | None:
@@ -185,7 +187,7 @@ def fraction_of(point: SweepPoint) -> float | None:
     return None if point.note else point.right[0] / point.sent
 
 
-def _nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
+def _find_nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
     """Return the fraction at a position, or else at its neighbour on the coarser lattice."""
     if place in fractions:
         return fractions[place]
@@ -226,19 +228,19 @@ class SceneRateController(RateController):
 
     def _measure(self) -> None:
         if self._last_request is not None:
-            self._channel.put(self._last_request, iter([scene_rate_job(self._last_request)]))
+            self._channel.put(self._last_request, iter([make_scene_rate_job(self._last_request)]))
 
     def _show_results(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
         if request == self._last_request and results:
-            self._show(scene_rate(results[-1]))
+            self._show(compute_scene_rate(results[-1]))
 
 
-def scene_rate_job(request: RateRequest) -> Job:
-    settings = rate_settings(request.settings, SCENE_IMAGES, (request.decoder,), True)
+def make_scene_rate_job(request: RateRequest) -> Job:
+    settings = make_rate_settings(request.settings, SCENE_IMAGES, (request.decoder,), True)
     return Job(measure_points, (request.scene, settings, ((0, {}),)), rank=SCENE_RANK)
 
 
-def scene_rate(measured: MeasuredPoints) -> SceneRate | None:
+def compute_scene_rate(measured: MeasuredPoints) -> SceneRate | None:
     """Return the rate of a single point; None if it is refused or a plug-in has failed."""
     (point,) = measured.points
     if point.note:

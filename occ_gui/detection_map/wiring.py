@@ -1,4 +1,4 @@
-"""BackgroundRates: the worker processes of map, strips, advice and bench, and the strips."""
+"""BackgroundRates: the worker processes of map, strips, advice and bench, and their channels."""
 
 from collections.abc import Callable
 from functools import cached_property
@@ -22,7 +22,7 @@ PROCESSES = 2
 CHANNELS = ("map", "advice", "bench", "most bits", "strips", "scene rate")
 """Users of the worker processes, each with a channel of its own."""
 
-NICENESS = 10  # of the worker processes, so that the window comes first
+NICENESS = 10  # niceness of the worker processes, so that the window comes first
 
 START_MS = 400
 """Milliseconds that the strips wait at first, so that the window and its picture come first."""
@@ -52,9 +52,9 @@ class BackgroundRates(QObject):
         super().__init__()
         self._may_begin, self._was_ready = may_begin, False
         self._scenes, self._strips = scenes, strips
-        self._start = QTimer(self, singleShot=True)
-        self._start.setInterval(START_MS)
-        self._start.timeout.connect(self._begin)
+        self._start_timer = QTimer(self, singleShot=True)
+        self._start_timer.setInterval(START_MS)
+        self._start_timer.timeout.connect(self._begin)
         strips.visibility_changed.connect(self._follow_strips)
 
     @cached_property
@@ -78,13 +78,13 @@ class BackgroundRates(QObject):
         from occ_gui.detection_map.slider_strip_controller import SceneRateController
 
         controller = SceneRateController(self._scenes, self.channel("scene rate"))
-        controller.changed.connect(self._strips.show_present)
+        controller.changed.connect(self._strips.show_present_rate)
         controller.changed.connect(self.rate_changed)
         return controller
 
     @property
     def is_idle(self) -> bool:
-        if self._start.isActive():
+        if self._start_timer.isActive():
             return False
         return "scene_rate" not in vars(self) or (
             self.slider_strips.is_idle and self.scene_rate.is_idle
@@ -96,21 +96,21 @@ class BackgroundRates(QObject):
         if was_ready and self._was_ready:
             self._set_visible(True)
         else:
-            self._start.start()
+            self._start_timer.start()
 
-    def _set_visible(self, visible: bool) -> None:
-        self.slider_strips.set_visible(visible)
-        self.scene_rate.set_visible(visible)
+    def _set_visible(self, is_visible: bool) -> None:
+        self.slider_strips.set_visible(is_visible)
+        self.scene_rate.set_visible(is_visible)
 
-    def _follow_strips(self, visible: bool) -> None:
-        if visible:
-            self._start.start()
+    def _follow_strips(self, is_visible: bool) -> None:
+        if is_visible:
+            self._start_timer.start()
             return
-        self._start.stop()
+        self._start_timer.stop()
         if "scene_rate" in vars(self):
             self._set_visible(False)
 
     def stop(self) -> None:
-        self._start.stop()
+        self._start_timer.stop()
         if "queue" in vars(self):
             self.queue.stop()

@@ -40,7 +40,7 @@ class StripPoints:
     points: tuple[SweepPoint, ...]
 
 
-def rate_settings(
+def make_rate_settings(
     settings: SimulationSettings, images: int, decoders: tuple[str, ...], with_image_effects: bool
 ) -> RateSettings:
     """Return the settings with which rates are measured for the window.
@@ -55,7 +55,7 @@ def rate_settings(
     return RateSettings(images, decoders, SEED, settings.tolerance, force, path)
 
 
-def find_left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
+def find_omitted_effects(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
     """Return the names of the effects that a profile cannot show; none if there is no picture."""
     try:
         decisions = plan(scene, settings.tolerance, "signal", settings.force).decisions
@@ -76,7 +76,7 @@ def measure_strip(
     return StripPoints(name, measure_points(scene, settings, points, heartbeat).points)
 
 
-def theory_fields(
+def compute_theory_fields(
     scene: Scene, x: str, y: str, counts: tuple[int, int], heartbeat: Heartbeat
 ) -> TheoryFields:
     """Compute on which side of each limit the points of a coarse lattice lie.

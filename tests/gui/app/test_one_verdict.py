@@ -20,10 +20,10 @@ from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.slider_strip_controller import (
     SCENE_IMAGES,
     RateRequest as Request,
-    scene_rate,
-    scene_rate_job,
+    compute_scene_rate,
+    make_scene_rate_job,
 )
-from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_strip, rate_settings
+from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, make_rate_settings, measure_strip
 from occ_gui.simulation.verdict import verdict_on
 from occ_gui.widgets.state_look import State
 from occ_model.cli import main
@@ -98,18 +98,18 @@ def test_six_ways_give_the_same_rate(
     scene = scene_of(decoder).replace(**UNSEEN_PARAMETERS)
     settings, images = SimulationSettings(), SCENE_IMAGES
     frequency = scene.transmitter.switching_frequency
-    banner = scene_rate_job(Request(scene, settings, decoder))
-    rate = not_none(scene_rate(do_job(banner, lambda: None).value))
+    banner = make_scene_rate_job(Request(scene, settings, decoder))
+    rate = not_none(compute_scene_rate(do_job(banner, lambda: None).value))
     percent = occ.success_rate(scene, images, decoder)
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)
     elsewhere = scene.replace(switching_frequency=5e3)
     strip = measure_strip(
-        elsewhere, rate_settings(settings, images, (decoder,), True), "switching_frequency", at,
-        lambda: None,
+        elsewhere, make_rate_settings(settings, images, (decoder,), True), "switching_frequency",
+        at, lambda: None,
     ).points[0]  # fmt: skip
     request = MapRequest(elsewhere, "switching_frequency", "distance", settings)
-    sweep = request.sweep(images, (decoder,))
+    sweep = request.make_sweep(images, (decoder,))
     cell = ((0, own_place | {"distance": scene.pose.distance}),)
     of_map = measure_points(sweep.scene, sweep.settings, cell, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)

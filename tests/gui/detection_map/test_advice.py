@@ -178,7 +178,7 @@ def test_every_decoder_is_searched_and_each_end_has_a_button(advice_bench: MapBe
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
     assert len(advice.destinations) == 3 * len(DECODERS)
-    assert advice.again.isVisible()
+    assert advice.search_again.isVisible()
 
 
 def test_a_destination_button_changes_the_scene_in_one_step(advice_bench: MapBench) -> None:
@@ -208,7 +208,7 @@ def test_a_refusal_of_the_model_is_shown(
 ) -> None:
     monkeypatch.undo()
     advice_bench.scenes.change(pattern="1100")
-    advice_bench.view.advice.again.click()
+    advice_bench.view.advice.search_again.click()
     qtbot.waitUntil(lambda: advice_bench.pane.advisor.channel.is_idle)
     assert "A raw pattern has no code" in advice_bench.view.advice.state.toolTip()
 
@@ -256,7 +256,7 @@ def test_only_a_search_that_the_user_starts_comes_before_the_map(
     qtbot: QtBot, map_bench: MapBench
 ) -> None:
     map_bench.workers = workers = EndlessWorkers()
-    map_bench.view.cards.asked.emit()
+    map_bench.view.cards.search_requested.emit()
     qtbot.waitUntil(lambda: bool(workers.jobs))
     in_turn = workers.jobs[0].rank
     map_bench.view.advise.click()

@@ -99,7 +99,7 @@ def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
     cards.hide()
     assert not cards.rest_timer.isActive()
     cards.show()
-    with qtbot.waitSignal(cards.asked):
+    with qtbot.waitSignal(cards.search_requested):
         pass
     assert not cards.rest_timer.isActive()
     card = cards.cards["threshold"]
@@ -114,7 +114,7 @@ def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
     assert "earlier scene" in card.name.text()
     cards.show_outdated(False)
     assert not cards.rest_timer.isActive()
-    with qtbot.waitSignal(cards.asked):
+    with qtbot.waitSignal(cards.search_requested):
         cards.show_outdated(True)
     cards.show_outdated(False)
     cards.show()

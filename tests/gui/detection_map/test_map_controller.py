@@ -171,13 +171,13 @@ def test_image_effects_are_simulated_or_left_out_with_a_note(
 ) -> None:
     bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
     bench.look()
-    assert last_argument(bench.pane.show_left_out) == ()
+    assert last_argument(bench.pane.show_omissions) == ()
     settings = bench.workers.jobs[0].arguments[1]
     assert (settings.force, settings.path) == ({}, "auto")
     bench.workers.jobs.clear()
     bench.controller.use_image_effects(False)
     bench.wait_until_idle()
-    assert last_argument(bench.pane.show_left_out) == ("Vignetting",)
+    assert last_argument(bench.pane.show_omissions) == ("Vignetting",)
     settings = bench.workers.jobs[0].arguments[1]
     assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
 
@@ -206,9 +206,9 @@ def test_the_pane_follows_axes_shown_values_and_frame_rate(
     bench.controller.choose_axes(DISTANCE, DISTANCE)
     assert bench.pane.show_axes.call_args.args == (FREQUENCY, DISTANCE)
     show(bench.scenes.store, shown="bits")
-    assert bench.pane.show_bits.call_args.args[0] == "bits"
+    assert bench.pane.show_quantity.call_args.args[0] == "bits"
     show(bench.scenes.store, frame_rate=12.0)
-    assert bench.pane.show_bits.call_args.args == ("bits", 12.0)
+    assert bench.pane.show_quantity.call_args.args == ("bits", 12.0)
 
 
 def test_the_theoretical_limits_are_those_of_theory(
@@ -280,5 +280,5 @@ def test_only_rows_of_pictures_take_long(small_scene: Scene, with_image_effects:
         scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
     )
     calls: list[int] = []
-    next(request.jobs(request.empty_map().images, False, lambda: calls.append(1)))
+    next(request.jobs(request.make_empty_map().images, False, lambda: calls.append(1)))
     assert bool(calls) == with_image_effects

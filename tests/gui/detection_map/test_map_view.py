@@ -14,14 +14,14 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
-from occ_gui.detection_map.map_plot import axis_title, ticks
+from occ_gui.detection_map.map_plot import make_ticks, write_axis_title
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import (
     MAP_PARAMETERS,
     PointFacts,
     RateMap,
     TheoryFields,
-    lattice,
+    make_lattice,
 )
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -35,7 +35,7 @@ FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -> RateMap:
     """Return a map in which some points are known."""
-    x_values, y_values = lattice(FREQUENCY, SHAPE[0]), lattice(DISTANCE, SHAPE[1])
+    x_values, y_values = make_lattice(FREQUENCY, SHAPE[0]), make_lattice(DISTANCE, SHAPE[1])
     rates = RateMap(FREQUENCY, DISTANCE, x_values, y_values, DECODERS)
     read = [
         SweepPoint(index, 10, counts, "", tuple(int(count == 10) for count in counts))
@@ -143,8 +143,8 @@ def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
         ("matched", ["matched"]),
         ("difference", ["matched minus threshold"]),
     ):
-        view.what.show_key(what)
-        view.what.chosen.emit(what)
+        view.decoder_choice.show_key(what)
+        view.decoder_choice.chosen.emit(what)
         visible = [plot for plot in view.plots.plots if plot.isVisible()]
         assert [plot.title for plot in visible] == titles
         assert all(plot.accessibleName().endswith(plot.title) for plot in visible)
@@ -204,12 +204,12 @@ def test_the_numbers_of_an_axis_are_round_and_as_dense_as_allowed(name: str, mos
     A logarithmic axis has one, two and five of each power of ten; or one and three; or one.
     """
     parameter = quantity(name)
-    numbers = ticks(parameter, most)
+    numbers = make_ticks(parameter, most)
     places = [tick.place for tick in numbers]
     assert 1 <= len(numbers) <= most + 1
     assert places == sorted(places)
     assert all(0.0 <= place <= 1.0 for place in places)
-    assert axis_title(parameter)
+    assert write_axis_title(parameter)
     if parameter.scale == "linear":
         step = np.diff(places).max()
         assert np.diff(places) == pytest.approx(step)
@@ -250,7 +250,7 @@ def test_a_pane_made_later_shows_the_frame_rate_chosen_before(
 ) -> None:
     show(map_bench.store, frame_rate=24.0)
     show(map_bench.store, shown="bits")
-    assert (map_bench.view.frame_rate.value(), map_bench.view.shown.key()) == (24.0, "bits")
+    assert (map_bench.view.frame_rate.value(), map_bench.view.quantity.key()) == (24.0, "bits")
 
 
 def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
@@ -283,7 +283,7 @@ def rates(view: MapView) -> RateMap:
     rates = rates_of({0: (10, 9)})
     view.show_axes(FREQUENCY, DISTANCE)
     view.show_map(rates)
-    view.show_bits("bits", 25.0)
+    view.show_quantity("bits", 25.0)
     return rates
 
 
@@ -297,7 +297,7 @@ def test_bits_a_second_count_only_whole_payloads(view: MapView, rates: RateMap) 
     view.show_facts(facts)
     assert f"{DECODERS[0]} 250 bits a second, 1 of 1 pictures whole" in view.status.toolTip()
     assert f"{DECODERS[1]} 0 bits a second" in view.status.toolTip()
-    view.show_bits("rate", 25.0)
+    view.show_quantity("rate", 25.0)
     assert f"{DECODERS[0]} 100 %, 10 of 10 bits" in view.status.toolTip()
     rates.picture_times = 0.1  # limits the number of pictures a second
     assert rates.bits_a_second(DECODERS[0], 30.0)[0, 0] == pytest.approx(100.0)
@@ -314,8 +314,8 @@ def test_the_bar_of_bits_goes_from_zero_to_the_most_possible(view: MapView, rate
     assert bar_numbers(view)[-1] == f"{most:,.0f}"
     assert not any(text.startswith(("+", "-")) for text in bar_numbers(view))
     # A difference has a sign, except for zero.
-    view.what.show_key("difference")
-    view.plots.show_what("difference")
+    view.decoder_choice.show_key("difference")
+    view.plots.show_choice("difference")
     assert bar_numbers(view)[-1] == f"{most:+,.0f}"
     assert bar_numbers(view)[0] == f"{-most:+,.0f}"
     assert bar_numbers(view)[2] == "0"

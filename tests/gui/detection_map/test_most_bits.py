@@ -88,7 +88,7 @@ class Bench:
         self.queue = WorkQueue(1, lambda: workers)
         (channel,) = self.queue.channels
         self.controller = MostBitsController(self.scenes, self.queue, channel, card)
-        card.asked.connect(self.controller.start)
+        card.search_requested.connect(self.controller.start)
         card.cancelled.connect(self.controller.cancel)
         card.chosen.connect(self.controller.go)
 

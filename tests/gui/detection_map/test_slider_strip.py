@@ -18,7 +18,7 @@ import occ_model as occ
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module, wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
-from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.rate_map import make_lattice
 from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
 from occ_gui.detection_map.slider_strip_controller import RateRequest, SliderStripController
 from occ_gui.detection_map.wiring import BackgroundRates
@@ -90,7 +90,7 @@ def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench) -> None:
     for name in NAMES:
         rates = [
             occ.success_rate(scene.replace(**{name: value}), IMAGES, decoder)
-            for value in lattice(name, POSITIONS)
+            for value in make_lattice(name, POSITIONS)
         ]
         assert fractions[name] == pytest.approx([rate / 100 for rate in rates])
 
@@ -113,8 +113,8 @@ def test_nothing_is_measured_while_the_strips_are_hidden(bench: Bench, qtbot: Qt
 
 def test_where_a_plug_in_fails_the_rate_is_unknown() -> None:
     failed, read = (SweepPoint(0, 20, (0,), note, (0,)) for note in ("A plug-in failed.", ""))
-    assert module.scene_rate(MeasuredPoints((failed,), 2, 0.0)) is None
-    assert not_none(module.scene_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
+    assert module.compute_scene_rate(MeasuredPoints((failed,), 2, 0.0)) is None
+    assert not_none(module.compute_scene_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
     assert (module.fraction_of(failed), module.fraction_of(read)) == (None, 0.0)
 
 
@@ -179,7 +179,7 @@ def test_a_strip_is_as_long_as_the_path_of_the_handle(strips: SliderStrips) -> N
 def test_a_strip_has_the_colours_of_the_map_and_explains_itself(strips: SliderStrips) -> None:
     strip = strips.strips["iso"]
     strip.show_fractions((0.0, 0.5, None, 1.0))
-    strip.show_present(None)
+    strip.show_present_rate(None)
     picture, (first, last) = strip.grab().toImage(), strip.span()
     expected = to_colours(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3].tolist()
     colours = []
@@ -221,7 +221,7 @@ def test_the_legend_explains_the_colours_and_leaves_its_space_to_the_sliders(
     assert "read correctly" in legend.toolTip()
     assert legend.minimumSizeHint().height() == 0
     assert not legend.isHidden()
-    strips.set_shown(False)
+    strips.set_visible(False)
     assert legend.isHidden()
     legend.resize(legend.sizeHint())
     picture = legend.grab().toImage()

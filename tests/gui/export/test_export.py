@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.panes import accuracy, bands, decoding, detection_map, photo, picture, profile
 from occ_gui.detection_map.map_schedule import SHAPE, MapRequest
-from occ_gui.detection_map.rate_map import RateMap, lattice
+from occ_gui.detection_map.rate_map import RateMap, make_lattice
 from occ_gui.export import export_controller
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
@@ -117,7 +117,7 @@ def test_the_map_is_exported_once_it_is_complete(
     assert "not complete yet" in bench.export("map", path)
     scene, settings = bench.scenes.scene, bench.settings.settings
     x, y = "switching_frequency", "distance"
-    rates = RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), ("threshold",))
+    rates = RateMap(x, y, make_lattice(x, SHAPE[0]), make_lattice(y, SHAPE[1]), ("threshold",))
     rates.enter([SweepPoint(index, 10, (4,), "", (0,)) for index in range(rates.images.size)], 2)
     asked = MapRequest(scene, x, y, settings, with_image_effects=False)
     map_pane = type(bench.shell.pane("map").map)

@@ -24,7 +24,7 @@ from occ_gui.bench.bench_view import PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.pane import request_of
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
-from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
+from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, make_lattice
 from occ_gui.explanation.pane import ExplanationView
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.photo.match_result import MatchResult
@@ -68,7 +68,7 @@ def test_the_steps_of_each_decoder_look_as_stored(
 
 def test_the_map_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
     view = gallery.show(MapView(("threshold", "matched")), 640, 280)
-    x, y = lattice("switching_frequency", 13), lattice("distance", 7)
+    x, y = make_lattice("switching_frequency", 13), make_lattice("distance", 7)
     rates = RateMap("switching_frequency", "distance", x, y, ("threshold", "matched"))
     points = [(column, row) for column in range(13) for row in range(7)]
     known = [

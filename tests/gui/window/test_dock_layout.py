@@ -28,7 +28,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
-from occ_gui.detection_map.rate_map import RateMap, lattice
+from occ_gui.detection_map.rate_map import RateMap, make_lattice
 from occ_gui.values.choices import OVERLAYS
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
@@ -195,10 +195,10 @@ def test_the_map_is_whole_and_readable_at_every_size(
     application.window.bring_to_front("map")
     view = application.view("map")
     x, y = "switching_frequency", "distance"
-    rates = RateMap(x, y, lattice(x, 13), lattice(y, 7), ("threshold", "matched"))
+    rates = RateMap(x, y, make_lattice(x, 13), make_lattice(y, 7), ("threshold", "matched"))
     rates.enter([SweepPoint(index, 10, (10, 10), "", (1, 1)) for index in range(91)], 2)
     view.show_map(rates)
-    view.show_left_out(("Vignetting", "JPEG"))
+    view.show_omissions(("Vignetting", "JPEG"))
     assert_faultless(qtbot, application.window, "map")
     for part in (*view.plots.plots, view.plots.bar):
         assert not part.isVisible() or not is_cut_off(part), part

@@ -82,7 +82,7 @@ def test_a_lamp_without_light_has_no_valleys(view: BandsView) -> None:
     view.show_bands(_shown(_LAMP.replace(luminance=0.0)))
     assert not any(line.isVisible() for line in view.map.valleys)
     assert "Nothing blinks" in view.scene_answer.details.text()
-    assert "From" not in view.scene_answer.details.text()
+    assert "No exposure of" not in view.scene_answer.details.text()
 
 
 def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> None:

@@ -115,8 +115,8 @@ class VideoPane(QObject):
         super().__init__()
         self._window, self._shell, self._store, self._files = window, shell, store, files
         shell.made.connect(self._connect)
-        files.film_asked.connect(self.open)
-        files.film_save_asked.connect(self.save)
+        files.film_requested.connect(self.open)
+        files.film_save_requested.connect(self.save)
 
     def _connect(self, name: str, pane: Any) -> None:
         if name == "video":

@@ -73,7 +73,7 @@ class SceneInWindow(QObject):
     def _show_scene(self, scene: Scene) -> None:
         parts = self._parts
         parts.controls.show_scene(scene)
-        parts.controls.show_preset(*parts.presets.shown)
+        parts.controls.show_preset(*parts.presets.shown_names)
         names = main_of(scene.transmitter.light)
         parts.window.menus.show_animations(names)
         for name in names:  # marks where the picture changes in kind
@@ -92,8 +92,8 @@ class SceneInWindow(QObject):
 
     def _list_presets(self) -> None:
         presets, controls = self._parts.presets, self._parts.controls
-        controls.list_presets(presets.titles, presets.unreadable, presets.own)
-        controls.show_preset(*presets.shown)
+        controls.list_presets(presets.titles, presets.unreadable, presets.user_presets)
+        controls.show_preset(*presets.shown_names)
 
     def _list_recent(self) -> None:
         preferences, files = self._parts.preferences, self._parts.files

@@ -121,7 +121,7 @@ def _link_columns(crosshair: Crosshair, exposure: "ExposureController") -> None:
             exposure.follow(crosshair.column)
 
     crosshair.chosen.connect(follow)
-    exposure.held.connect(crosshair.choose)
+    exposure.column_held.connect(crosshair.choose)
     follow()
 
 

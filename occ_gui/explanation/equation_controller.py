@@ -19,28 +19,28 @@ class EquationController(QObject):
         self, scenes: SceneStore, show: Callable[[Sequence[Equation], frozenset[str]], None]
     ) -> None:
         super().__init__()
-        self._scenes, self._tell = scenes, show
+        self._scenes, self._show_equations = scenes, show
         self._is_visible = False
-        self._shown: Scene | None = None
-        self._only = ""
+        self._shown_scene: Scene | None = None
+        self._only_name = ""
         scenes.changed.connect(self._show)
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible
-        if visible and self._shown != self._scenes.scene:
-            self._shown = None  # changes made while hidden are not recent
+        if visible and self._shown_scene != self._scenes.scene:
+            self._shown_scene = None  # changes made while hidden are not recent
             self._show(self._scenes.scene)
 
     def show_only(self, name: str) -> None:
-        self._only, self._shown = name, None
+        self._only_name, self._shown_scene = name, None
         self._show(self._scenes.scene)
 
     def _show(self, scene: Scene) -> None:
         if not self._is_visible:
             return
-        last, self._shown = self._shown, scene
+        previous, self._shown_scene = self._shown_scene, scene
         changed = frozenset[str]()
-        if last is not None:
-            changed = frozenset(n for n in _NAMES if last.value(n) != scene.value(n))
-        chosen = tuple(e for e in equations(scene) if self._only in ("", e.name))
-        self._tell(chosen, changed)
+        if previous is not None:
+            changed = frozenset(n for n in _NAMES if previous.value(n) != scene.value(n))
+        chosen = tuple(e for e in equations(scene) if self._only_name in ("", e.name))
+        self._show_equations(chosen, changed)

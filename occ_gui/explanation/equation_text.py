@@ -13,7 +13,7 @@ HIGHLIGHT_MS = 1500  # milliseconds for which a term is marked after one of its 
 _MARK = "background-color:#F7D774; color:#000000; font-weight:600; text-decoration:underline;"
 """Style of marked terms, with weight and underline so that it does not depend on colour alone."""
 
-_RAISED = re.compile(r"(<su[bp]>.*?</su[bp]>)")
+_SCRIPTS = re.compile(r"(<su[bp]>.*?</su[bp]>)")
 _SYMBOL = re.compile(r"[A-Za-zγ]+")  # noqa: RUF001 - the equation's own letter
 
 _BASE = re.compile(r"[A-Za-z]+(?=<sub>)")
@@ -35,24 +35,26 @@ class EquationText(QTextBrowser):
         self.setMinimumHeight(_LEAST_HEIGHT)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.document().setDocumentMargin(4)
-        self._fading = QTimer(self, singleShot=True)
-        self._fading.setInterval(HIGHLIGHT_MS)
-        self._fading.timeout.connect(lambda: self._write(frozenset()))
+        self._mark_timer = QTimer(self, singleShot=True)
+        self._mark_timer.setInterval(HIGHLIGHT_MS)
+        self._mark_timer.timeout.connect(lambda: self._write(frozenset()))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
         self._equations = tuple(equations)
-        self._fading.stop()
+        self._mark_timer.stop()
         self._write(changed)
         if changed:
-            self._fading.start()
+            self._mark_timer.start()
 
     def _write(self, changed: frozenset[str]) -> None:
         bar = self.verticalScrollBar()
-        place = bar.value()
-        self.setHtml("".join(self._paragraphs(equation, changed) for equation in self._equations))
-        bar.setValue(place)  # setHtml scrolls to the top
+        position = bar.value()
+        self.setHtml(
+            "".join(self._write_paragraphs(equation, changed) for equation in self._equations)
+        )
+        bar.setValue(position)  # setHtml scrolls to the top
 
-    def _paragraphs(self, equation: Equation, changed: frozenset[str]) -> str:
+    def _write_paragraphs(self, equation: Equation, changed: frozenset[str]) -> str:
         symbols = _join_terms(((_set_italics(t.text), t) for t in equation.symbols), changed)
         numbers = _join_terms(((_set_base_italics(t.text), t) for t in equation.numbers), changed)
         source = equation.source
@@ -71,9 +73,9 @@ class EquationText(QTextBrowser):
 
 def _set_italics(text: str) -> str:
     """Set the letters of quantities in italics, but not their indices and exponents."""
-    parts = _RAISED.split(text)
+    parts = _SCRIPTS.split(text)
     return "".join(
-        part if _RAISED.fullmatch(part) else _SYMBOL.sub(r"<i>\g<0></i>", part) for part in parts
+        part if _SCRIPTS.fullmatch(part) else _SYMBOL.sub(r"<i>\g<0></i>", part) for part in parts
     )
 
 
@@ -83,11 +85,11 @@ def _set_base_italics(text: str) -> str:
 
 
 def _join_terms(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
-    text, tight = "", True
+    text, joins_next = "", True
     for html, term in terms:
-        if not (tight or html.startswith(")")):
+        if not (joins_next or html.startswith(")")):
             text += " "
-        marked = bool(changed.intersection(term.parameters))
-        text += f"<span style='{_MARK}'>{html}</span>" if marked else html
-        tight = html.endswith("(")
+        is_marked = bool(changed.intersection(term.parameters))
+        text += f"<span style='{_MARK}'>{html}</span>" if is_marked else html
+        joins_next = html.endswith("(")
     return text

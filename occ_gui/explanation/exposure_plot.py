@@ -16,17 +16,17 @@ from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.units import SECOND
 
 _MICRO = 1e6
-_SHADE = 60
+_SHADE_ALPHA = 60
 _LEAST_HEIGHT = 92
 
-_LEAST_SPAN = 1e-6  # smallest range of the time axis, as a fraction of the time that is drawn
+_LEAST_SPAN = 1e-6  # smallest range of the time axis, as a fraction of the drawn time
 
 
 class ColumnPicker(QObject):
     hovered = Signal(int)
     clicked = Signal(int)
 
-    stepped = Signal(int)  # the number of columns to move to the right; negative to the left
+    stepped = Signal(int)  # the number of columns to move to the right; negative: to the left
 
     released = Signal()
 
@@ -34,9 +34,9 @@ class ColumnPicker(QObject):
         super().__init__(plot)
         self._plot = plot
         self._box = plot.getViewBox()
-        self._active = False
-        self._last: int | None = None
-        self._held = False
+        self._is_active = False
+        self._marked_column: int | None = None
+        self._is_held = False
         self.marker = pg.InfiniteLine(angle=90)
         self.marker.setZValue(20)
         self.marker.hide()
@@ -47,29 +47,29 @@ class ColumnPicker(QObject):
         plot.follow_palette(self._dress)
 
     def set_active(self, active: bool) -> None:
-        self._active = active
+        self._is_active = active
         self.marker.setVisible(active)
 
-    def show_column(self, column: int, held: bool) -> None:
+    def show_column(self, column: int, is_held: bool) -> None:
         """Mark a column with a dashed line, or with a solid line if it is held."""
-        self._held = held
+        self._is_held = is_held
         self._dress(self._plot.palette())
         self.marker.setValue(column)
-        self._last = column
+        self._marked_column = column
 
     def _dress(self, palette: QPalette) -> None:
-        style = Qt.PenStyle.SolidLine if self._held else Qt.PenStyle.DashLine
+        style = Qt.PenStyle.SolidLine if self._is_held else Qt.PenStyle.DashLine
         self.marker.setPen(thin_pen(palette.color(QPalette.ColorRole.Text), style))
 
     def _hover(self, place: QPointF) -> None:
         column = self._column_at(place)
-        if self._active and column is not None and column != self._last:
-            self._last = column
+        if self._is_active and column is not None and column != self._marked_column:
+            self._marked_column = column
             self.hovered.emit(column)
 
     def _click(self, event: MouseClickEvent) -> None:
         column = self._column_at(event.scenePos())
-        if self._active and column is not None and event.button() == Qt.MouseButton.LeftButton:
+        if self._is_active and column is not None and event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit(column)
 
     def _column_at(self, place: QPointF) -> int | None:
@@ -79,7 +79,11 @@ class ColumnPicker(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         """Move from column to column with the arrow keys, and release a held column with Escape."""
-        if self._active and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+        if (
+            self._is_active
+            and event.type() == QEvent.Type.KeyPress
+            and isinstance(event, QKeyEvent)
+        ):
             key = Qt.Key(event.key())
             if key in KEY_STEPS:
                 self.stepped.emit(KEY_STEPS[key])
@@ -112,9 +116,9 @@ class ExposurePlot(QWidget):
             self._fit_height()
 
     def _fit_height(self) -> None:
-        """Reserve the height of all lines of the sentence, as a splitter reserves too little."""
-        needed = self._layout.minimumHeightForWidth(self.width())
-        self.setMinimumHeight(max(needed, 0))  # -1 without a sentence
+        """Reserve the height of all lines of the sentence; a splitter reserves too little."""
+        height = self._layout.minimumHeightForWidth(self.width())
+        self.setMinimumHeight(max(height, 0))  # -1 without a sentence
 
     def _make_plot(self) -> None:
         self.plot = new_plot(
@@ -125,7 +129,7 @@ class ExposurePlot(QWidget):
         self.plot.setMouseEnabled(x=True, y=False)
         self.plot.getAxis("left").setTicks([[(0.0, "off"), (1.0, "on")]])
         colour = QColor(REGION)
-        colour.setAlpha(_SHADE)
+        colour.setAlpha(_SHADE_ALPHA)
         self.shade = pg.LinearRegionItem(brush=colour, pen=thin_pen(REGION), movable=False)
         self.shade.setZValue(-10)
         hatched = QBrush(BAND, Qt.BrushStyle.BDiagPattern)
@@ -142,8 +146,8 @@ class ExposurePlot(QWidget):
         self.column = name_widget(
             QSpinBox(),
             "Column whose exposure is shown",
-            "The column of the picture whose exposure is shown. Moving the mouse over the "
-            "profile chooses one too, and so do the arrow keys there.",
+            "The column of the picture whose exposure is shown. The mouse over the profile, and "
+            "the arrow keys there, choose it, too.",
         )
         self.column.setKeyboardTracking(False)
         keep_wheel_for_scrolling(self.column)
@@ -153,11 +157,11 @@ class ExposurePlot(QWidget):
         )
         self.hold.clicked.connect(self.hold_chosen)
 
-    def show_column(self, column: int, columns: int, held: bool) -> None:
+    def show_column(self, column: int, columns: int, is_held: bool) -> None:
         with QSignalBlocker(self.column):
             self.column.setRange(0, columns - 1)
             self.column.setValue(column)
-        self.hold.setChecked(held)
+        self.hold.setChecked(is_held)
 
     def show_window(self, window: ExposureWindow, level: float) -> None:
         edges = window.edges * _MICRO

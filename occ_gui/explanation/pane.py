@@ -18,19 +18,19 @@ from occ_model.teaching.light_over_columns import exposure_window
 class ExposureController(QObject):
     """Keeps the chosen column, held or under the mouse, and computes its exposure while visible."""
 
-    held = Signal(int)  # the column that the user has chosen and that stays chosen
+    column_held = Signal(int)  # the column that the user has chosen and that stays chosen
 
-    def __init__(self, pane: ExposurePlot, mark: ColumnPicker) -> None:
+    def __init__(self, plot: ExposurePlot, picker: ColumnPicker) -> None:
         super().__init__()
-        self._pane, self._mark = pane, mark
+        self._plot, self._picker = plot, picker
         self._snapshot: Snapshot | None = None
         self._column: int | None = None
-        self._held = False
+        self._is_held = False
         self._is_visible = False
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible
-        self._mark.set_active(visible)
+        self._picker.set_active(visible)
         self._show()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -39,12 +39,12 @@ class ExposureController(QObject):
 
     def hover(self, column: int) -> None:
         """Show the column under the mouse, unless a column is held."""
-        if not self._held:
-            self._choose(column, held=False)
+        if not self._is_held:
+            self._choose(column, is_held=False)
 
     def click(self, column: int) -> None:
-        if self._held and column == self._column:
-            self._choose(column, held=False)
+        if self._is_held and column == self._column:
+            self._choose(column, is_held=False)
         else:
             self.choose(column)
 
@@ -53,20 +53,20 @@ class ExposureController(QObject):
             self.choose(self._column + columns)
 
     def choose(self, column: int) -> None:
-        self._choose(column, held=True)
-        self.held.emit(self._column)
+        self._choose(column, is_held=True)
+        self.column_held.emit(self._column)
 
     def follow(self, column: int) -> None:
         if column != self._column:
-            self._choose(column, held=self._held)
+            self._choose(column, is_held=self._is_held)
 
-    def hold(self, held: bool) -> None:
+    def hold(self, is_held: bool) -> None:
         """Hold the column that is shown, or let the mouse choose the column."""
-        self._held = held
+        self._is_held = is_held
         self._show()
 
-    def _choose(self, column: int, held: bool) -> None:
-        self._column, self._held = column, held
+    def _choose(self, column: int, is_held: bool) -> None:
+        self._column, self._is_held = column, is_held
         self._show()
 
     def _show(self) -> None:
@@ -77,23 +77,23 @@ class ExposureController(QObject):
         if self._column is None:  # start in the first packet, which the profile shows
             self._column = int(snapshot.panel_origin[0] + snapshot.period_columns / 2)
         self._column = min(max(self._column, 0), len(profile) - 1)
-        self._pane.show_column(self._column, len(profile), self._held)
-        self._mark.show_column(self._column, self._held)
+        self._plot.show_column(self._column, len(profile), self._is_held)
+        self._picker.show_column(self._column, self._is_held)
         window = exposure_window(snapshot.frame.scene, self._column)
-        self._pane.show_window(window, float(profile[self._column]))
+        self._plot.show_window(window, float(profile[self._column]))
 
 
 class ExplanationView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.equations, self.exposure = EquationText(), ExposurePlot()
-        panes = QSplitter(Qt.Orientation.Vertical)
-        panes.addWidget(self.equations)
-        panes.addWidget(self.exposure)
-        panes.setChildrenCollapsible(False)
-        panes.setStretchFactor(0, 3)
-        panes.setStretchFactor(1, 2)
-        fill(QVBoxLayout(self), panes, margins=0)
+        splitter = QSplitter(Qt.Orientation.Vertical)
+        splitter.addWidget(self.equations)
+        splitter.addWidget(self.exposure)
+        splitter.setChildrenCollapsible(False)
+        splitter.setStretchFactor(0, 3)
+        splitter.setStretchFactor(1, 2)
+        fill(QVBoxLayout(self), splitter, margins=0)
 
 
 class ExplanationPane(Pane[Snapshot]):

@@ -16,7 +16,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, SimulationSettings
 
 STEPS = 30
-"""Steps of the slider from end to end; there and back make twice as many frames."""
+"""Steps of the slider from end to end; the animation has twice as many frames, there and back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +57,11 @@ class AnimationExport(Service):
 
     def write(self, path: Path, name: str) -> None:
         """Write an animation in which a slider moves from end to end and back."""
-        declared = PARAMETERS[name]
-        if not isinstance(declared, Quantity):
+        parameter = PARAMETERS[name]
+        if not isinstance(parameter, Quantity):
             return
-        out = [declared.at(place / STEPS) for place in range(STEPS + 1)]
-        values = (*out, *out[-2:0:-1])  # without the first value, with which the film starts again
+        forward = [parameter.at(step / STEPS) for step in range(STEPS + 1)]
+        values = (*forward, *forward[-2:0:-1])  # without the first value, with which it repeats
         settings = self._scenes.settings.settings
         self.writer.start(_Film(path, self._scenes.scene, settings, name, values))
 

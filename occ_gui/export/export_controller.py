@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
 
 
-# matplotlib takes half a second to import, so that functions import what needs it when called.
+# Functions import what needs matplotlib when called, because it takes half a second to import.
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,21 +87,21 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     is_new = not folder.exists()
     make_folder(folder)
     try:
-        drawn = {request.draw(): request for request in requests}
+        drawings = {request.draw(): request for request in requests}
         # Refused at once: drawing takes seconds.
-        for drawing in drawn:
+        for drawing in drawings:
             for path in files_of(drawing, folder):
                 check_replaceable(path)
-        return write_all(folder, drawn, lambda drawing: drawn[drawing].provenance(drawing))
+        return write_all(folder, drawings, lambda each: drawings[each].provenance(each))
     finally:
         if is_new and not any(folder.iterdir()):
             folder.rmdir()
 
 
-_WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands", "room")
+_FIGURE_PANES = ("profile", "accuracy", "map", "bench", "bands", "room")
 """Panes with a figure of the same name; for any other pane, the picture is copied."""
 
-_ENDING = "export/ending"  # key under which the ending of the last exported file is stored
+_ENDING_KEY = "export/ending"  # key of the last exported file's ending in the preferences
 
 
 class ExportController(Service):
@@ -123,8 +123,8 @@ class ExportController(Service):
         self._preferences = preferences
         self._current_pane = current_pane
         self._store = store
-        self._waiting: deque[ExportJob] = deque()
-        self._left_out = ""
+        self._queue: deque[ExportJob] = deque()
+        self._omissions = ""
         # A lambda looks up `export` at each call, so that tests can replace it.
         self.runner: Task[ExportJob, ExportResult] = Task(
             lambda request, _: export(request), "export"
@@ -132,16 +132,16 @@ class ExportController(Service):
         self.tasks = (self.runner,)
         self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
-        self.runner.idle.connect(self._go_on)
+        self.runner.idle.connect(self._draw_next)
 
     @property
     def is_idle(self) -> bool:
-        return super().is_idle and not self._waiting
+        return super().is_idle and not self._queue
 
     def ask(self, name: str) -> None:
         """Ask for a file, and write a figure to it."""
-        shown = self._present.latest
-        if shown is not None and self._request_or_report(name, shown) is None:
+        snapshot = self._present.latest
+        if snapshot is not None and self._request_or_report(name, snapshot) is None:
             return
         kinds = {
             ".png": "PNG picture (*.png)",
@@ -150,19 +150,19 @@ class ExportController(Service):
             ".csv": "CSV table of the numbers (*.csv)",
         }
         title = f"Export: {self._shell.figures[name].title}"
-        kept = self._preferences.recall(_ENDING)
-        first = kept if kept in kinds else ENDINGS[0]
+        last = self._preferences.recall(_ENDING_KEY)
+        ending = last if last in kinds else ENDINGS[0]
         chosen, kind = QFileDialog.getSaveFileName(
-            self._window, title, str(Path(self._preferences.export_folder, f"{name}{first}")),
-            ";;".join(kinds.values()), kinds[first],
+            self._window, title, str(Path(self._preferences.export_folder, f"{name}{ending}")),
+            ";;".join(kinds.values()), kinds[ending],
         )  # fmt: skip
         if not chosen:
             return
         path = Path(chosen)
         if not path.suffix:
-            ending = next((each for each, text in kinds.items() if text == kind), ENDINGS[0])
+            ending = next((key for key, text in kinds.items() if text == kind), ENDINGS[0])
             path = path.with_suffix(ending)
-        self._preferences.keep(_ENDING, path.suffix.lower())
+        self._preferences.keep(_ENDING_KEY, path.suffix.lower())
         self.export(name, path)
 
     def export(self, name: str, path: Path) -> None:
@@ -179,18 +179,18 @@ class ExportController(Service):
         """Write every available figure in every format into a folder."""
         self._present.ask(partial(self._draw_all, folder))
 
-    def _draw_all(self, folder: Path, shown: Snapshot) -> None:
+    def _draw_all(self, folder: Path, snapshot: Snapshot) -> None:
         requests, missing = [], []
         for figure in self._shell.different_figures:
             try:
-                requests.append(self._make_request(figure.name, shown))
+                requests.append(self._make_request(figure.name, snapshot))
             except NothingToDraw as reason:
                 missing.append(f"{figure.title}: {reason}")
-        self._left_out = " ".join(missing)
+        self._omissions = " ".join(missing)
         if not requests:
-            self.status_message.emit(self._left_out)
+            self.status_message.emit(self._omissions)
             return
-        self._put(ExportJob(tuple(requests), folder=folder))
+        self._enqueue(ExportJob(tuple(requests), folder=folder))
 
     def copy(self, name: str) -> None:
         self._present.ask(partial(self._draw, name, None))
@@ -200,43 +200,43 @@ class ExportController(Service):
         if pane == "decode":
             self.copy(f"decoding-{self._store.workspace.decoder}")
             return
-        self.copy(pane if pane in _WITH_FIGURE else PICTURE)
+        self.copy(pane if pane in _FIGURE_PANES else PICTURE)
 
-    def _draw(self, name: str, path: Path | None, shown: Snapshot) -> None:
-        request = self._request_or_report(name, shown)
+    def _draw(self, name: str, path: Path | None, snapshot: Snapshot) -> None:
+        request = self._request_or_report(name, snapshot)
         if request is not None:
-            self._put(ExportJob((request,), path=path))
+            self._enqueue(ExportJob((request,), path=path))
 
-    def _request_or_report(self, name: str, shown: Snapshot) -> FigureRequest | None:
+    def _request_or_report(self, name: str, snapshot: Snapshot) -> FigureRequest | None:
         try:
-            return self._make_request(name, shown)
+            return self._make_request(name, snapshot)
         except NothingToDraw as reason:
             self.status_message.emit(str(reason))
             return None
 
-    def _make_request(self, name: str, shown: Snapshot) -> FigureRequest:
-        now = datetime.now().astimezone().isoformat(timespec="seconds")
-        draw = self._shell.draw(name, shown)
-        return FigureRequest(shown.frame.scene, shown.request.settings, now, draw)
+    def _make_request(self, name: str, snapshot: Snapshot) -> FigureRequest:
+        date = datetime.now().astimezone().isoformat(timespec="seconds")
+        draw = self._shell.draw(name, snapshot)
+        return FigureRequest(snapshot.frame.scene, snapshot.request.settings, date, draw)
 
-    def _put(self, job: ExportJob) -> None:
-        self._waiting.append(job)
+    def _enqueue(self, job: ExportJob) -> None:
+        self._queue.append(job)
         self.status_message.emit("Drawing…")
-        self._go_on()
+        self._draw_next()
 
-    def _go_on(self) -> None:
-        if self._waiting and self.runner.is_idle:
-            self.runner.ask(self._waiting.popleft())
+    def _draw_next(self) -> None:
+        if self._queue and self.runner.is_idle:
+            self.runner.ask(self._queue.popleft())
 
-    def _report(self, done: ExportResult) -> None:
-        job = done.job
+    def _report(self, result: ExportResult) -> None:
+        job = result.job
         if job.folder is not None:
             self._preferences.visit_export(job.folder / "figure")
             message = (
-                f"Exported {inflect(len(done.files), 'file')} into {one_line(job.folder.name)}."
+                f"Exported {inflect(len(result.files), 'file')} into {one_line(job.folder.name)}."
             )
-            left_out = f"Left out: {self._left_out}"
-            self.status_message.emit(f"{message} {left_out}" if self._left_out else message)
+            omissions = f"Left out: {self._omissions}"
+            self.status_message.emit(f"{message} {omissions}" if self._omissions else message)
         elif job.path is not None:
             self._preferences.visit_export(job.path)
             self.status_message.emit(
@@ -244,9 +244,9 @@ class ExportController(Service):
                 f"{one_line(str(job.path.absolute().parent))}"
             )
         else:
-            self._to_clipboard(done.png)
+            self._copy_to_clipboard(result.png)
 
-    def _to_clipboard(self, png: bytes) -> None:
+    def _copy_to_clipboard(self, png: bytes) -> None:
         # A QImage keeps the texts of the file, which include the scene. A QMimeData object made in
         # Python would crash the program if it were still on the clipboard at the end.
         QGuiApplication.clipboard().setImage(QImage.fromData(png))

@@ -25,11 +25,11 @@ class Document(QObject):
         self._window = window
         self._store = store
         self._files = files
-        self._saved: Scene | None = None
-        self._photo = ""
-        files.scene_saved.connect(self._settle)
-        files.scene_opened.connect(self._settle)
-        store.changed.connect(self._mark)
+        self._saved_scene: Scene | None = None
+        self._photo_name = ""
+        files.scene_saved.connect(self._adopt_file)
+        files.scene_opened.connect(self._adopt_file)
+        store.changed.connect(self._mark_changes)
         path = store.store.select(lambda workspace: workspace.scene_file)
         path.changed.connect(self._compare_with_file)
         self._show_title()
@@ -46,35 +46,35 @@ class Document(QObject):
             self._files.save_scene(self.path)
 
     def show_photo(self, photo: "Photo | None") -> None:
-        self._photo = "" if photo is None else photo.path.name
+        self._photo_name = "" if photo is None else photo.path.name
         self._show_title()
 
-    def _settle(self, path: Path) -> None:
+    def _adopt_file(self, path: Path) -> None:
         store = self._store.store
         store.put(replace(store.workspace, scene_file=path))
-        self._saved = self._store.scene
+        self._saved_scene = self._store.scene
         self._show_title()
 
     def _compare_with_file(self, path: Path | None) -> None:
         """Compare the scene with what is in its file, which an earlier window may have saved."""
-        self._saved = None if path is None else _read_saved(path)
+        self._saved_scene = None if path is None else _read_scene(path)
         self._show_title()
 
     def _show_title(self) -> None:
         title = "Optical Camera Communication"
         # A scene without a file is stored in the session, so no mark asks to save it.
         scene = "" if self.path is None else f"{in_title(self.path.name)}[*]"
-        names = [name for name in (in_title(self._photo), scene) if name]
+        names = [name for name in (in_title(self._photo_name), scene) if name]
         self._window.setWindowTitle(" – ".join((*names, title)))  # noqa: RUF001 - a dash
-        self._mark(self._store.scene)
+        self._mark_changes(self._store.scene)
 
-    def _mark(self, scene: Scene) -> None:
-        changed = self.path is not None and scene != self._saved
-        if changed != self._window.isWindowModified():
-            self._window.setWindowModified(changed)
+    def _mark_changes(self, scene: Scene) -> None:
+        has_changed = self.path is not None and scene != self._saved_scene
+        if has_changed != self._window.isWindowModified():
+            self._window.setWindowModified(has_changed)
 
 
-def _read_saved(path: Path) -> Scene | None:
+def _read_scene(path: Path) -> Scene | None:
     try:
         return read_scene_file(path)
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains

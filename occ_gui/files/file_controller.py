@@ -65,8 +65,8 @@ class FileController(QObject):
 
     pane_wanted = Signal(str)  # the pane of the photo or photos that were opened
 
-    film_asked = Signal(Path)
-    film_save_asked = Signal(Path)
+    film_requested = Signal(Path)
+    film_save_requested = Signal(Path)
     scene_saved = Signal(Path)
 
     def __init__(
@@ -83,7 +83,7 @@ class FileController(QObject):
         self._photos = photos
         self._preferences = preferences
         self._when_present = when_present
-        photos.opened.connect(self._remember)
+        photos.opened.connect(self._add_to_recent)
 
     def ask_for_photo(self) -> None:
         """Ask for photos; open a single one, and list several as a table."""
@@ -102,13 +102,13 @@ class FileController(QObject):
 
     def open_film(self, path: Path) -> None:
         self._preferences.add(path)
-        self.film_asked.emit(path)
+        self.film_requested.emit(path)
 
     def ask_to_save_film(self) -> None:
         kinds = "Films (*.mkv *.mp4 *.gif *.png)"
         if path := self._ask_for_name("Save the simulated film", "film.mkv", kinds):
             self._preferences.visit(path)
-            self.film_save_asked.emit(path)
+            self.film_save_requested.emit(path)
 
     def ask_for_scene(self) -> None:
         patterns = " ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
@@ -149,9 +149,9 @@ class FileController(QObject):
         films = [path for path in files if path not in scenes and is_film(path)]
         photos = [path for path in files if path not in (*scenes, *films)]
         if not files:
-            what = f"{one_line(str(paths[0]))} is not a file" if paths else ""
-            what = what or "What was dropped is not a file on this computer"
-            self.status_message.emit(f"{what}; drop a photo, a film or a scene (.toml).")
+            reason = f"{one_line(str(paths[0]))} is not a file" if paths else ""
+            reason = reason or "What was dropped is not a file on this computer"
+            self.status_message.emit(f"{reason}; drop a photo, a film or a scene (.toml).")
             return
         for path in scenes[:1]:
             self.open_scene(path)
@@ -162,11 +162,11 @@ class FileController(QObject):
         if len(photos) > 1:
             self._photos.list_files(photos)
             self.pane_wanted.emit("photos")
-        shown = (*scenes[:1], *photos[:1], *films[:1])
-        opened = [one_line(path.name) for path in shown]
+        opened = (*scenes[:1], *photos[:1], *films[:1])
+        names = [one_line(path.name) for path in opened]
         if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):
             self.status_message.emit(
-                f"{len(paths)} items were dropped; only {' and '.join(opened)} can be shown."
+                f"{len(paths)} items were dropped; only {' and '.join(names)} can be shown."
             )
 
     def open_scene(self, path: Path) -> None:
@@ -216,20 +216,22 @@ class FileController(QObject):
             partial(self._write_picture, path, self._store.store.workspace.picture_kind)
         )
 
-    def _write_picture(self, path: Path, picture_kind: str, shown: Snapshot) -> None:
-        frame = shown.frame
+    def _write_picture(self, path: Path, picture_kind: str, snapshot: Snapshot) -> None:
+        frame = snapshot.frame
         image, title = frame.picture(picture_kind), frame.picture_title(picture_kind)
         title_in_sentence = f"{title[:1].lower()}{title[1:]}"
         self._save(path, lambda: write_image(path, image, title), title_in_sentence)
 
-    def _save(self, path: Path, write: Callable[[], None], what: str = "") -> bool:
+    def _save(self, path: Path, write: Callable[[], None], content: str = "") -> bool:
         try:
             write()
         except OccError as error:
             self.status_message.emit(str(error))
             return False
         self._preferences.visit(path)
-        self.status_message.emit(f"Saved {one_line(path.name)}{f': the {what}' if what else ''}")
+        self.status_message.emit(
+            f"Saved {one_line(path.name)}{f': the {content}' if content else ''}"
+        )
         return True
 
     def _ask_for_file(self, title: str, kinds: str) -> Path | None:
@@ -257,6 +259,6 @@ class FileController(QObject):
             return None
         return path
 
-    def _remember(self, photo: "Photo | None") -> None:
+    def _add_to_recent(self, photo: "Photo | None") -> None:
         if photo is not None and photo.path not in sample_photos():
             self._preferences.add(photo.path)

@@ -22,38 +22,40 @@ class Preferences(QObject):
     def __init__(self, settings: QSettings | None = None) -> None:
         super().__init__()
         self._settings = settings
-        self._unstored: dict[str, str | list[str]] = {}
-        self.files = _paths(self._value(_FILES))
-        self._folders = {key: next(iter(_paths(self._value(key))), None) for key in _FOLDERS}
+        self._values_in_memory: dict[str, str | list[str]] = {}
+        self.files = _parse_paths(self._read_value(_FILES))
+        self._folders = {
+            key: next(iter(_parse_paths(self._read_value(key))), None) for key in _FOLDERS
+        }
 
     @property
     def folder(self) -> str:
-        """The folder in which open dialogs start; before the first file, that of figures.
+        """The folder in which dialogs to open files start; before the first file, that of figures.
 
         Empty for the system's folder.
         """
-        return self._there(_FOLDER) or self._there(_EXPORTS)
+        return self._find_folder(_FOLDER) or self._find_folder(_EXPORTS)
 
     @property
     def export_folder(self) -> str:
         """The folder in which figures are saved; before the first figure, that of opened files."""
-        return self._there(_EXPORTS) or self._there(_FOLDER)
+        return self._find_folder(_EXPORTS) or self._find_folder(_FOLDER)
 
-    def _there(self, key: str) -> str:
+    def _find_folder(self, key: str) -> str:
         folder = self._folders[key]
         try:
-            is_there = folder is not None and folder.is_dir()
+            exists = folder is not None and folder.is_dir()
         except OSError:  # such as a name that is too long for the file system
-            is_there = False
-        return str(folder) if is_there else ""
+            exists = False
+        return str(folder) if exists else ""
 
     @property
     def slider_strips(self) -> bool:
-        stored = self._value(_STRIPS)
-        return (self._value(_FORMER_STRIPS) if stored is None else stored) != _NO
+        stored = self._read_value(_STRIPS)
+        return (self._read_value(_FORMER_STRIPS) if stored is None else stored) != _NO
 
-    def keep_slider_strips(self, shown: bool) -> None:
-        self._write(_STRIPS, "yes" if shown else _NO)
+    def keep_slider_strips(self, are_visible: bool) -> None:
+        self._write(_STRIPS, "yes" if are_visible else _NO)
 
     def add(self, path: Path) -> None:
         """Add to the recent files, and store the folder."""
@@ -86,23 +88,23 @@ class Preferences(QObject):
 
     def recall(self, key: str) -> str:
         """Return the text stored under a key; empty if none."""
-        value = self._value(key)
+        value = self._read_value(key)
         return value if isinstance(value, str) and len(value) <= _MAX_TEXT_LENGTH else ""
 
     def keep(self, key: str, text: str) -> None:
         self._write(key, text)
 
-    def _value(self, key: str) -> object:
+    def _read_value(self, key: str) -> object:
         try:
-            unstored = self._unstored.get(key)
-            return unstored if self._settings is None else self._settings.value(key)
+            value = self._values_in_memory.get(key)
+            return value if self._settings is None else self._settings.value(key)
         except RuntimeError:  # a type of Qt that Python cannot represent
             return None
 
     def _write(self, key: str, value: str | list[str]) -> None:
         if self._settings is None:
-            self._unstored[key] = value
-        elif value != self._value(key):  # QSettings writes the whole file at each change
+            self._values_in_memory[key] = value
+        elif value != self._read_value(key):  # QSettings writes the whole file at each change
             self._settings.setValue(key, value)
 
 
@@ -112,8 +114,8 @@ def text_of(path: Path) -> str:
     return text if text == text.encode("utf-8", "replace").decode("utf-8") else ""
 
 
-def _paths(value: object) -> tuple[Path, ...]:
-    """Parse stored paths, and leave out what is not an absolute path."""
+def _parse_paths(value: object) -> tuple[Path, ...]:
+    """Parse stored paths, and omit what is not an absolute path."""
     texts = value if isinstance(value, list) else [value]
     paths = [Path(text) for text in texts if isinstance(text, str)]
     absolute = [path for path in paths if path.is_absolute()]

@@ -32,11 +32,11 @@ class PresetController(QObject):
         super().__init__(window)
         self._window = window
         self._store = store
-        self.own: tuple[str, ...] = ()
+        self.user_presets: tuple[str, ...] = ()
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
-        self._read()
-        store.changed.connect(self._name)
+        self._read_presets()
+        store.changed.connect(self._record_preset)
 
     @property
     def titles(self) -> list[tuple[str, str]]:
@@ -52,11 +52,12 @@ class PresetController(QObject):
         return next((p.name for p in self._presets if p.scene == scene), "")
 
     @property
-    def shown(self) -> tuple[str, str]:
+    def shown_names(self) -> tuple[str, str]:
+        """Names of the preset of the scene, and of the one it was changed from; empty for none."""
         name = self.name_of(self._store.scene)
         return name, "" if name else self._store.store.workspace.preset
 
-    def _name(self) -> None:
+    def _record_preset(self) -> None:
         store = self._store.store
         if name := self.name_of(self._store.scene):
             store.put(replace(store.workspace, preset=name))
@@ -77,28 +78,28 @@ class PresetController(QObject):
         if photo is None or matching.match is None:
             self.status_message.emit("There is no match to save yet.")
             return
-        name, wanted = QInputDialog.getText(
+        name, is_accepted = QInputDialog.getText(
             self._window,
             "Save as preset",
             "Name of the preset: letters, digits, spaces, - and _",
             QLineEdit.EchoMode.Normal,
             re.sub(r"[^A-Za-z0-9 _-]+", "-", photo.camera or photo.path.stem).strip(" -_")[:60],
         )
-        if wanted and self._may_replace(name):
+        if is_accepted and self._may_replace(name):
             title = f"Measured from {one_line(photo.path.name)}"
             if matching.save(name, title):
                 self.update()
                 self.status_message.emit(f"Saved the preset {name}")
 
     def ask_to_delete(self) -> None:
-        own = [*user_presets(), *self._unreadable]
-        if not own:
+        names = [*user_presets(), *self._unreadable]
+        if not names:
             self.status_message.emit("There is no preset of your own.")
             return
-        name, wanted = QInputDialog.getItem(
-            self._window, "Delete preset", "Preset to delete", own, 0, False
+        name, is_accepted = QInputDialog.getItem(
+            self._window, "Delete preset", "Preset to delete", names, 0, False
         )
-        if not wanted:
+        if not is_accepted:
             return
         try:
             delete_preset(name)
@@ -117,13 +118,13 @@ class PresetController(QObject):
         return answer == QMessageBox.StandardButton.Yes
 
     def update(self) -> None:
-        self._read()
+        self._read_presets()
         self.changed.emit()
 
-    def _read(self) -> None:
+    def _read_presets(self) -> None:
         self._presets = list(all_presets())
-        self.own = user_presets()
+        self.user_presets = user_presets()
         self._unreadable = {
             name: one_line(reason, LONGEST_TEXT) for name, reason in unreadable_presets().items()
         }
-        self._name()
+        self._record_preset()

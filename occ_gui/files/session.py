@@ -12,12 +12,12 @@ from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.files.session_record import KeptSession, make_record, read_session
+from occ_gui.files.session_record import SavedSession, make_record, read_session
 from occ_model.errors import OccError, OutputError, SceneFileError, one_line, quote
 from occ_model.files.reading import read_text
 from occ_model.files.writing import make_folder, make_private, write_whole
 
-LARGEST_FILE = 4_000_000  # bytes; a larger session file is refused, and usual ones have thousands
+LARGEST_FILE = 4_000_000  # bytes; larger session files are refused, usual ones have some thousand
 
 STATE_FOLDER = "OCC_STATE"  # environment variable with another folder for the program's own files
 
@@ -49,9 +49,9 @@ class SessionFile:
         self._folder = folder
         self._lock: QLockFile | None = None
         self._path: Path | None = None
-        self.crashed: KeptSession | None = None
-        self.last: KeptSession | None = None  # the session that was written last, by any window
-        self.put_aside: str | None = None  # a sentence about a file that is not a valid session
+        self.crashed: SavedSession | None = None
+        self.last: SavedSession | None = None  # the session that was written last, by any window
+        self.invalid_file_message: str | None = None  # None if every session file is valid
         # If the folder cannot be made, the first writing reports it.
         with suppress(OccError, OSError):
             make_folder(folder, is_private=True)
@@ -63,7 +63,8 @@ class SessionFile:
 
     def _open(self) -> None:
         """Lock a file that no other window uses, preferably the file of a window that crashed."""
-        for path in self._folder.glob("session-*"):  # earlier versions made them readable by others
+        # Other users could read the files of earlier versions.
+        for path in self._folder.glob("session-*"):
             make_private(path)
         paths = self._paths()
         records = {path: _read_record_if_valid(path) for path in paths}
@@ -91,23 +92,23 @@ class SessionFile:
             return True
         try:
             record = _read_record(path)  # read again, now that no other window can write it
-            kept = read_session(record)
-            if kept is None:
+            session = read_session(record)
+            if session is None:
                 raise SceneFileError(f"{one_line(str(path))} contains no valid scene.")
         except OccError as error:
-            aside = _free_name(path)
+            new_path = _find_free_path(path)
             try:
-                path.rename(aside)
+                path.rename(new_path)
             except OSError:
-                self.put_aside = f"{error} It stays there, and another file is used."
+                self.invalid_file_message = f"{error} It stays there, and another file is used."
                 return False
-            self.put_aside = f"{error} It is kept as {one_line(aside.name)}."
+            self.invalid_file_message = f"{error} It is kept as {one_line(new_path.name)}."
             return True
         if _is_in_use(record):
-            self.crashed = kept
+            self.crashed = session
         return True
 
-    def write(self, kept: KeptSession, in_use: bool) -> None:
+    def write(self, session: SavedSession, in_use: bool) -> None:
         if self._path is None:
             raise OutputError(f"there is no free session file in {self._folder}.")
         record = {
@@ -115,7 +116,7 @@ class SessionFile:
             # Counting tells which session was written last; clocks can be set back.
             "count": 1 + max(_count_in(_read_record_if_valid(path)) for path in self._paths()),
             "in_use": in_use,
-            **make_record(kept),
+            **make_record(session),
         }
         content = json.dumps(record, indent=1).encode("ascii")
         write_whole(self._path, content, is_private=True)
@@ -133,10 +134,10 @@ def _read_record(path: Path) -> dict[str, Any]:
         record = json.loads(text)
     except (ValueError, RecursionError):
         raise SceneFileError(f"{name} cannot be read: it is not a session.") from None
-    written = record.get("format") if isinstance(record, dict) else None
-    if type(written) is not int or written != _FORMAT:
+    file_format = record.get("format") if isinstance(record, dict) else None
+    if type(file_format) is not int or file_format != _FORMAT:
         raise SceneFileError(
-            f"{name} cannot be read: its format is {quote(written)}; allowed: {_FORMAT}."
+            f"{name} cannot be read: its format is {quote(file_format)}; allowed: {_FORMAT}."
         )
     return dict(record)
 
@@ -148,13 +149,13 @@ def _read_record_if_valid(path: Path) -> dict[str, Any] | None:
         return None
 
 
-def _free_name(path: Path) -> Path:
+def _find_free_path(path: Path) -> Path:
     """Return an unused name for a file that is to be renamed."""
-    free, number = path.with_suffix(".unreadable"), 1
-    while os.path.lexists(free):
+    free_path, number = path.with_suffix(".unreadable"), 1
+    while os.path.lexists(free_path):
         number += 1
-        free = path.with_suffix(f".unreadable-{number}")
-    return free
+        free_path = path.with_suffix(f".unreadable-{number}")
+    return free_path
 
 
 def _is_in_use(record: dict[str, Any] | None) -> bool:
@@ -180,9 +181,9 @@ LONGEST_WAIT_MS = 1000
 def restore_workspace(
     file: SessionFile, first: Workspace, *, names_scene: bool, has_settings: bool
 ) -> Workspace:
-    """Return the first workspace: the last session's, but for what the command line asks for.
+    """Return the first workspace: the last session's, except for what the command line gives.
 
-    A scene that is asked for is simulated as in a new window, whatever was left out of another one.
+    A scene of the command line is simulated with the settings of a new window.
     """
     last = file.last
     if last is None:
@@ -202,17 +203,17 @@ def restore_workspace(
 class Session(QObject):
     """Saves the workspace of a window to a file, once :meth:`begin` is called.
 
-    ``own`` returns what the user has set, without what a lesson shows.
+    ``find_user_workspace`` returns what the user has set, without what a lesson shows.
     """
 
     status_message = Signal(str)
-    """What has been restored or renamed, or why the session cannot be saved, which is said once."""
+    """What was restored or renamed; or, only once, why the session cannot be saved."""
 
     written = Signal()
 
-    def __init__(self, store: Store, own: Callable[[], Workspace]) -> None:
+    def __init__(self, store: Store, find_user_workspace: Callable[[], Workspace]) -> None:
         super().__init__()
-        self._store, self._own = store, own
+        self._store, self._find_user_workspace = store, find_user_workspace
         self._file: SessionFile | None = None
         self._has_failed = False
         # Only the first change starts it: restarted by each change, it would never run out while a
@@ -224,23 +225,23 @@ class Session(QObject):
     def begin(self, file: SessionFile, *, names_scene: bool) -> None:
         """Restore the steps after a crash, and save to the file from now on."""
         self._file = file
-        said = [file.put_aside] if file.put_aside else []
+        messages = [file.invalid_file_message] if file.invalid_file_message else []
         if file.crashed is not None:
-            said.append(self._restore_crashed(file.crashed, names_scene=names_scene))
-        if said:
-            self.status_message.emit(" ".join(said))
+            messages.append(self._restore_crashed(file.crashed, names_scene=names_scene))
+        if messages:
+            self.status_message.emit(" ".join(messages))
         self._store.select(lambda workspace: workspace).changed.connect(self._start_timer)
         self._start_timer()
 
-    def _restore_crashed(self, left: KeptSession, *, names_scene: bool) -> str:
+    def _restore_crashed(self, session: SavedSession, *, names_scene: bool) -> str:
         """Restore the scene and steps of a crashed window; return a sentence that says so."""
-        store, asked = self._store, self._store.workspace.undo_state
-        crashed = left.workspace.undo_state
+        store, requested = self._store, self._store.workspace.undo_state
+        crashed = session.workspace.undo_state
         store.put(crashed.put_into(store.workspace), "restoring of the last session")
-        if left.history is not None and (names_scene or crashed == asked):
-            store.resume(left.history)
-        if names_scene and crashed != asked:
-            store.put(asked.put_into(store.workspace), "opening of what was asked for")
+        if session.history is not None and (names_scene or crashed == requested):
+            store.resume(session.history)
+        if names_scene and crashed != requested:
+            store.put(requested.put_into(store.workspace), "opening of the requested scene")
             return "The last session ended unexpectedly; Undo brings its scene back."
         return "The last session ended unexpectedly: its scene is restored."
 
@@ -253,21 +254,22 @@ class Session(QObject):
             self._timer.start()
 
     def write(self) -> None:
-        own = self._own()
-        self._write(KeptSession(own, self._store.history(own.undo_state)), in_use=True)
+        workspace = self._find_user_workspace()
+        history = self._store.history(workspace.undo_state)
+        self._write(SavedSession(workspace, history), in_use=True)
 
     def end(self) -> None:
-        self._write(KeptSession(self._own()), in_use=False)
+        self._write(SavedSession(self._find_user_workspace()), in_use=False)
         if self._file is not None:
             self._file.close()
             self._file = None
 
-    def _write(self, kept: KeptSession, *, in_use: bool) -> None:
+    def _write(self, session: SavedSession, *, in_use: bool) -> None:
         self._timer.stop()
         if self._file is None:
             return
         try:
-            self._file.write(kept, in_use)
+            self._file.write(session, in_use)
         except OccError as error:
             if not self._has_failed:
                 self._has_failed = True

@@ -1,4 +1,4 @@
-"""Record of a session: a workspace with its steps, as a table of plain values and back.
+"""Record of a session: a workspace with its steps, written as plain values and read again.
 
 Unreadable parts keep their first values: a window starts whatever its file contains.
 """
@@ -46,7 +46,7 @@ from occ_model.scene.scene import (
 
 T = TypeVar("T")
 
-_MOST_OF_HISTORY = 1_000_000  # most characters of stored steps; the oldest steps are left out
+_MOST_HISTORY_CHARACTERS = 1_000_000  # in the stored steps; the oldest steps are left out
 
 _VIEW: Mapping[str, tuple[object, ...]] = {
     "decoder": tuple(DECODERS),
@@ -62,36 +62,36 @@ _FORMER_NAMES = {"picture_kind": "whose"}
 
 
 @dataclass(frozen=True, slots=True)
-class KeptSession:
+class SavedSession:
     """A workspace, and the steps that led to it, which are None after a regular end."""
 
     workspace: Workspace
     history: History | None = None
 
 
-def make_record(kept: KeptSession) -> dict[str, Any]:
-    workspace, history = kept.workspace, kept.history
+def make_record(session: SavedSession) -> dict[str, Any]:
+    workspace, history = session.workspace, session.history
     return {
         "scene": workspace.scene.to_toml(),
         "settings": asdict(workspace.settings),
-        "scene_file": _path_text(workspace.scene_file),
-        "photo": _photo_record(workspace.photo),
-        "film": _film_record(workspace.film),
-        "room": _room_record(workspace.room, RoomChoice()),
+        "scene_file": _write_path(workspace.scene_file),
+        "photo": _make_photo_record(workspace.photo),
+        "film": _make_film_record(workspace.film),
+        "room": _make_room_record(workspace.room, RoomChoice()),
         "preset": workspace.preset,
-        "pins": [None if pin is None else _pin_record(pin) for pin in workspace.pins],
+        "pins": [None if pin is None else _make_pin_record(pin) for pin in workspace.pins],
         "view": {
             "frame_rate": workspace.frame_rate,
             **{name: getattr(workspace, name) for name in _VIEW},
         },
-        "history": None if history is None else _history_record(history),
+        "history": None if history is None else _make_history_record(history),
     }
 
 
-def _photo_record(photo: PhotoChoice) -> dict[str, Any]:
+def _make_photo_record(photo: PhotoChoice) -> dict[str, Any]:
     region = photo.rectangle
     return {
-        "path": _path_text(photo.path),
+        "path": _write_path(photo.path),
         "region": None if region is None else asdict(region),
         "load_options": asdict(photo.load_options),
         "form": asdict(photo.form),
@@ -99,15 +99,15 @@ def _photo_record(photo: PhotoChoice) -> dict[str, Any]:
     }
 
 
-def _film_record(film: FilmChoice) -> dict[str, Any]:
-    recording = {each.name: getattr(film.recording, each.name) for each in DECLARED}
+def _make_film_record(film: FilmChoice) -> dict[str, Any]:
+    recording = {p.name: getattr(film.recording, p.name) for p in DECLARED}
     return {
-        "path": _path_text(film.path), "axis": film.axis, "frames": film.frames,
+        "path": _write_path(film.path), "axis": film.axis, "frames": film.frames,
         "recording": recording,
     }  # fmt: skip
 
 
-def _room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
+def _make_room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
     """Return the record of a room: only its camera if nothing else differs from the former room."""
     room, other = choice.room, former.room
     is_known = room is None or (
@@ -117,12 +117,12 @@ def _room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
         "name": choice.name,
         "camera": None if room is None else asdict(room.camera),
         "room": None if room is None or is_known else room.to_toml(),
-        "photo": _path_text(choice.photo),
+        "photo": _write_path(choice.photo),
         "focal_length": choice.focal_length,
     }
 
 
-def _pin_record(pin: PinnedScene) -> dict[str, Any]:
+def _make_pin_record(pin: PinnedScene) -> dict[str, Any]:
     return {
         "scene": pin.request.scene.to_toml(),
         "settings": asdict(pin.request.settings),
@@ -131,7 +131,7 @@ def _pin_record(pin: PinnedScene) -> dict[str, Any]:
     }
 
 
-def _history_record(history: History) -> dict[str, Any] | None:
+def _make_history_record(history: History) -> dict[str, Any] | None:
     rooms = [history.first.room, *(step.room for step in history.steps)]
     steps = [
         [
@@ -139,12 +139,12 @@ def _history_record(history: History) -> dict[str, Any] | None:
             step.values,
             step.force,
             step.preset,
-            None if step.room == before else _room_record(step.room, before),
+            None if step.room == before else _make_room_record(step.room, before),
         ]
         for step, before in zip(history.steps, rooms, strict=False)
     ]
     sizes, first = [len(json.dumps(step)) for step in steps], 0
-    while sum(sizes[first:]) > _MOST_OF_HISTORY:
+    while sum(sizes[first:]) > _MOST_HISTORY_CHARACTERS:
         first += 1
     if first > history.done:
         return None
@@ -153,13 +153,13 @@ def _history_record(history: History) -> dict[str, Any] | None:
         "scene": state.scene.to_toml(),
         "force": state.force,
         "preset": state.preset,
-        "room": _room_record(state.room, RoomChoice()),
+        "room": _make_room_record(state.room, RoomChoice()),
         "steps": steps[first:],
         "done": history.done - first,
     }
 
 
-def _read(first: T, read: Callable[[], T]) -> T:
+def _read_or_keep(first: T, read: Callable[[], T]) -> T:
     """Return what ``read`` returns, or ``first`` if it fails."""
     try:
         return read()
@@ -167,55 +167,58 @@ def _read(first: T, read: Callable[[], T]) -> T:
         return first
 
 
-def _check(holds: bool) -> None:
-    if not holds:
-        raise ValueError("no session has this")
+def _require(is_valid: bool) -> None:
+    if not is_valid:
+        raise ValueError("not a valid session")
 
 
-def read_session(record: Mapping[str, Any] | None) -> KeptSession | None:
+def read_session(record: Mapping[str, Any] | None) -> SavedSession | None:
     """Read a record; None if it has no valid scene."""
     values: Mapping[str, Any] = record or {}
-    if (scene := _read(None, lambda: _scene(values["scene"]))) is None:
+    if (scene := _read_or_keep(None, lambda: _read_scene(values["scene"]))) is None:
         return None
     workspace = Workspace(
         scene,
-        _read(FIRST_SETTINGS, lambda: _settings(values["settings"])),
-        photo=_photo(values.get("photo"), values.get("region")),
-        film=_film(values.get("film")),
-        room=_room(values.get("room"), RoomChoice()),
-        pins=_pins(values.get("pins")),
-        preset=_preset(values.get("preset")),
+        _read_or_keep(FIRST_SETTINGS, lambda: _read_settings(values["settings"])),
+        photo=_read_photo(values.get("photo"), values.get("region")),
+        film=_read_film(values.get("film")),
+        room=_read_room(values.get("room"), RoomChoice()),
+        pins=_read_pins(values.get("pins")),
+        preset=_read_preset(values.get("preset")),
         scene_file=_read_path(values.get("scene_file")),
     )
     view: Any = values.get("view")
-    chosen = _read(workspace, lambda: _with_view(workspace, view))
-    timed = _read(chosen, lambda: replace(chosen, frame_rate=FRAME_RATE.check(view["frame_rate"])))
-    return KeptSession(timed, _read(None, lambda: _history(values["history"])))
+    with_view = _read_or_keep(workspace, lambda: _read_view(workspace, view))
+    complete = _read_or_keep(
+        with_view, lambda: replace(with_view, frame_rate=FRAME_RATE.check(view["frame_rate"]))
+    )
+    return SavedSession(complete, _read_or_keep(None, lambda: _read_history(values["history"])))
 
 
-def _with_view(workspace: Workspace, values: Any) -> Workspace:
-    chosen: dict[str, Any] = {}
-    for name, known in _VIEW.items():
+def _read_view(workspace: Workspace, values: Any) -> Workspace:
+    settings: dict[str, Any] = {}
+    for name, allowed in _VIEW.items():
         value = values.get(name, values.get(_FORMER_NAMES.get(name)))
-        if value in known:
-            chosen[name] = known[known.index(value)]  # turns a 1 into True
-    return replace(workspace, **chosen)
+        if value in allowed:
+            settings[name] = allowed[allowed.index(value)]  # turns a 1 into True
+    return replace(workspace, **settings)
 
 
-def _photo(values: Any, region: Any) -> PhotoChoice:
+def _read_photo(values: Any, region: Any) -> PhotoChoice:
     """Read the settings of photos; in the first format, these were a path and a region."""
     if not isinstance(values, dict):
         values = {"path": values, "region": region}
-    path, part = _read_path(values.get("path")), _read(None, lambda: _region(values["region"]))
+    path = _read_path(values.get("path"))
+    part = _read_or_keep(None, lambda: _read_region(values["region"]))
     parts = {} if path is None or part is None else {PhotoFrame(path): part}
     photo = PhotoChoice(path, parts=parts)
 
     def read() -> PhotoChoice:
         options = LoadOptions(**(values.get("load_options") or values["reading"]))  # its former key
-        form, known = _form(values["form"], values["certain"])
+        form, known = _read_form(values["form"], values["certain"])
         certain = {name: quantity(name).check(value) for name, value in known.items()}
         quantity("lamp_frequency").check(form.lamp_frequency)
-        _check(
+        _require(
             options.scan_axis in SCAN_AXES and options.channel in CHANNELS
             and form.sent in SENT_SOURCES and form.estimate in ESTIMATES
             and certain.keys() <= {*KNOWN_PARAMETERS}
@@ -223,10 +226,10 @@ def _photo(values: Any, region: Any) -> PhotoChoice:
         )  # fmt: skip
         return replace(photo, load_options=options, form=form, certain=certain)
 
-    return _read(photo, read)
+    return _read_or_keep(photo, read)
 
 
-def _form(values: Any, certain: Any) -> tuple[MatchChoice, dict[str, float]]:
+def _read_form(values: Any, certain: Any) -> tuple[MatchChoice, dict[str, float]]:
     """Read the choices of a match; in a former format, a lamp was a square wave of two chips."""
     values, certain = dict(values), dict(certain)
     if "square_frequency" in values:
@@ -238,7 +241,7 @@ def _form(values: Any, certain: Any) -> tuple[MatchChoice, dict[str, float]]:
     return MatchChoice(**values), certain
 
 
-def _film(values: Any) -> FilmChoice:
+def _read_film(values: Any) -> FilmChoice:
     """Read the settings of films; in the former format, these were a path."""
     if not isinstance(values, dict):
         return FilmChoice(_read_path(values))
@@ -246,14 +249,14 @@ def _film(values: Any) -> FilmChoice:
 
     def read() -> FilmChoice:
         axis, frames = values["axis"], values["frames"]
-        _check(axis in SCAN_AXES and type(frames) is int and frames in FRAMES)
+        _require(axis in SCAN_AXES and type(frames) is int and frames in FRAMES)
         recording = film.recording.replace(**values["recording"])
         return replace(film, axis=axis, frames=frames, recording=recording)
 
-    return _read(film, read)
+    return _read_or_keep(film, read)
 
 
-def _room(values: Any, former: RoomChoice) -> RoomChoice:
+def _read_room(values: Any, former: RoomChoice) -> RoomChoice:
     """Read the settings of rooms; a record without a room stands for the former room."""
 
     def read() -> RoomChoice:
@@ -265,60 +268,62 @@ def _room(values: Any, former: RoomChoice) -> RoomChoice:
         # Imported here, so that a window that has shown no room starts sooner.
         from occ_model.room.room import Place, Room
 
-        known = former.room if values["room"] is None else Room.from_toml(values["room"])
-        room = known.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # as any
+        base = former.room if values["room"] is None else Room.from_toml(values["room"])
+        room = base.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # as any
         return RoomChoice(str(values["name"]), room, photo, length)
 
-    return _read(RoomChoice(), read)
+    return _read_or_keep(RoomChoice(), read)
 
 
-def _preset(name: Any) -> str:
+def _read_preset(name: Any) -> str:
     return name if isinstance(name, str) else ""
 
 
-def _pins(values: Any) -> Pins:
-    a, b = _read((None, None), lambda: (values[0], values[1]))
-    return _read(None, lambda: _pin(a)), _read(None, lambda: _pin(b))
+def _read_pins(values: Any) -> Pins:
+    a, b = _read_or_keep((None, None), lambda: (values[0], values[1]))
+    return _read_or_keep(None, lambda: _read_pin(a)), _read_or_keep(None, lambda: _read_pin(b))
 
 
-def _pin(values: Any) -> PinnedScene:
-    scene, settings = _scene(values["scene"]), _settings(values["settings"])
-    _check(isinstance(values["decoders"], list))
+def _read_pin(values: Any) -> PinnedScene:
+    scene, settings = _read_scene(values["scene"]), _read_settings(values["settings"])
+    _require(isinstance(values["decoders"], list))
     request = SimulationRequest(scene, settings, more_decoders=tuple(map(str, values["decoders"])))
-    return PinnedScene(request, _preset(values.get("preset")))
+    return PinnedScene(request, _read_preset(values.get("preset")))
 
 
-def _history(values: Any) -> History:
+def _read_history(values: Any) -> History:
     """Read the steps if each of them leads to a valid scene; the former format has no rooms."""
     first = UndoState(
         Scene.from_toml(values["scene"]),
-        _force(values["force"]),
-        _room(values.get("room"), RoomChoice()),
-        _preset(values.get("preset")),
+        _read_force(values["force"]),
+        _read_room(values.get("room"), RoomChoice()),
+        _read_preset(values.get("preset")),
     )
     steps, room = list[StepChange](), first.room
     for title, changed, force, *more in values["steps"]:
-        preset, there = more or ("", None)
-        room = room if there is None else _room(there, room)
-        steps.append(StepChange(str(title), dict(changed), _force(force), room, _preset(preset)))
+        preset, room_record = more or ("", None)
+        room = room if room_record is None else _read_room(room_record, room)
+        steps.append(
+            StepChange(str(title), dict(changed), _read_force(force), room, _read_preset(preset))
+        )
     history = History(first, tuple(steps), int(values["done"]))
-    _check(0 <= history.done < len([*history.states()]))
+    _require(0 <= history.done < len([*history.states()]))
     return history
 
 
-def _force(values: Any) -> dict[str, bool]:
-    _check(all(isinstance(on, bool) for on in dict(values).values()))
+def _read_force(values: Any) -> dict[str, bool]:
+    _require(all(isinstance(on, bool) for on in dict(values).values()))
     return {str(name): on for name, on in dict(values).items()}
 
 
-def _scene(text: Any) -> Scene:
-    _check(bool(text))
+def _read_scene(text: Any) -> Scene:
+    _require(bool(text))
     return Scene.from_toml(text)
 
 
-def _settings(values: Any) -> SimulationSettings:
-    force = _force(values["force"])
-    _check(values["observable"] in OBSERVABLES and values["noise"] in NOISE_SOURCES)
+def _read_settings(values: Any) -> SimulationSettings:
+    force = _read_force(values["force"])
+    _require(values["observable"] in OBSERVABLES and values["noise"] in NOISE_SOURCES)
     check_seed(values["seed"])
     return SimulationSettings(
         tolerance=TOLERANCE.check(values["tolerance"]),
@@ -329,17 +334,17 @@ def _settings(values: Any) -> SimulationSettings:
     )
 
 
-def _region(values: Any) -> Region:
+def _read_region(values: Any) -> Region:
     """Read a rectangle of whole numbers; whether it fits the photo is checked with the photo."""
     region = Region(**values)
-    _check(all(type(side) is int and 0 <= side <= MAX_PIXELS for side in asdict(region).values()))
+    _require(all(type(side) is int and 0 <= side <= MAX_PIXELS for side in asdict(region).values()))
     return region
 
 
 def _read_path(text: Any) -> Path | None:
-    path = _read(Path(), lambda: Path(text))
-    return path if _read(False, lambda: path.is_absolute() and path.is_file()) else None
+    path = _read_or_keep(Path(), lambda: Path(text))
+    return path if _read_or_keep(False, lambda: path.is_absolute() and path.is_file()) else None
 
 
-def _path_text(path: Path | None) -> str:
+def _write_path(path: Path | None) -> str:
     return "" if path is None else text_of(path.absolute())

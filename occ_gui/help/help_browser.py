@@ -44,13 +44,13 @@ class HelpBrowser(QTextBrowser):
         if url.hasFragment():
             self._scroll_to_heading(url.fragment())
 
-    def _scroll_to_heading(self, wanted: str) -> None:
+    def _scroll_to_heading(self, anchor: str) -> None:
         block = self.document().begin()
         while block.isValid():
-            if block.blockFormat().headingLevel() and heading_id(block.text()) == wanted:
+            if block.blockFormat().headingLevel() and heading_id(block.text()) == anchor:
                 self.setTextCursor(QTextCursor(block))
-                place = self.document().documentLayout().blockBoundingRect(block)
-                self.verticalScrollBar().setValue(int(place.top()))
+                rect = self.document().documentLayout().blockBoundingRect(block)
+                self.verticalScrollBar().setValue(int(rect.top()))
                 return
             block = block.next()
 
@@ -96,14 +96,14 @@ class HelpBrowser(QTextBrowser):
 
 
 _CODE = QTextFormat.Property.BlockCodeFence
-_CODE_MARGIN, _HEADING_ABOVE, _NEAR = 14, 16, 4
+_CODE_MARGIN, _HEADING_MARGIN, _SMALL_MARGIN = 14, 16, 4
 
 
 def style_page(document: QTextDocument, palette: QPalette) -> None:
     """Set the margins of headings, the background of code blocks and the lines of tables."""
-    ground, line = palette.alternateBase(), palette.mid().color()
+    background, line = palette.alternateBase(), palette.mid().color()
     tables: set[int] = set()
-    document.pageCount()  # lays out everything first; otherwise Qt leaves out paragraphs
+    document.pageCount()  # lays out the whole page first; otherwise, Qt skips paragraphs
     block = document.begin()
     while block.isValid():
         cursor = QTextCursor(block)
@@ -111,7 +111,7 @@ def style_page(document: QTextDocument, palette: QPalette) -> None:
             cursor.mergeBlockFormat(_heading_format())
         elif block.blockFormat().hasProperty(_CODE):
             code = _code_format(block)
-            code.setBackground(ground)
+            code.setBackground(background)
             cursor.mergeBlockFormat(code)
         elif (table := cursor.currentTable()) is not None and table.firstPosition() not in tables:
             tables.add(table.firstPosition())
@@ -121,8 +121,8 @@ def style_page(document: QTextDocument, palette: QPalette) -> None:
 
 def _heading_format() -> QTextBlockFormat:
     changes = QTextBlockFormat()
-    changes.setTopMargin(_HEADING_ABOVE)
-    changes.setBottomMargin(_NEAR)
+    changes.setTopMargin(_HEADING_MARGIN)
+    changes.setBottomMargin(_SMALL_MARGIN)
     return changes
 
 
@@ -132,9 +132,9 @@ def _code_format(block: QTextBlock) -> QTextBlockFormat:
     changes.setLeftMargin(_CODE_MARGIN)
     changes.setNonBreakableLines(False)
     if not block.previous().blockFormat().hasProperty(_CODE):
-        changes.setTopMargin(_NEAR)
+        changes.setTopMargin(_SMALL_MARGIN)
     if not block.next().blockFormat().hasProperty(_CODE):
-        changes.setBottomMargin(2 * _NEAR)
+        changes.setBottomMargin(2 * _SMALL_MARGIN)
     return changes
 
 
@@ -144,7 +144,7 @@ def _style_table(table: QTextTable, line: QColor) -> None:
     changes.setBorder(1)
     changes.setBorderStyle(QTextFrameFormat.BorderStyle.BorderStyle_Solid)
     changes.setBorderBrush(line)
-    changes.setCellPadding(_NEAR)
-    changes.setTopMargin(_NEAR)
-    changes.setBottomMargin(2 * _NEAR)
+    changes.setCellPadding(_SMALL_MARGIN)
+    changes.setTopMargin(_SMALL_MARGIN)
+    changes.setBottomMargin(2 * _SMALL_MARGIN)
     table.setFormat(changes)

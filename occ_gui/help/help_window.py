@@ -1,4 +1,4 @@
-"""The window of the manual, opened at its guide or where it explains the present pane."""
+"""The window of the manual, which opens at the guide or at the section on the present pane."""
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -24,24 +24,24 @@ from occ_gui.widgets.building import fill, name_widget
 _SIZE = QSize(960, 720)
 _LIST_WIDTH = 190
 _SEARCH_WIDTH = 240
-_FILE = Qt.ItemDataRole.UserRole
+_PAGE_ROLE = Qt.ItemDataRole.UserRole
 
 
 class HelpWindow(QMainWindow):
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._folder = folder
-        tip = "The pages of the manual, or what was found in them."
+        tip = "The pages of the manual, or the sections that contain the words."
         self.page_list = name_widget(QListWidget(), "Pages", tip)
         self.page_list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._pages = pages(folder)
         self._sections: list[Section] = []
         tip = "Lists the sections that contain all these words; Enter shows the first."
-        self.search_all = _search_field("Search all pages", tip)
+        self.search_all = _make_search_field("Search all pages", tip)
         self.browser = name_widget(HelpBrowser(), "Page")
-        self.search = _search_field("Find in this page", "Enter finds the next place.")
+        self.search = _make_search_field("Find in this page", "Enter finds the next place.")
         self._lay_out()
-        self._list(self._pages)
+        self._show_entries(self._pages)
         self.page_list.itemActivated.connect(self._show_item)
         self.page_list.itemClicked.connect(self._show_item)
         self.browser.sourceChanged.connect(self._show_current_page)
@@ -113,23 +113,23 @@ class HelpWindow(QMainWindow):
         self.browser.moveCursor(QTextCursor.MoveOperation.Start)
         self.find_next()
 
-    def _list(self, places: Iterable[tuple[str, str]]) -> None:
+    def _show_entries(self, entries: Iterable[tuple[str, str]]) -> None:
         self.page_list.clear()
-        for title, page in places:
+        for title, page in entries:
             item = QListWidgetItem(title, self.page_list)
             item.setToolTip(title)
-            item.setData(_FILE, page)
+            item.setData(_PAGE_ROLE, page)
 
     def _search_all(self, text: str) -> None:
         if not text.strip():
-            self._list(self._pages)
+            self._show_entries(self._pages)
             self._show_current_page(self.browser.source())
             return
         if not self._sections:
             self._sections = sections(self._folder)
-        found = [(section.title, section.link) for section in search(self._sections, text)]
-        self._list(found)
-        if not found:
+        entries = [(section.title, section.link) for section in search(self._sections, text)]
+        self._show_entries(entries)
+        if not entries:
             item = QListWidgetItem("Nothing found", self.page_list)
             item.setFlags(Qt.ItemFlag.NoItemFlags)
 
@@ -139,7 +139,7 @@ class HelpWindow(QMainWindow):
             self._show_item(item)
 
     def _show_item(self, item: QListWidgetItem) -> None:
-        page = item.data(_FILE)
+        page = item.data(_PAGE_ROLE)
         if page is None:
             return
         self.show_page(page)
@@ -149,14 +149,14 @@ class HelpWindow(QMainWindow):
 
     def _show_current_page(self, url: QUrl) -> None:
         for place in range(self.page_list.count()):
-            if self.page_list.item(place).data(_FILE) == url.fileName():
+            if self.page_list.item(place).data(_PAGE_ROLE) == url.fileName():
                 self.page_list.setCurrentRow(place)
         title = next((title for title, name in self._pages if name == url.fileName()), "")
         if title:
             self.setWindowTitle(f"Manual: {title}")
 
 
-def _search_field(name: str, tip: str) -> QLineEdit:
+def _make_search_field(name: str, tip: str) -> QLineEdit:
     return name_widget(QLineEdit(placeholderText=name, clearButtonEnabled=True), name, tip)
 
 

@@ -11,12 +11,12 @@ CONTENTS = "index.md"
 
 GUIDE = "guide.md"
 
-_LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
+_CONTENTS_ENTRY = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 
 
 def docs_folder() -> Path:
     """Return the folder of the pages; raises OSError if the program is installed without them."""
-    # If the program runs from an archive, this copies the pictures as well.
+    # If the program runs from an archive, this extracts the pictures as well.
     resource_path("pictures")
     return resource_path("docs")
 
@@ -27,7 +27,7 @@ def pages(folder: Path) -> list[tuple[str, str]]:
     Raises OSError if the table of contents cannot be read.
     """
     text = (folder / CONTENTS).read_text(encoding="utf-8")
-    return [("Contents", CONTENTS), *_LISTED.findall(text)]
+    return [("Contents", CONTENTS), *_CONTENTS_ENTRY.findall(text)]
 
 
 def heading_id(text: str) -> str:
@@ -48,16 +48,18 @@ class Section:
 
 def sections(folder: Path) -> list[Section]:
     """Read the sections of all pages, in the order of the table of contents and without it."""
-    found = []
+    all_sections = []
     for title, name in pages(folder):
-        parts = _parts((folder / name).read_text(encoding="utf-8"))
+        parts = _divide_page((folder / name).read_text(encoding="utf-8"))
         for place, (heading, text) in enumerate(parts):
-            shown, link = (title, name) if place == 0 else (f"{title}: {heading}", "")
-            found.append(Section(shown, link or f"{name}#{heading_id(heading)}", text))
-    return found[1:]
+            section_title, link = (title, name) if place == 0 else (f"{title}: {heading}", "")
+            all_sections.append(
+                Section(section_title, link or f"{name}#{heading_id(heading)}", text)
+            )
+    return all_sections[1:]
 
 
-def _parts(page: str) -> Iterator[tuple[str, str]]:
+def _divide_page(page: str) -> Iterator[tuple[str, str]]:
     """Divide a page into headings and the text below each; a # in an example is no heading."""
     heading, lines, is_example = "", list[str](), False
     for line in page.splitlines():
@@ -72,12 +74,14 @@ def _parts(page: str) -> Iterator[tuple[str, str]]:
     yield heading, "\n".join(lines)
 
 
-def search(of: Sequence[Section], text: str) -> list[Section]:
+def search(candidates: Sequence[Section], text: str) -> list[Section]:
     """Return the sections that contain every word, first those that contain them in the title."""
     words = text.lower().split()
 
-    def has_all(where: str) -> bool:
-        return all(word in where.lower() for word in words)
+    def contains_all(passage: str) -> bool:
+        return all(word in passage.lower() for word in words)
 
-    there = [section for section in of if has_all(f"{section.title}\n{section.text}")]
-    return sorted(there, key=lambda section: not has_all(section.title))
+    matches = [
+        section for section in candidates if contains_all(f"{section.title}\n{section.text}")
+    ]
+    return sorted(matches, key=lambda section: not contains_all(section.title))

@@ -35,7 +35,7 @@ class LessonAnswers(QObject):
     def __init__(self) -> None:
         super().__init__()
         self._records: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
-        self._queue: list[_Question] = []  # the question under check, then those that wait
+        self._queue: list[_Question] = []  # the one being checked, then those that wait
         self.runner: Task[_Question, tuple[_Question, CheckedAnswer]] = Task(
             lambda question, _: _check(question), "lesson"
         )
@@ -73,8 +73,8 @@ class LessonAnswers(QObject):
     def list_steps(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
         steps = []
         for place, step in enumerate(lesson.steps):
-            none = None, step.question_scene, MatchedPhoto()
-            answer, scene, photo = self._records.get((lesson.name, place), none)
+            unanswered = None, step.question_scene, MatchedPhoto()
+            answer, scene, photo = self._records.get((lesson.name, place), unanswered)
             steps.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
         return tuple(steps)
 

@@ -40,7 +40,7 @@ class LessonController(QObject):
     control_wanted = Signal(str)  # the name of the parameter that a step is about; empty for none
 
     columns_held = Signal(object)
-    """Number of columns that a step keeps in view, so that changes are visible; None: the usual."""
+    """Number of columns that a step keeps in view, so that changes are visible; None: usual."""
 
     equation_wanted = Signal(str)  # the name of the equation that explains a step; empty for none
     action_wanted = Signal(str)  # the name of the action that the button of a step starts
@@ -48,32 +48,32 @@ class LessonController(QObject):
     report_asked = Signal(Lesson)
 
     def __init__(
-        self, store: Store, results_store: ResultsStore, pane: LessonView, answers: LessonAnswers
+        self, store: Store, results_store: ResultsStore, view: LessonView, answers: LessonAnswers
     ) -> None:
         super().__init__()
         self._store, self._results_store = store, results_store
-        self._pane, self._answers = pane, answers
+        self._view, self._answers = view, answers
         self._loaded = LoadedLessons(())
         self.current: Lesson | None = None
-        self._done: dict[str, int] = {}
+        self._finished_steps: dict[str, int] = {}
         self._places: dict[str, int] = {}
-        self._user: Workspace | None = None
+        self._workspace_before: Workspace | None = None
         self._has_set_room = False
         self._first_photo: Path | None = None
         """The photo that was open before the lesson; steps without a photo hide it."""
         self._ended_lesson: Lesson | None = None
         answers.checked.connect(self._show_answer)
         store.select(lambda workspace: workspace.scene).changed.connect(self._follow_scene)
-        pane.list.chosen.connect(self.choose)
-        for page in (pane.step, pane.end):
+        view.list.chosen.connect(self.choose)
+        for page in (view.step, view.end):
             page.list_asked.connect(self.leave)
-        pane.step.moved.connect(self.go)
-        pane.step.again_asked.connect(self.reset_step)
-        pane.step.control_asked.connect(self._request_control)
-        pane.step.answer_given.connect(self._check)
-        pane.step.action_asked.connect(self._ask_action)
-        pane.end.report_asked.connect(self._ask_report)
-        pane.end.next_asked.connect(self._go_to_next)
+        view.step.moved.connect(self.go)
+        view.step.again_asked.connect(self.reset_step)
+        view.step.control_asked.connect(self._request_control)
+        view.step.answer_given.connect(self._check)
+        view.step.action_asked.connect(self._ask_action)
+        view.end.report_asked.connect(self._ask_report)
+        view.end.next_asked.connect(self._go_to_next)
 
     def set_visible(self, visible: bool) -> None:
         """Read the lessons when their pane is shown, unless a lesson is under way."""
@@ -89,8 +89,8 @@ class LessonController(QObject):
             self._list_lessons(failure)
 
     def _list_lessons(self, failure: str = "") -> None:
-        reached = self._places | self._done
-        self._pane.list_lessons(self._loaded.lessons, reached, failure, self._loaded.problems)
+        reached = self._places | self._finished_steps
+        self._view.list_lessons(self._loaded.lessons, reached, failure, self._loaded.problems)
 
     def begin_first(self) -> None:
         self.set_visible(True)
@@ -100,9 +100,9 @@ class LessonController(QObject):
     def choose(self, name: str) -> None:
         for lesson in self._loaded.lessons:
             if lesson.name == name:
-                if self._user is None:
-                    self._user = self._store.workspace
-                    self._first_photo = self._user.photo.path
+                if self._workspace_before is None:
+                    self._workspace_before = self._store.workspace
+                    self._first_photo = self._workspace_before.photo.path
                 self.current, self._ended_lesson = lesson, None
                 self._go_to(self._places.get(name, 0))
 
@@ -115,30 +115,30 @@ class LessonController(QObject):
         if place < count:
             self._go_to(max(place, 0))
             return
-        self._done[name] = count
+        self._finished_steps[name] = count
         self._places[name] = 0
         self._ended_lesson, self.current = self.current, None
         self.control_wanted.emit("")
         self.restore_user()
         self._show_end(self._ended_lesson)
 
-    def _show_end(self, done: Lesson) -> None:
-        answers = [each.answer for each in self._answers.list_steps(done)]
-        following = self._find_next()
-        self._pane.show_end(done, answers, "" if following is None else following.title)
-        self._pane.end.report.setEnabled(not self._answers.is_checking(done))
+    def _show_end(self, lesson: Lesson) -> None:
+        answers = [step.answer for step in self._answers.list_steps(lesson)]
+        next_lesson = self._find_next()
+        self._view.show_end(lesson, answers, "" if next_lesson is None else next_lesson.title)
+        self._view.end.report.setEnabled(not self._answers.is_checking(lesson))
 
     def _find_next(self) -> Lesson | None:
-        """Return the next lesson in the list; None after the last or where its file is gone."""
+        """Return the next lesson in the list; None after the last, or if its file is gone."""
         if self._ended_lesson is not None and self._ended_lesson in self._loaded.lessons:
-            rest = self._loaded.lessons[self._loaded.lessons.index(self._ended_lesson) + 1 :]
-            return next(iter(rest), None)
+            later = self._loaded.lessons[self._loaded.lessons.index(self._ended_lesson) + 1 :]
+            return next(iter(later), None)
         return None
 
     def _go_to_next(self) -> None:
-        following = self._find_next()
-        if following is not None:
-            self.choose(following.name)
+        next_lesson = self._find_next()
+        if next_lesson is not None:
+            self.choose(next_lesson.name)
 
     def leave(self) -> None:
         """End the lesson and return to the list; the step reached is kept."""
@@ -149,7 +149,7 @@ class LessonController(QObject):
 
     def user_workspace(self) -> Workspace | None:
         """Return what the end of the lesson restores; None if none is under way."""
-        user, present = self._user, self._store.workspace
+        user, present = self._workspace_before, self._store.workspace
         if user is None:
             return None
         # A photo opened or matched during the lesson stays, and so does all that no step sets.
@@ -163,7 +163,7 @@ class LessonController(QObject):
 
     def restore_user(self) -> None:
         """Restore the user's own work, with one step of undo for the scene."""
-        user, self._user, self._has_set_room = self.user_workspace(), None, False
+        user, self._workspace_before, self._has_set_room = self.user_workspace(), None, False
         self.columns_held.emit(None)
         if user is not None:
             self._store.put(user, "end of the lesson", new_gesture())
@@ -178,9 +178,9 @@ class LessonController(QObject):
         if lesson is None:
             return
         self._places[lesson.name] = place
-        self._done.pop(lesson.name, None)
+        self._finished_steps.pop(lesson.name, None)
         step = lesson.steps[place]
-        self._pane.show_step(lesson, place, self._answers.find_answer(lesson, place))
+        self._view.show_step(lesson, place, self._answers.find_answer(lesson, place))
         self.equation_wanted.emit(step.equation)
         self._set_step(lesson, place)
         self.control_wanted.emit(step.control)
@@ -190,7 +190,7 @@ class LessonController(QObject):
         step, user = lesson.steps[place], self.user_workspace()
         if user is None:
             return
-        self._user = user
+        self._workspace_before = user
         title = f"step {place + 1} of “{lesson.title}”"
         photo = self._choose_photo(step, user.photo)
         self._has_set_room |= step.pane == "room"
@@ -237,24 +237,24 @@ class LessonController(QObject):
         if step is None:
             return
         scene = self._store.workspace.scene
-        self._pane.step.show_changes(describe_changes(step, scene))
-        self._pane.step.show_explanation(explanation(step, scene))
+        self._view.step.show_changes(describe_changes(step, scene))
+        self._view.step.show_explanation(explanation(step, scene))
         self._mark_answer()
         if step.animation:
-            self._pane.step.animation.show_shutter(rolling_shutter(scene))
+            self._view.step.animation.show_shutter(rolling_shutter(scene))
 
     def _mark_answer(self) -> None:
         lesson = self.current
         if lesson is not None:
             place = self._places[lesson.name]
-            self._pane.step.answer_field.show_outdated(
+            self._view.step.answer_field.show_outdated(
                 not self._answers.is_valid_for(lesson, place, self._store.workspace.scene)
             )
 
     def _check(self, text: str) -> None:
         lesson = self.current
         if lesson is not None:
-            self._pane.step.answer_field.show_waiting()
+            self._view.step.answer_field.show_waiting()
             results = self._results_store.results
             name = "" if results.photo is None else one_line(results.photo.path.name)
             match = find_match(results)
@@ -266,7 +266,7 @@ class LessonController(QObject):
     def _show_answer(self, lesson: Lesson, place: int) -> None:
         answer = self._answers.find_answer(lesson, place)
         if lesson is self.current and place == self._places[lesson.name] and answer is not None:
-            self._pane.step.answer_field.show_outcome(answer)
+            self._view.step.answer_field.show_outcome(answer)
             self._mark_answer()
         if lesson is self._ended_lesson:  # its end was shown before this answer was checked
             self._show_end(lesson)
@@ -285,27 +285,28 @@ def is_own(photo: PhotoChoice) -> bool:
     return photo.path not in {None, *sample_photos()}
 
 
-_MOST_NAMED = 2
+_MOST_STATED_CHANGES = 2
 
 
 def describe_changes(step: LessonStep, scene: Scene) -> str:
-    """State how the scene differs from the step's, and which of them each text is about.
+    """State how the scene differs from the step's, and to which of both each text refers.
 
-    Empty where the scene is that of the step or of its check, and where the step is about a photo:
-    to apply its match changes the scene.
+    Empty where the scene is that of the step or of its check; also where the step is about a photo,
+    whose match changes the scene.
     """
     if step.own_photo or step.photo or scene in {step.scene, step.question_scene}:
         return ""
     changes = []
     for name in (name for names in GROUPS.values() for name in names):
-        now, own = scene.value(name), step.scene.value(name)
-        if now != own:
-            texts = (text or "empty" for text in format_distinctly(PARAMETERS[name], now, own))
+        value, step_value = scene.value(name), step.scene.value(name)
+        if value != step_value:
+            pair = format_distinctly(PARAMETERS[name], value, step_value)
+            texts = (text or "empty" for text in pair)
             changes.append(f"{PARAMETERS[name].label} is {next(texts)} instead of {next(texts)}")
-    named = changes[:_MOST_NAMED]
-    if len(changes) > _MOST_NAMED:
-        named.append(f"{len(changes) - _MOST_NAMED} more")
+    stated = changes[:_MOST_STATED_CHANGES]
+    if len(changes) > _MOST_STATED_CHANGES:
+        stated.append(f"{len(changes) - _MOST_STATED_CHANGES} more")
     return (
-        f"You have changed the scene: {' and '.join(named)}. Picture, formula, check and report "
+        f"You have changed the scene: {' and '.join(stated)}. Picture, formula, check and report "
         "belong to your scene, the numbers in the text to the lesson's."
     )

@@ -182,7 +182,9 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     (whole,) = count_right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
     assert own.rate is not None
     assert own.rate.whole == whole
-    assert {round(100.0 * s.present.fraction, 9) for s in strips.values() if s.present} == {rate}
+    assert {
+        round(100.0 * s.present_rate.fraction, 9) for s in strips.values() if s.present_rate
+    } == {rate}
     badges = {badge.key: badge.text for badge in application.story.verdict.badges.badges}
     assert badges["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
     strip = strips["iso"]
@@ -192,4 +194,4 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     pixel = strip.grab().toImage().pixelColor(round(handle_middle(strip.slider) - strip.x() + 9), 3)
     assert [pixel.red(), pixel.green(), pixel.blue()] == colour
     application.store.change(switching_frequency=14e3)
-    assert {s.present for s in strips.values()} == {None}
+    assert {s.present_rate for s in strips.values()} == {None}

@@ -177,7 +177,7 @@ def test_exported_figures_show_the_scene_just_chosen(
 ) -> None:
     """Check the scenes before drawing, which takes a minute."""
     export, jobs = application.shell.pane("export"), list[ExportJob]()
-    monkeypatch.setattr(export, "_put", jobs.append)
+    monkeypatch.setattr(export, "_enqueue", jobs.append)
     application.store.change(distance=1.3)
     export.export_all(tmp_path)
     export.export("profile", tmp_path / "profile.png")

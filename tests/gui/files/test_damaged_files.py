@@ -15,7 +15,7 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
-from occ_gui.files.session_record import KeptSession
+from occ_gui.files.session_record import SavedSession
 from occ_model.scene.scene import Scene
 
 
@@ -43,7 +43,7 @@ def test_what_is_not_a_file_is_not_read_and_does_not_prevent_the_writing_of_a_se
     NO_FILES[kind](tmp_path / "session-1.json")
     file = SessionFile(tmp_path)
     assert (file.last, file.crashed) == (None, None)
-    kept = KeptSession(Workspace(Scene()))
+    kept = SavedSession(Workspace(Scene()))
     file.write(kept, in_use=False)
     file.close()
     again = SessionFile(tmp_path)
@@ -58,7 +58,7 @@ COUNTS = ("9" * 4300, "9" * 5000, "-9", "1e999", "NaN", str(2**53), "true", '"7"
 def test_an_invalid_count_does_not_prevent_the_writing_of_a_session(
     tmp_path: Path, count: str
 ) -> None:
-    first, second = (KeptSession(Workspace(Scene().replace(iso=iso))) for iso in (111.0, 222.0))
+    first, second = (SavedSession(Workspace(Scene().replace(iso=iso))) for iso in (111.0, 222.0))
     file = SessionFile(tmp_path)
     file.write(first, in_use=False)
     file.close()
@@ -98,7 +98,7 @@ def test_a_file_that_is_not_a_session_is_renamed_with_a_sentence(
         session = Session(Store(Workspace(Scene())), partial(Workspace, Scene()))
         said = collect(session.status_message)
         session.begin(file, names_scene=False)
-        sentence = not_none(file.put_aside)
+        sentence = not_none(file.invalid_file_message)
         assert said == [sentence]
         assert sentence.startswith(str(path))
         assert sentence.endswith(f"{reason} It is kept as {name}.")
@@ -118,7 +118,7 @@ def test_a_file_that_cannot_be_renamed_is_not_overwritten(
 
     monkeypatch.setattr(Path, "rename", refuse)
     file = SessionFile(tmp_path)
-    file.write(kept := KeptSession(Workspace(Scene())), in_use=False)
+    file.write(kept := SavedSession(Workspace(Scene())), in_use=False)
     file.close()
     assert path.read_text("ascii") == '{"format": 2}'
     again = SessionFile(tmp_path)
@@ -134,7 +134,7 @@ from occ_gui.app.start import open_preferences
 from occ_gui.core.store import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import SessionFile, state_folder
-from occ_gui.files.session_record import KeptSession
+from occ_gui.files.session_record import SavedSession
 from occ_model.scene.scene import Scene
 
 os.umask(0o022)
@@ -144,7 +144,7 @@ preferences = Preferences(settings)
 for name in ("a.png", "b.png"):
     preferences.add(Path(name))
     settings.sync()
-    file.write(KeptSession(Workspace(Scene())), in_use=False)
+    file.write(SavedSession(Workspace(Scene())), in_use=False)
 print(settings.fileName(), flush=True)
 os._exit(0)
 """

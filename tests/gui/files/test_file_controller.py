@@ -322,7 +322,7 @@ def test_a_film_is_recognized_by_its_content(bench: FilesBench, tmp_path: Path) 
     path = tmp_path / "without an ending"
     path.write_bytes(b"\x00\x00\x00\x18ftypisom")
     asked: list[Path] = []
-    bench.files.film_asked.connect(asked.append)
+    bench.files.film_requested.connect(asked.append)
     bench.files.open_dropped([path])
     bench.files.open_recent(path)
     assert asked == [path, path]

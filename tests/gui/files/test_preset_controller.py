@@ -193,9 +193,9 @@ def test_a_scene_that_is_a_preset_is_named_by_it_whatever_a_session_says(
 ) -> None:
     application.presets.load("phone-68us")
     show(application.store.store, preset="tablet-61us")
-    assert application.presets.shown == ("phone-68us", "")
+    assert application.presets.shown_names == ("phone-68us", "")
     application.store.change(iso=200.0)
-    assert application.presets.shown == ("", "tablet-61us")
+    assert application.presets.shown_names == ("", "tablet-61us")
     user.wait_until_idle()
 
 

@@ -22,7 +22,7 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
 from occ_gui.files.session import Session, SessionFile, restore_workspace
-from occ_gui.files.session_record import KeptSession
+from occ_gui.files.session_record import SavedSession
 from occ_gui.values.choices import RoomChoice
 from occ_gui.values.modes import MODES
 from occ_model.scene.scene import Scene, SimulationSettings
@@ -186,7 +186,7 @@ def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alon
 def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> None:
     file, asked = SessionFile(tmp_path), Workspace(small_scene.replace(iso=99.0))
     left = Workspace(small_scene.replace(iso=321.0), SimulationSettings(9.0, force={"jpeg": False}))
-    file.write(KeptSession(left), in_use=False)
+    file.write(SavedSession(left), in_use=False)
     file.close()
     again = SessionFile(tmp_path)
     begun = restore_workspace(again, asked, names_scene=True, has_settings=False)
@@ -215,7 +215,7 @@ def test_only_a_command_line_that_names_a_scene_asks_for_one(
 def crash(folder: Path, scene: Scene) -> None:
     """Leave the files of a window that crashed."""
     file = SessionFile(folder)
-    file.write(KeptSession(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
+    file.write(SavedSession(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
     file.close()
 
 
@@ -225,7 +225,7 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
     lost, later = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
     other = SessionFile(tmp_path / "state")  # of a window that outlives the other one
     crash(tmp_path / "state", lost)
-    other.write(KeptSession(Workspace(later)), in_use=False)
+    other.write(SavedSession(Workspace(later)), in_use=False)
     other.close()
     with start() as application:
         assert application.store.scene == lost
@@ -252,15 +252,15 @@ def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
 ) -> None:
     first, second = SessionFile(tmp_path), SessionFile(tmp_path)
     for file, iso in ((first, 99.0), (second, 101.0), (first, 103.0)):
-        file.write(KeptSession(Workspace(small_scene.replace(iso=iso))), in_use=False)
+        file.write(SavedSession(Workspace(small_scene.replace(iso=iso))), in_use=False)
     for file in (first, second):
         file.close()
     in_a_year = time.time() + 365 * 86400
     os.utime(tmp_path / "session-2.json", (in_a_year, in_a_year))
     for iso in (103.0, 104.0):
         file = SessionFile(tmp_path)
-        assert file.last == KeptSession(Workspace(small_scene.replace(iso=iso)))
-        file.write(KeptSession(Workspace(small_scene.replace(iso=iso + 1.0))), in_use=False)
+        assert file.last == SavedSession(Workspace(small_scene.replace(iso=iso)))
+        file.write(SavedSession(Workspace(small_scene.replace(iso=iso + 1.0))), in_use=False)
         file.close()
 
 

@@ -12,7 +12,7 @@ from small_rooms import small_room
 from occ_gui.core.store import History, StepChange
 from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
 from occ_gui.files.session import LARGEST_FILE, SessionFile
-from occ_gui.files.session_record import KeptSession, make_record, read_session
+from occ_gui.files.session_record import SavedSession, make_record, read_session
 from occ_gui.values.choices import (
     FilmChoice,
     LoadOptions,
@@ -56,10 +56,10 @@ def test_every_setting_is_restored(tmp_path: Path) -> None:
             if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
     assert not same
     file = SessionFile(tmp_path)
-    file.write(KeptSession(workspace), in_use=False)
+    file.write(SavedSession(workspace), in_use=False)
     file.close()
     again = SessionFile(tmp_path)
-    assert again.last == KeptSession(workspace)
+    assert again.last == SavedSession(workspace)
     kept = not_none(again.last.workspace.pins[1])
     assert kept.request.more_decoders == ("sequence",)  # not compared between pins
     again.close()
@@ -98,7 +98,7 @@ def test_an_invalid_part_alone_gets_its_first_value(place: tuple[str, ...], valu
     }
     if place == ("room", "photo"):  # a file that is gone
         first["room"] = replace(workspace.room, photo=None)
-    record: Any = make_record(KeptSession(workspace))
+    record: Any = make_record(SavedSession(workspace))
     at = record
     for name in place[:-1]:
         at = at[name]
@@ -124,14 +124,14 @@ def test_a_file_of_the_former_format_is_read() -> None:
         pins=(PinnedScene(SimulationRequest(pinned, known)), None), scene_file=here,
     )  # fmt: skip
     step = StepChange("change", {"iso": 321.0}, {"jpeg": True})
-    assert read_session(record) == KeptSession(
+    assert read_session(record) == SavedSession(
         workspace, History(UndoState(pinned, {}), (step,), done=1)
     )
 
 
 def test_names_of_a_former_version_are_read() -> None:
     workspace = replace(everything_set(), picture_kind="receiver")
-    record: Any = make_record(KeptSession(workspace))
+    record: Any = make_record(SavedSession(workspace))
     record["photo"]["reading"] = record["photo"].pop("load_options")
     record["view"]["whose"] = record["view"].pop("picture_kind")
     assert not_none(read_session(record)).workspace == workspace
@@ -139,7 +139,7 @@ def test_names_of_a_former_version_are_read() -> None:
 
 @pytest.mark.parametrize(("stated", "sent"), [("square", "lamp"), ("auto", "auto")])
 def test_a_lamp_that_was_a_square_wave_in_a_former_session_is_read(stated: str, sent: str) -> None:
-    record: Any = make_record(KeptSession(everything_set()))
+    record: Any = make_record(SavedSession(everything_set()))
     record["photo"]["form"] |= {"sent": stated, "square_frequency": 750.0}
     del record["photo"]["form"]["lamp_frequency"]
     record["photo"]["certain"] = {"switching_frequency": 1500.0}
@@ -171,7 +171,7 @@ DAMAGED_SCENES = {
 def test_a_session_with_numbers_or_lists_that_no_computer_needs_is_left_out(
     tmp_path: Path, value: str
 ) -> None:
-    record = json.dumps(make_record(KeptSession(Workspace(Scene()))))
+    record = json.dumps(make_record(SavedSession(Workspace(Scene()))))
     text = record.replace('"seed": 1', f'"seed": {value}')
     assert value in text
     (tmp_path / "session-1.json").write_text(text, "ascii")

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
 from occ_gui.files.session import Session, SessionFile
-from occ_gui.files.session_record import KeptSession
+from occ_gui.files.session_record import SavedSession
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
@@ -49,12 +49,12 @@ def scenes_in(folder: Path) -> list[Scene]:
 def test_two_open_windows_do_not_report_each_other_as_crashed(tmp_path: Path) -> None:
     first, second = SessionFile(tmp_path), SessionFile(tmp_path)
     for file in (first, second):
-        file.write(KeptSession(Workspace(Scene())), in_use=True)
+        file.write(SavedSession(Workspace(Scene())), in_use=True)
     third = SessionFile(tmp_path)
     assert {path.name for path in tmp_path.glob("*.json")} == {"session-1.json", "session-2.json"}
     assert [file.crashed for file in (first, second, third)] == [None] * 3
     for file in (first, second):
-        file.write(KeptSession(Workspace(Scene())), in_use=False)
+        file.write(SavedSession(Workspace(Scene())), in_use=False)
         file.close()
     third.close()
     assert SessionFile(tmp_path).crashed is None

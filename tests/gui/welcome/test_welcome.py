@@ -12,7 +12,7 @@ from occ_gui.app.start import Start
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import KeptSession
+from occ_gui.files.session_record import SavedSession
 from occ_gui.welcome.welcome import Welcome
 from occ_model.scene.scene import Scene
 
@@ -40,7 +40,7 @@ def test_the_page_appears_by_itself_only_once(qtbot: QtBot, small_scene: Scene) 
 def test_a_start_that_names_a_scene_is_no_first_one(asked: bool, tmp_path: Path) -> None:
     file, workspace = SessionFile(tmp_path), Workspace(Scene())
     assert Start(workspace, asked, session_file=file).is_new != asked
-    file.write(KeptSession(workspace), in_use=False)
+    file.write(SavedSession(workspace), in_use=False)
     file.close()
     again = SessionFile(tmp_path)
     assert not Start(workspace, asked, session_file=again).is_new

@@ -200,7 +200,7 @@ class MapView(QWidget):
         if self.quantity.key() == "bits":
             return "; ".join(
                 f"{decoder} {facts.most_bits * whole / facts.images:,.0f} bits a second, "
-                f"{whole} of {facts.images} pictures whole"
+                f"{whole} of {facts.images} pictures read without an error"
                 for (decoder, *_), whole in zip(facts.counts, facts.whole, strict=True)
             )
         return "; ".join(

@@ -185,7 +185,9 @@ class AdvisorController(SearchController):
     def _show_outdated(self, outdated: bool) -> None:
         last, present = self._last_request, self._request()
         valid_parameters = [
-            name for name in SEARCHED_PARAMETERS if last.omit_value(name) == present.omit_value(name)
+            name
+            for name in SEARCHED_PARAMETERS
+            if last.omit_value(name) == present.omit_value(name)
         ]
         self._pane.show_advice_outdated(outdated, frozenset(valid_parameters))
 

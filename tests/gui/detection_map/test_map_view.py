@@ -295,7 +295,10 @@ def test_bits_a_second_count_only_whole_payloads(view: MapView, rates: RateMap) 
     facts = PointFacts(1e3, 1.0, ((DECODERS[0], 10, 70, 100), (DECODERS[1], 9, 60, 98)), 10, 1, "",
                        (1, 0), 250.0)  # fmt: skip
     view.show_facts(facts)
-    assert f"{DECODERS[0]} 250 bits a second, 1 of 1 pictures whole" in view.status.toolTip()
+    assert (
+        f"{DECODERS[0]} 250 bits a second, 1 of 1 pictures read without an error"
+        in view.status.toolTip()
+    )
     assert f"{DECODERS[1]} 0 bits a second" in view.status.toolTip()
     view.show_quantity("rate", 25.0)
     assert f"{DECODERS[0]} 100 %, 10 of 10 bits" in view.status.toolTip()

@@ -19,7 +19,7 @@ from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene, SimulationSettings
 
 if TYPE_CHECKING:  # Qt is slow to import, and only the doors of the window need it
-    from occ_gui.files.session_record import KeptSession
+    from occ_gui.files.session_record import SavedSession
 
 SESSION, SETTINGS = "session-1.json", "settings.ini"
 _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
@@ -31,7 +31,7 @@ def session_text() -> str:
     from occ_gui.core.store import History, StepChange
     from occ_gui.core.workspace import UndoState, Workspace
     from occ_gui.files.session import SessionFile
-    from occ_gui.files.session_record import KeptSession
+    from occ_gui.files.session_record import SavedSession
     from occ_gui.values.choices import (
         FilmChoice,
         LoadOptions,
@@ -77,13 +77,13 @@ def session_text() -> str:
                 None,
             ),
         )
-        session = KeptSession(workspace, History(UndoState(Scene(), {}), steps, done=1))
+        session = SavedSession(workspace, History(UndoState(Scene(), {}), steps, done=1))
         file.write(session, in_use=True)
         file.close()
         return Path(folder, SESSION).read_text("ascii")
 
 
-def _check_session(session: "KeptSession | None") -> None:
+def _check_session(session: "SavedSession | None") -> None:
     """Check that a session can be written, and is the same when it is read again."""
     from occ_gui.files.session import SessionFile
 
@@ -102,7 +102,7 @@ def _check_session(session: "KeptSession | None") -> None:
 def _session(chance: Random, folder: Path) -> list[str]:
     from occ_gui.core.workspace import Workspace
     from occ_gui.files.session import SessionFile
-    from occ_gui.files.session_record import KeptSession
+    from occ_gui.files.session_record import SavedSession
 
     text = session_text()
     if chance.random() < 0.2:
@@ -116,18 +116,18 @@ def _session(chance: Random, folder: Path) -> list[str]:
     file = SessionFile(folder)
     _check_session(file.last)
     _check_session(file.crashed)
-    kept = file.last or KeptSession(Workspace(Scene()))
+    kept = file.last or SavedSession(Workspace(Scene()))
     file.write(kept, in_use=False)
     file.close()
     again = SessionFile(folder)
     assert again.last == kept
     again.close()
-    if file.put_aside is None:
+    if file.invalid_file_message is None:
         assert file.last is not None
         return []
     (aside,) = folder.glob("*.unreadable")
     assert aside.read_bytes() == content
-    return [file.put_aside]
+    return [file.invalid_file_message]
 
 
 _INI = """[General]

@@ -101,8 +101,8 @@ class _VerdictChoice(QObject):
         if self._photo is not None:
             self._photo.verdict.show_simulation(verdict.state, verdict.heading)
 
-    def note_step(self, describe_photo: bool) -> None:
-        self._is_step_about_photo = describe_photo
+    def note_step(self, is_about_photo: bool) -> None:
+        self._is_step_about_photo = is_about_photo
         self.show()
 
     def show(self) -> None:

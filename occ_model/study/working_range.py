@@ -49,8 +49,8 @@ def working_range(
 ) -> WorkingRange:
     """Find the intervals of a parameter that are read, by checked settings of one decoder."""
     with Faults().counting() as faults:
-        found = _RangeSearch(scene, name, rate, settings, heartbeat).working_range()
-    return replace(found, faults=str(faults))
+        result = _RangeSearch(scene, name, rate, settings, heartbeat).find()
+    return replace(result, faults=str(faults))
 
 
 def estimate_range_images(images: int) -> int:
@@ -118,22 +118,31 @@ class _RangeSearch:
         self._images: dict[tuple[float, int], ImageCounts] = {}
         self._refuted: set[int] = set()
 
-    def working_range(self) -> WorkingRange:
+    def find(self) -> WorkingRange:
         values = self._values
-        searched = (values[0], values[-1])
-        own = self._try_all_images(self._scene_value, self._settings)
+        searched_ends = (values[0], values[-1])
+        scene_trial = self._try_all_images(self._scene_value, self._settings)
         while True:
             runs = self._find_runs()
             intervals = [self._find_interval(run, runs) for run in runs]
-            found = tuple(interval for interval in intervals if interval is not None)
-            if len(found) == len(runs):
+            read_intervals = tuple(interval for interval in intervals if interval is not None)
+            if len(read_intervals) == len(runs):
                 break
-        if found:
-            return WorkingRange(self._name, searched, STEP, own, found, most_chips=self._most_chips)
+        if read_intervals:
+            return WorkingRange(
+                self._name,
+                searched_ends,
+                STEP,
+                scene_trial,
+                read_intervals,
+                most_chips=self._most_chips,
+            )
         best = max((self._try(value) for value in values), key=lambda trial: trial.rate)
         best = self._try_all_images(best.value, self._settings)
-        failure = self._describe_failure(searched, best)
-        return WorkingRange(self._name, searched, STEP, own, (), failure, best, self._most_chips)
+        failure = self._describe_failure(searched_ends, best)
+        return WorkingRange(
+            self._name, searched_ends, STEP, scene_trial, (), failure, best, self._most_chips
+        )
 
     def _find_runs(self) -> list[tuple[int, int]]:
         """Return the indices of the first and the last coarse value of each interval."""

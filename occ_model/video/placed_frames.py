@@ -175,31 +175,33 @@ class PlacedFrames:
         length = self._period.part_length
         if self._period.parts == 1:
             return
-        shown = []
+        placed = []
         for number, timed in enumerate(self.frames):
             first, last = timed.reading.whole
             places = self._period.places(timed.reading.chips[first:last])
             if places:
-                shown.append((number, (places[0] - first) % length))
+                placed.append((number, (places[0] - first) % length))
         times = self.times()
         if times is None or not times.are_consecutive:
             return
-        part = _fullest_part(times, (number for number, _ in shown))
-        shown = [(number, place) for number, place in shown if part.first <= number < part.end]
-        both = [(self.frames[number], place) for number, place in shown]
-        if len(both) < _MIN_PREDICTING_FRAMES:
+        part = _fullest_part(times, (number for number, _ in placed))
+        placed = [(number, place) for number, place in placed if part.first <= number < part.end]
+        placed_frames = [(self.frames[number], place) for number, place in placed]
+        if len(placed_frames) < _MIN_PREDICTING_FRAMES:
             return
-        phases = _frame_phases(both, length)
+        phases = _frame_phases(placed_frames, length)
         fits = fit_film_clock(
             phases, self._readout_time, self._tolerance, self.columns, times.period.value
         )
         if len(fits) != 1:
             return
         self.part_unknown = True
-        begins, inside, within = _starts_and_places(fits[0], both)
-        firsts = unwrap_places(within, fits[0].at_start(begins) + inside, length).tolist()
-        for (number, _), first, kept in zip(shown, firsts, fits[0].kept, strict=True):
-            if kept:
+        start_times, offsets, places_in_part = _starts_and_places(fits[0], placed_frames)
+        firsts = unwrap_places(
+            places_in_part, fits[0].at_start(start_times) + offsets, length
+        ).tolist()
+        for (number, _), first, is_kept in zip(placed, firsts, fits[0].kept, strict=True):
+            if is_kept:
                 self._record_place(number, first % self._period.length)
 
     def _find_part(self) -> None:
@@ -207,10 +209,10 @@ class PlacedFrames:
         length, known = self._period.part_length, self.joined.known
         chips = (self.joined.ratios > 0.0).astype(np.uint8)
         for part in np.flatnonzero(known.reshape(-1, length).all(axis=1)).tolist():
-            found = self._period.read_part(chips[part * length : (part + 1) * length])
-            if found is not None:
+            number_and_bits = self._period.read_part(chips[part * length : (part + 1) * length])
+            if number_and_bits is not None:
                 self.part_unknown = False
-                shift = (found[0] - part) * length
+                shift = (number_and_bits[0] - part) * length
                 self.joined.rotate(shift)
                 self._places = [
                     None if place is None else (place + shift) % self._period.length

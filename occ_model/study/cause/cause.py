@@ -113,7 +113,7 @@ class _CauseSearch:
         first, *others = needed
         why = first.why
         if others:
-            why += f" In addition: {', '.join(one.what for one in others)}."
+            why += f" In addition: {', '.join(suspect.what for suspect in others)}."
         attempt = self._remove(others)
         helps = (each for each in first.remedies if attempt and self._is_read(attempt.apply(each)))
         return Cause(first.what, why, next(helps, None), first.is_overexposed)

@@ -42,9 +42,9 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
         return read_repeated(chips, np.array(HEADER, dtype=np.uint8), form.bits, form, read_after)
     headers = find_headers(chips)
     if len(headers) < 2:
-        found = "One header" if headers else "No header"
-        among = inflect(len(chips), "chip")
-        return Framed.nothing(f"{found} found among {among}, two needed.", headers)
+        headers_text = "One header" if headers else "No header"
+        chips_text = inflect(len(chips), "chip")
+        return Framed.nothing(f"{headers_text} found among {chips_text}, two needed.", headers)
     first, second = headers[:2]
     if second - first != length:
         return Framed.nothing(
@@ -53,8 +53,8 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
             "another length are sent.",
             headers,
         )
-    read = read_after(chips[first + len(HEADER) : second], HEADER[-1], form)
-    return Framed(headers, read.bits, read.failure)
+    framed = read_after(chips[first + len(HEADER) : second], HEADER[-1], form)
+    return Framed(headers, framed.bits, framed.failure)
 
 
 FRAMING = Framing(

@@ -61,7 +61,7 @@ def test_a_picture_that_studies_may_contradict_states_what_it_leaves_out(
     scene = occ.load_preset("phone-136us").replace(rows=800, switching_frequency=14.6e3)
     application.store.put(scene, "another scene")
     user.wait_until_idle()
-    label = application.view("decode").left_out
+    label = application.view("decode").omissions
     assert label.isHidden()
     application.settings.set_observable("profile")  # its means hide what the signal shows
     user.wait_until_idle()

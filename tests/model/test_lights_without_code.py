@@ -95,7 +95,7 @@ def test_only_the_decision_of_the_observables_needs_a_code(light: str) -> None:
 @each_case(["duty", "pulse_length", "mains_depth", "levels", "lamp_frequency"])
 def test_a_sweep_over_a_parameter_of_another_light_is_refused(name: str) -> None:
     value = SCENE.value(name)
-    with pytest.raises(ParameterError, match=f"{name} cannot be varied: it is of the light "):
+    with pytest.raises(ParameterError, match=f"{name} cannot be varied: it belongs to the light "):
         occ.sweep(SCENE, {name: [value]}, images=1)
 
 

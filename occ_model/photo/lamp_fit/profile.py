@@ -11,7 +11,7 @@ _CLIPPED_PART = 0.02  # of a column's samples, from which its mean is too dark
 _GROUPS = (8, 4, 3, 2)  # lines that a sensor may read together
 _LEAST_STEP_RATIO = 0.35  # of steps within a group to steps between groups, below which it is one
 _MOST_COLUMNS = 640  # of a profile that is fitted
-_LEAST_PERIOD = 12.0  # columns that a period keeps
+_LEAST_PERIOD = 48.0  # columns that a period keeps
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -16,7 +16,8 @@ from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.verdict import doubts, penalty, refusals
 
 _OTHER_PERIOD = 0.03  # relative difference from which a fit has another period
-_EDGE_ERROR = 0.02  # columns by which processing moves each edge
+_EDGE_ERROR, _CLIPPED_ERROR = 0.02, 0.2
+"""Columns by which processing moves each edge, and by which white does if all columns have it."""
 _LEAST_COLUMNS = 16
 _UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
 _PERIODS = 2  # of the likely ones, of which multiples are tried, too
@@ -122,7 +123,8 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
     gap, other_period = min(others, default=(math.inf, None))
     scale = max(1.0, cues.scatter / max(cues.scatter_noise, 1e-9))
     period, edges = fit.wave.period, max(cues.edges, 2)
-    of_edges = 2.0 * _EDGE_ERROR * math.sqrt(12.0 / (edges * (edges**2 - 1.0)))
+    edge_error = _EDGE_ERROR + _CLIPPED_ERROR * float(profile.clipped.mean())
+    of_edges = 2.0 * edge_error * math.sqrt(12.0 / (edges * (edges**2 - 1.0)))
     deviations = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0)) * scale
     width_error, ramp_error = _shape_errors(fit, scale)
     return LampReading(
@@ -133,12 +135,12 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
         fit=fit,
         cues=cues,
         period_error=math.hypot(period * float(deviations[PERIOD]), of_edges),
-        place_error=math.hypot(float(deviations[PLACE]), _EDGE_ERROR / math.sqrt(edges)),
+        place_error=math.hypot(float(deviations[PLACE]), edge_error / math.sqrt(edges)),
         width=fit.wave.width,
         ramp=fit.wave.ramp_columns / period,
-        width_error=min(math.hypot(width_error, _EDGE_ERROR / period), _UNKNOWN),
+        width_error=min(math.hypot(width_error, edge_error / period), _UNKNOWN),
         ramp_error=min(
-            math.hypot(ramp_error, _EDGE_ERROR / period),
+            math.hypot(ramp_error, edge_error / period),
             _UNKNOWN * min(fit.wave.width, 1.0 - fit.wave.width),
         ),
         gap=gap,

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.errors import MatchError, ParameterError, distinct_texts
+from occ_model.errors import MatchError, distinct_texts
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
-from occ_model.photo.photo_scene import fit_to_photo, with_chips, with_levels
+from occ_model.photo.photo_scene import fit_to_photo, with_chips, with_explanation, with_levels
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results.decoding import Region
@@ -40,10 +40,7 @@ def scale_frequency(scene: Scene, rate: float) -> Scene:
     if rate == 1.0:
         return scene
     frequency = scene.transmitter.switching_frequency * rate
-    try:
-        return scene.replace(switching_frequency=frequency)
-    except ParameterError as error:
-        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+    return with_explanation(scene, switching_frequency=frequency)
 
 
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
@@ -197,18 +194,16 @@ def _with_timing(
     readout, frequency = readout_and_frequency(fit, scene, estimate)
     scene, shift = with_chips(scene, explanation.chips)
     first = timing.start(columns) - timing.step * region.first_column - shift
-    try:
-        return scene.replace(
-            readout_time=readout,
-            switching_frequency=frequency,
-            exposure_time=timing.exposure / frequency,
-            start_time=first % len(explanation.chips) / frequency,
-            gamma=timing.gamma,
-            averaging=explanation.camera.averaging,
-            enhancement=explanation.camera.enhancement,
-        )
-    except ParameterError as error:
-        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+    return with_explanation(
+        scene,
+        readout_time=readout,
+        switching_frequency=frequency,
+        exposure_time=timing.exposure / frequency,
+        start_time=first % len(explanation.chips) / frequency,
+        gamma=timing.gamma,
+        averaging=explanation.camera.averaging,
+        enhancement=explanation.camera.enhancement,
+    )
 
 
 def _uncertainties(

@@ -30,7 +30,6 @@ from occ_model.photo.lamp_fit.match import match_lamp
 from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Corners, Photo, region_within
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ESTIMATES, Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
@@ -170,11 +169,7 @@ def _match_as_lamp(
     """Match a lamp's stripes by their shape; None if a code is sent or they are not a lamp's."""
     if sent == "read" or blinking_lamp(scene.transmitter) is None:
         return None
-    whole = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
-    if region is None:
-        within = whole
-    else:
-        within = region.region if isinstance(region, Lamp) else region_within(photo, region)
+    within = region.region if isinstance(region, Lamp) else region_within(photo, region)
     try:
         return match_lamp(photo, scene, within, estimate=estimate, is_duty_known=sent == "scene")
     except MatchError:

@@ -96,6 +96,14 @@ def with_notes(scene: Scene, photo: Photo) -> Scene:
     return with_allowed(scene, **{n: value for n, value in noted.items() if value is not None})
 
 
+def with_explanation(scene: Scene, **settings: ParameterValue) -> Scene:
+    """Change the settings that explain a photo's stripes; MatchError if one is out of range."""
+    try:
+        return scene.replace(**settings)
+    except ParameterError as error:
+        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+
+
 def with_allowed(scene: Scene, **changes: ParameterValue) -> Scene:
     """Change the values that are in range, and ignore the others."""
     for name, value in changes.items():

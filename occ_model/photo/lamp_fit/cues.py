@@ -107,6 +107,7 @@ def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
     middles = wave.place + wave.period * np.arange(first, last + 1)
     reach = min(half, 0.5 * wave.period - half)
     weight = np.where(fit.profile.clipped, 0.0, 1.0 / fit.noise**2)
+    residual = fit.residual
     shifts, noises = [], []
     for edge in np.sort(np.concatenate([middles - half, middles + half])):
         near = np.abs(columns - edge) <= max(reach, 1.0)
@@ -114,7 +115,7 @@ def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
             continue
         force = float((weight * steep**2)[near].sum())
         if force > 0.0:
-            shifts.append(float((weight * steep * fit.residual)[near].sum()) / force)
+            shifts.append(float((weight * steep * residual)[near].sum()) / force)
             noises.append(1.0 / math.sqrt(force))
     return np.array(shifts), np.array(noises)
 
@@ -139,16 +140,12 @@ def _rows_shift(fit: LampFit, rows: FloatArray) -> tuple[float, float, float]:
     envelope = slopes[:, COUNT:]
     parts = np.column_stack([slopes[:, 1], levels, envelope])
     weight = np.where(fit.profile.clipped, 0.0, 1.0)
-    shifts = []
-    for row in rows:
-        own = row - levels
-        system = parts * weight[:, None]
-        products = system.T @ system
-        products[np.diag_indices_from(products)] *= 1.0 + 1e-6
-        products[np.diag_indices_from(products)] += 1e-12
-        shifts.append(float(np.linalg.solve(products, system.T @ (own * weight))[0]))
+    system = parts * weight[:, None]
+    products = system.T @ system
+    products[np.diag_indices_from(products)] *= 1.0 + 1e-6
+    products[np.diag_indices_from(products)] += 1e-12
+    off = np.linalg.solve(products, system.T @ ((rows - levels) * weight).T)[0]
     place = np.linspace(-0.5, 0.5, bands)
-    off = np.array(shifts)
     slope = float(place @ off) / float(place @ place)
     rest = off - off.mean() - slope * place
     scatter = math.sqrt(float(rest @ rest) / max(bands - 2, 1))

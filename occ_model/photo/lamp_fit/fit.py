@@ -49,7 +49,6 @@ class LampFit:
     covariance: FloatArray
     noise: FloatArray  # Shape (columns,): standard deviation of each value
     score: float  # Logarithm of the evidence, up to a constant
-    correlation: float  # Of neighbouring residuals
 
     @property
     def wave(self) -> Wave:
@@ -58,10 +57,6 @@ class LampFit:
     @property
     def floor(self) -> float:
         return self.model.floor(self.values)
-
-    @property
-    def ambient(self) -> float:
-        return float(self.values[AMBIENT])
 
     @property
     def gamma(self) -> float:
@@ -78,9 +73,8 @@ class LampFit:
 
     @property
     def residual(self) -> FloatArray:
-        """The profile minus the model, in fractions of white; 0 where a column is clipped."""
-        off = self.profile.values - self.levels
-        return np.where(self.profile.clipped & (off < 0.0), 0.0, off)
+        """The profile minus the model, in fractions of white."""
+        return -_off(self.profile, self.levels)
 
 
 def fit_lamp(
@@ -128,7 +122,7 @@ def _fit(
         values = _minimize(profile, model, values, noise, steps)
         parts = _noise_parts(profile, model.levels(values), noise, len(values))
     noise = _noise(profile, model.levels(values), parts)
-    return _described(LampFit(profile, model, values, np.empty(0), noise, 0.0, 0.0))
+    return _described(LampFit(profile, model, values, np.empty(0), noise, 0.0))
 
 
 def _start(profile: LampProfile, model: Levels, period: float) -> FloatArray:
@@ -175,7 +169,7 @@ def _noise_parts(
 
 
 def _off(profile: LampProfile, levels: FloatArray) -> FloatArray:
-    """Return the model minus the profile; a clipped column may be brighter than it says."""
+    """Return the model minus the profile, 0 where a clipped column may be brighter than it says."""
     off = levels - profile.values
     return np.where(profile.clipped, np.minimum(off, 0.0), off)
 
@@ -230,7 +224,7 @@ def _described(fit: LampFit) -> LampFit:
     """Return a fit with its covariance and evidence (Laplace's approximation)."""
     profile, model, values = fit.profile, fit.model, fit.values
     products, _ = _equations(profile, model, values, fit.noise)
-    off = _off(profile, fit.levels) / fit.noise
+    off = fit.residual / fit.noise
     square = float(off @ off)
     near = float(off[1:] @ off[:-1]) / max(square, 1e-300)
     near = min(max(near, 0.0), _MOST_CORRELATION)
@@ -241,4 +235,4 @@ def _described(fit: LampFit) -> LampFit:
     score = likelihood / inflation - 0.5 * float(beliefs @ beliefs)
     score += 0.5 * float(stiff[1] - np.linalg.slogdet(products)[1])
     covariance = np.asarray(inflation * np.linalg.pinv(products), dtype=np.float64)
-    return replace(fit, covariance=covariance, score=score, correlation=near)
+    return replace(fit, covariance=covariance, score=score)

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.camera.photometry import WHITE
-from occ_model.errors import MatchError, ParameterError
+from occ_model.errors import MatchError
 from occ_model.photo.fitted_scene import (
     DOUBTFUL_EXPOSURE_DEVIATION,
     doubts_by_enhancement,
@@ -15,19 +15,18 @@ from occ_model.photo.fitted_scene import (
     round_estimates,
 )
 from occ_model.photo.lamp_fit.place import find_place
-from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.read_lamp import LampReading, read_lamp
 from occ_model.photo.lamp_fit.readings import StripeReading, readings_of
 from occ_model.photo.lamp_fit.verdict import floor_limit
-from occ_model.photo.photo_scene import fit_to_photo, with_levels, with_notes
+from occ_model.photo.photo_scene import fit_to_photo, with_explanation, with_levels, with_notes
 from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.find import SATURATED_LEVEL
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT, SECOND
 
-_SATURATED = 0.996  # fraction of white above which a sample is saturated
 _CHIPS = "10"  # those of a cycle, which counts as two
 
 
@@ -70,24 +69,21 @@ def match_lamp(
     start = (0.5 * chosen.duty - 0.5 * chosen.exposure - first / period) % 1.0 / frequency
     errors = _uncertainties(reading, chosen, estimate, readout, frequency, is_duty_known)
     low, high = (WHITE * each for each in reading.ends)
-    try:
-        scene = with_notes(scene, photo).replace(
-            light="lamp", lamp_frequency=frequency, duty=chosen.duty, depth=1.0,
-            readout_time=readout, exposure_time=chosen.exposure / frequency, start_time=start,
-            averaging="light", enhancement="none",
-        )  # fmt: skip
-    except ParameterError as error:
-        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+    scene = with_explanation(
+        with_notes(scene, photo), light="lamp", lamp_frequency=frequency, duty=chosen.duty,
+        depth=1.0, readout_time=readout, exposure_time=chosen.exposure / frequency,
+        start_time=start, averaging="light", enhancement="none",
+    )  # fmt: skip
     scene = fit_to_photo(scene, photo, place.region)
     scene = with_levels(scene, float(np.median(low)), float(np.median(high)))
     name = "readout_time" if estimate == "readout_time" else "lamp_frequency"
     unsure = doubts_by_error(name, float(scene.value(name)), errors[name])
     unknown = errors["exposure_time"] / scene.camera.exposure_time
     scene = round_estimates(scene, errors)
-    whole = LampProfile.of(place.pixels, place.shown)
     stripes = Stripes(
-        place.region, WHITE * whole.values, low, high, period, reading.period_error * reading.step,
-        float((place.pixels[place.shown] >= _SATURATED).mean()),
+        place.region, WHITE * reading.profile.values, low, high,
+        period, reading.period_error * reading.step,
+        float((place.pixels[place.shown] >= SATURATED_LEVEL).mean()),
     )  # fmt: skip
     model = WHITE * reading.levels
     flat = (model - low) / (high - low)
@@ -123,9 +119,8 @@ def _choose(
     Where a duty is known or an exposure is noted there are no others.
     """
     floor, most = reading.fit.floor, floor_limit(reading.cues)
-    possible = [
-        each for each in readings_of(reading.width, reading.ramp) if abs(each.floor - floor) <= most
-    ] or list(readings_of(reading.width, reading.ramp)[:2])
+    every = readings_of(reading.width, reading.ramp)
+    possible = [each for each in every if abs(each.floor - floor) <= most] or list(every[:2])
     if duty is not None:
         nearest = min(possible, key=lambda each: abs(each.duty - duty))
         return replace(nearest, duty=duty), ()
@@ -162,11 +157,8 @@ def _uncertainties(
 ) -> dict[str, float]:
     """Return the standard deviations of the estimates, in SI units."""
     relative = reading.period_error / reading.fit.wave.period
-    whole = chosen.exposure % 1.0
-    of_ramp = min(abs(whole - reading.ramp), abs(1.0 - whole - reading.ramp))
-    of_width = min(abs(whole - reading.width), abs(1.0 - whole - reading.width))
     of_duty, of_exposure = reading.width_error, reading.ramp_error
-    if of_width < of_ramp:
+    if not chosen.is_width_of_pulses:
         of_duty, of_exposure = of_exposure, of_duty
     of_place = reading.place_error * reading.step * readout
     found = {

@@ -1,6 +1,7 @@
 """The profile of a place in a photo, as the fit takes it."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,7 +15,7 @@ _MOST_COLUMNS = 640  # of a profile that is fitted
 _LEAST_PERIOD = 48.0  # columns that a period keeps
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class LampProfile:
     """Column means of a lamp's pixels, as fractions of white."""
 
@@ -41,7 +42,7 @@ class LampProfile:
     def columns(self) -> FloatArray:
         return np.arange(len(self.values), dtype=np.float64)
 
-    @property
+    @cached_property
     def swing(self) -> float:
         low, high = np.quantile(self.values, (0.05, 0.95))
         return float(high - low)
@@ -65,7 +66,6 @@ class LampProfile:
         if count == 1:
             return self
         whole = first + (len(self.values) - first) // count * count
-
         values, variances, clipped = (
             each[first:whole].reshape(-1, count)
             for each in (self.values, self.variances, self.clipped)

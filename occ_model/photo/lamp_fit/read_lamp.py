@@ -30,8 +30,8 @@ class LampReading:
 
     Parameters
     ----------
-    place
-        Its pixels.
+    place, profile
+        Its pixels, and the mean of each column.
     fit, cues
         The model, and what was measured on it.
     period_error, place_error
@@ -41,9 +41,9 @@ class LampReading:
     """
 
     place: LampPlace
+    profile: LampProfile
     step: int  # columns of the photo for each of the fit
     first: int  # the first of them, in the place's region
-    lines_at_once: int
     fit: LampFit
     cues: Cues
     period_error: float
@@ -129,9 +129,9 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
     width_error, ramp_error = _shape_errors(fit, scale)
     return LampReading(
         place=place,
+        profile=whole,
         step=step,
         first=first,
-        lines_at_once=together,
         fit=fit,
         cues=cues,
         period_error=math.hypot(period * float(deviations[PERIOD]), of_edges),

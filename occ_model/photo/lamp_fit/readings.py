@@ -9,12 +9,14 @@ MOST_PERIODS = 6  # whole periods of an exposure that are considered
 class StripeReading:
     """A duty and an exposure, both as fractions of a period, and the floor that they make.
 
-    The floor is the least light of a column, as a fraction of the stripes' height.
+    The floor is the least light of a column, as a fraction of the stripes' height. The width of the
+    stripes is either that of the pulses, or that of the exposures.
     """
 
     duty: float
     exposure: float
     floor: float
+    is_width_of_pulses: bool
 
 
 def readings_of(width: float, ramp: float) -> tuple[StripeReading, ...]:
@@ -27,11 +29,11 @@ def readings_of(width: float, ramp: float) -> tuple[StripeReading, ...]:
     """
     above = (1.0 - width - ramp) / ramp
     single = (
-        (width, ramp, 0.0), (ramp, width, 0.0),
-        (1.0 - ramp, 1.0 - width, above), (1.0 - width, 1.0 - ramp, above),
+        (width, ramp, 0.0, True), (ramp, width, 0.0, False),
+        (1.0 - ramp, 1.0 - width, above, False), (1.0 - width, 1.0 - ramp, above, True),
     )  # fmt: skip
     return tuple(
-        StripeReading(duty, exposure + whole, floor + whole * duty / ramp)
+        StripeReading(duty, exposure + whole, floor + whole * duty / ramp, is_width_of_pulses)
         for whole in range(MOST_PERIODS + 1)
-        for duty, exposure, floor in single
+        for duty, exposure, floor, is_width_of_pulses in single
     )

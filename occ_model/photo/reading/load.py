@@ -243,8 +243,11 @@ def means_along(samples: Samples | ByteArray, axis: int) -> FloatArray:
     return means
 
 
-def region_within(photo: Photo, corners: Corners) -> Region:
+def region_within(photo: Photo, corners: Corners | None) -> Region:
+    """Return a rectangle of a photo, the whole of it for None, and refuse any other."""
     rows, columns = photo.samples.shape
+    if corners is None:
+        return Region(0, rows, 0, columns)
     region = corners if isinstance(corners, Region) else _region_of(corners)
     if region is not None:
         has_rows = 0 <= region.first_row < region.last_row <= rows

@@ -33,7 +33,7 @@ _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
 
 _LEAST_COHERENCE = 0.2  # minimum fraction of the variation that all bands have in common
-_SATURATED_LEVEL = 0.996  # fraction of white above which a sample is saturated
+SATURATED_LEVEL = 0.996  # fraction of white above which a sample is saturated
 _MOST_SATURATED = 0.8  # saturated fraction of the columns above which no stripes are visible
 
 _LEAST_STRIPS = 3  # number of strips above which the outermost ones, cut by the rim, are left out
@@ -64,8 +64,7 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
     """
     if isinstance(region, Lamp):
         return _stripes_between(photo, region.region, lamp_profile(photo, region))
-    whole_photo = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
-    rectangle = whole_photo if region is None else region_within(photo, region)
+    rectangle = region_within(photo, region)
     part = photo if region is None else part_of(photo, rectangle)
     try:
         stripes = _stripes_of(part)
@@ -125,12 +124,12 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
     period, uncertainty = repetition if repetition is not None else (None, None)
     region = _shift_region(Region(0, rows.rows, first, last), rows)
     part = region.crop(photo.samples)
-    saturated = np.count_nonzero(part >= _SATURATED_LEVEL * photo.white) / part.size
+    saturated = np.count_nonzero(part >= SATURATED_LEVEL * photo.white) / part.size
     return Stripes(region, profile, low, high, period, uncertainty, saturated)
 
 
 def _check_white(profile: FloatArray) -> None:
-    white = float(np.mean(profile >= _SATURATED_LEVEL * WHITE))
+    white = float(np.mean(profile >= SATURATED_LEVEL * WHITE))
     if white > _MOST_SATURATED:
         percent, limit = distinct_texts(100.0 * white, 100.0 * _MOST_SATURATED, 0)
         raise MatchError(

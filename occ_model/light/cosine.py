@@ -31,6 +31,15 @@ class Cosine:
     depth: float
     phase: float = 0.0
 
+    @property
+    def period(self) -> Fraction:
+        """Seconds after which the light repeats, exact."""
+        return 1 / Fraction(self.frequency)
+
+    @property
+    def mean(self) -> float:
+        return 1.0
+
     def response(self, length: Fraction) -> float:
         """Return sinc(F t), the fraction of the depth that an average over ``length`` leaves.
 

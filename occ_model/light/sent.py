@@ -57,8 +57,7 @@ def light_of(transmitter: Transmitter) -> Light:
 
 def light_period(transmitter: Transmitter) -> Fraction:
     """Return the seconds after which a transmitter's light repeats, exact."""
-    light = light_of(transmitter)
-    return 1 / Fraction(light.frequency) if isinstance(light, Cosine) else light.period
+    return light_of(transmitter).period
 
 
 def period_columns(scene: Scene) -> float:

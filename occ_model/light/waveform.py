@@ -49,6 +49,11 @@ class Waveform:
         self._edges = None if is_even else _Edges(self.lengths)
 
     @property
+    def has_equal_pieces(self) -> bool:
+        """Whether all pieces are equally long."""
+        return self._edges is None
+
+    @property
     def total(self) -> Any:
         """Light of a period in lit units: an exact whole number or fraction."""
         total = (self.levels * self.lengths).sum()

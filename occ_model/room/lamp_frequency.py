@@ -45,11 +45,6 @@ class MeasuredFrequency:
         return bool((np.abs(aliases - self.value) <= _MAX_DEVIATIONS * self.error).any())
 
 
-def sends_code(lamp: RoomLamp) -> bool:
-    """Return whether a lamp is identified by its code, and not by its frequency."""
-    return lamp.transmitter.light == "code" and blinking_lamp(lamp.transmitter) is None
-
-
 def _frequencies_of(lamp: RoomLamp) -> FloatArray:
     """Return the frequencies in Hz that can be the strongest in a lamp's stripes.
 

@@ -10,9 +10,9 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.pixel_arrays import bytes_of
 from occ_model.results.decoding import Region
-from occ_model.room.lamp_frequency import sends_code
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import scene_with_lamp
+from occ_model.scene.light_words import has_chips
 from occ_model.transmitter.scheme import scheme_of, sent_chips
 
 _MIN_ROWS = 4  # rows that are averaged
@@ -84,7 +84,7 @@ def longest_gaps(room: Room) -> dict[str, int]:
     about the same length.
     """
     runs = {lamp.name: _longest_dark_run(room, lamp) for lamp in room.lamps}
-    names_with_code = [lamp.name for lamp in room.lamps if sends_code(lamp)]
+    names_with_code = [lamp.name for lamp in room.lamps if has_chips(lamp.transmitter)]
     runs.update(
         dict.fromkeys(names_with_code, max((runs[name] for name in names_with_code), default=0.0))
     )
@@ -98,7 +98,7 @@ def longest_gaps(room: Room) -> dict[str, int]:
 
 def _longest_dark_run(room: Room, lamp: RoomLamp) -> float:
     """Return the maximum number of columns in which a lamp, or another one like it, is dark."""
-    if not sends_code(lamp):
+    if not has_chips(lamp.transmitter):
         # Columns can miss short flashes, so that they are dark for more than one period.
         light = lit_fraction(scene_with_lamp(room, lamp))
         lit = np.flatnonzero(light > _MAX_NOISE * light.max())

@@ -12,9 +12,10 @@ from occ_model.camera.pixel_arrays import bytes_of
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decode import decode
 from occ_model.results.decoding import Region
-from occ_model.room.lamp_frequency import MeasuredFrequency, measure_frequency, sends_code
+from occ_model.room.lamp_frequency import MeasuredFrequency, measure_frequency
 from occ_model.room.lamp_spots import find_spots, join_spots, longest_gaps
 from occ_model.room.room import Room, RoomLamp
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import code_of, packet
 
@@ -79,7 +80,7 @@ def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
 def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     """Find the lamps in the camera's picture and name them, the largest first."""
     # Fast light that sends no code may be lit in single columns.
-    width = 2 if all(sends_code(lamp) for lamp in room.lamps) else 1
+    width = 2 if all(has_chips(lamp.transmitter) for lamp in room.lamps) else 1
     (spots, scale), lamps = find_spots(image, width), list[ReadLamp]()
     gaps = longest_gaps(room)
     for gap in sorted({*gaps.values()}):
@@ -105,7 +106,9 @@ def _settings(room: Room) -> tuple[Scene, ...]:
     """Return a scene for each combination of settings with which lamps of the room send."""
     return tuple(
         room.scene.replace(**dict(zip(_DECODER_SETTINGS, sent, strict=True)), light="code", code=0)
-        for sent in dict.fromkeys(settings_of(lamp) for lamp in room.lamps if sends_code(lamp))
+        for sent in dict.fromkeys(
+            settings_of(lamp) for lamp in room.lamps if has_chips(lamp.transmitter)
+        )
     )
 
 
@@ -169,7 +172,7 @@ def _read_lamp(
     lights, problem = _read_codes(signal, region, room)
     code = lights[0].code if lights else None
     measured = None
-    if not all(sends_code(lamp) for lamp in room.lamps):
+    if not all(has_chips(lamp.transmitter) for lamp in room.lamps):
         inner = _full_columns(region, hull, image.shape)
         frequency = measure_frequency(signal[inner], room.scene.camera.readout_time)
         if isinstance(frequency, MeasuredFrequency):
@@ -203,7 +206,9 @@ def _read_codes(signal: FloatArray, region: Region, room: Room) -> tuple[list[_L
         settings = tuple(getattr(scene.transmitter, name) for name in _DECODER_SETTINGS)
         names = [
             lamp.name for lamp in room.lamps
-            if sends_code(lamp) and settings_of(lamp) == settings and code_sent(lamp) == result.code
+            if has_chips(lamp.transmitter)
+            and settings_of(lamp) == settings
+            and code_sent(lamp) == result.code
         ]  # fmt: skip
         lit = None if result.model is None else _expected_light(result.model, scene, region)
         lights.append(_Light(result.code, names, lit))
@@ -216,7 +221,7 @@ def _light_of_frequency(
     camera = room.scene.camera
     names = [
         lamp.name for lamp in room.lamps
-        if not sends_code(lamp) and frequency.is_of(lamp, camera.readout_time)
+        if not has_chips(lamp.transmitter) and frequency.is_of(lamp, camera.readout_time)
     ]  # fmt: skip
     column = (np.arange(camera.columns) - region.first_column) % frequency.period
     return _Light(None, names, np.interp(column, np.arange(len(signal)), signal))

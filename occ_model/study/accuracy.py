@@ -260,7 +260,7 @@ def _light_at(light: Light, seconds: FloatArray) -> FloatArray:
         return np.asarray(1.0 + light.depth * np.cos(phase))
     waveform = light.waveform
     units = seconds * float(light.rate)
-    if (waveform.lengths == 1).all():
+    if waveform.has_equal_pieces:
         piece = np.floor(units).astype(np.int64) % waveform.period
     else:
         edges = np.cumsum(waveform.lengths).astype(np.float64)

@@ -14,12 +14,12 @@ from occ_model.errors import OccError, ParameterError, quote
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
 from occ_model.results.sweep import csv_row, join_lines, read_count
-from occ_model.room.lamp_frequency import sends_code
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Room
 from occ_model.scene.argument_checks import check_count, check_seed
+from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import TOLERANCE
 from occ_model.study.sweep.sweep import Progress, measure_study
 from occ_model.study.sweep.workers import StudyWork
@@ -135,7 +135,9 @@ def _count_lamps(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int,
     named = misread = named_wrongly = 0
     for read in reading.lamps:
         lamps_at_place = [lamp for lamp in frame.lamps if _is_at(lamp.region, read)]
-        codes = [code_sent(lamp.lamp) for lamp in lamps_at_place if sends_code(lamp.lamp)]
+        codes = [
+            code_sent(lamp.lamp) for lamp in lamps_at_place if has_chips(lamp.lamp.transmitter)
+        ]
         lamps_named = [lamp for lamp in lamps_at_place if lamp.lamp.name == read.name]
         named += any(not lamp.is_cut for lamp in lamps_named)
         misread += read.code is not None and read.code not in codes

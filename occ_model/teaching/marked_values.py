@@ -6,20 +6,18 @@ from functools import lru_cache
 
 from occ_model.camera.photometry import luminance_levels
 from occ_model.errors import OccError, inflect
-from occ_model.light.cosine import Cosine
-from occ_model.light.sent import light_of, light_period
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.light_samples import samples_of
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, Transmitter
+from occ_model.study.bands.sines import repeat_time
 from occ_model.study.theory import band_model_frequency, null_frequency
 from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 from occ_model.transmitter.scheme import sent_chips, shortest_period
 
 _MOST_NULLS = 2  # number of exposures of whole periods that are marked
-_LONGEST_WAVEFORM = 512  # levels up to which a shorter period is searched
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
@@ -142,17 +140,10 @@ _FREQUENCIES = {
 @lru_cache(maxsize=8)
 def _bar_period(transmitter: Transmitter) -> float:
     """Return the shortest exposure in seconds without bars of a light; 0 if it is steady."""
-    if (
-        transmitter.light == "waveform" and transmitter.waveform_file
-    ):  # its exact light can take seconds
-        seconds, samples = samples_of(transmitter.waveform_file)
-        return seconds[-1] if transmitter.luminance and min(samples) < max(samples) else 0.0
-    light, period = light_of(transmitter), float(light_period(transmitter))
-    if isinstance(light, Cosine):
-        return period if light.depth else 0.0
-    levels = light.waveform.levels
-    if not transmitter.luminance or levels.min() == levels.max():
+    if not transmitter.luminance and transmitter.light != "mains":  # mains light the surroundings
         return 0.0
-    if transmitter.light == "waveform" and len(levels) <= _LONGEST_WAVEFORM:
-        period *= shortest_period(levels) / len(levels)
-    return period
+    if transmitter.light == "waveform" and transmitter.waveform_file:
+        # Its exact light can take seconds.
+        seconds, samples = samples_of(transmitter.waveform_file)
+        return seconds[-1] if min(samples) < max(samples) else 0.0
+    return float(repeat_time(transmitter))

@@ -167,8 +167,7 @@ def light_fractions(scene: Scene) -> tuple[float, float]:
 
 def mean_light(transmitter: Transmitter) -> float:
     """Return the mean light of a lamp, 1 being the panel fully lit."""
-    light = light_of(transmitter)
-    return 1.0 if isinstance(light, Cosine) else light.mean
+    return light_of(transmitter).mean
 
 
 def _find_strongest_sine(scene: Scene, light: FloatArray) -> tuple[float, float]:

@@ -65,14 +65,9 @@ def exposed_light(waveform: Waveform, exposure: Fraction, edge: Fraction) -> Exp
         return _expose_ramps(waveform, part, edge)
     return (
         _expose_equal_pieces(waveform, part)
-        if has_equal_pieces(waveform)
+        if waveform.has_equal_pieces
         else _expose_pieces(waveform, part)
     )
-
-
-def has_equal_pieces(waveform: Waveform) -> bool:
-    """Return whether all pieces are equally long."""
-    return waveform.lengths.dtype != object
 
 
 @lru_cache(maxsize=4)
@@ -172,7 +167,7 @@ def _expose_ramps(waveform: Waveform, exposure: Fraction, edge: Fraction) -> Exp
     light_of = _add_ramps(waveform, edge)
     # Equally long pieces have cuts at the same places, so one piece stands for all.
     places, span = np.array([Fraction(0)]), 1
-    if not has_equal_pieces(waveform):
+    if not waveform.has_equal_pieces:
         places, span = np.cumsum(waveform.lengths), period
     cells = np.arange(0, period, span, dtype=np.int64)
     # Twice the least common denominator: the middles between cuts are then integers, too.

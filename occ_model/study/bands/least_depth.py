@@ -17,7 +17,6 @@ from occ_model.scene.light_words import blinking_lamp, has_chips
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.study.bands.depth import light_fractions
-from occ_model.study.bands.exposed_light import has_equal_pieces
 from occ_model.study.bands.sines import repeat_units
 
 MAX_NODES = 10_000
@@ -155,8 +154,7 @@ def frequency_axis(transmitter: Transmitter) -> FrequencyAxis:
     if has_chips(transmitter):
         switching = quantity("switching_frequency")
         return FrequencyAxis(switching.name, transmitter.switching_frequency, switching.label)
-    light = light_of(transmitter)
-    frequency = light.frequency if isinstance(light, Cosine) else float(1 / light.period)
+    frequency = float(1 / light_of(transmitter).period)
     return FrequencyAxis("lamp_frequency", frequency, "Frequency of the light")
 
 
@@ -177,7 +175,7 @@ def depth_map(scene: Scene) -> DepthMap:
 @lru_cache(maxsize=16)
 def _swings(waveform: Waveform) -> tuple[FloatArray, FloatArray]:
     """Return exposures up to a period, in units, and the range of the light in each."""
-    if has_equal_pieces(waveform):
+    if waveform.has_equal_pieces:
         nodes, swing = np.arange(waveform.period + 1.0), _swings_of_units(waveform)
     else:
         nodes, swing = _swings_of_pieces(waveform)

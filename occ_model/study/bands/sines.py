@@ -11,7 +11,6 @@ from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of
 from occ_model.light.waveform import Waveform
 from occ_model.scene.scene import Transmitter
-from occ_model.study.bands.exposed_light import has_equal_pieces
 from occ_model.transmitter.scheme import shortest_period
 
 _MOST_TERMS = 4_000_000  # sines times pieces that are added up for pieces of unequal lengths
@@ -52,7 +51,7 @@ def sines_of(transmitter: Transmitter, per_piece: int, highest: float = math.inf
     waveform, base = light.waveform, 1 / light.period
     pieces = float(waveform.period / min(waveform.lengths))
     count = min(per_piece * pieces, highest / float(base))
-    if not has_equal_pieces(waveform):
+    if not waveform.has_equal_pieces:
         count = min(count, _MOST_TERMS / waveform.period)
     orders = np.arange(1, int(count) + 1)
     edge_periods = float(edge * base)
@@ -65,7 +64,7 @@ def _sharp_sines(waveform: Waveform, orders: IndexArray) -> FloatArray:
     """Return the amplitudes of the sines of a light with sharp edges."""
     period = waveform.period
     levels = waveform.levels.astype(np.float64)
-    if has_equal_pieces(waveform):
+    if waveform.has_equal_pieces:
         amplitudes = 2.0 * np.abs(np.fft.fft(levels))[orders % period] / period
         return np.asarray(amplitudes * np.abs(np.sinc(orders / period)))
     lengths = (waveform.lengths / period).astype(np.float64)
@@ -82,7 +81,7 @@ def repeat_time(transmitter: Transmitter) -> Fraction:
     """Return the period of a transmitter's light in seconds; 0 if it is steady."""
     light = light_of(transmitter)
     if isinstance(light, Cosine):
-        return 1 / Fraction(light.frequency) if light.depth else Fraction(0)
+        return light.period if light.depth else Fraction(0)
     return repeat_units(light.waveform) / light.rate
 
 

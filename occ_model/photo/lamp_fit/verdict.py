@@ -13,7 +13,6 @@ _LEAST_PERIOD = 4.0  # columns
 _MOST_MISFIT = 0.06  # of the swing
 _LEAST_GAP = 6.0  # natural logarithms between the best period and the next
 _FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
-_FLOOR_DEVIATION, _BLUR_DEVIATION, _MOST_PENALTY = 0.05, 0.3, 40.0
 _LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap
 _REFUSED_BITS, _REFUSED_FLOOR, _REFUSED_MISFIT, _REFUSED_SCATTER = 4.0, 0.25, 0.12, 0.1
 """Limits of a refusal: bits, fractions of the height and of the swing, part of the period."""
@@ -21,13 +20,6 @@ _REFUSED_BITS, _REFUSED_FLOOR, _REFUSED_MISFIT, _REFUSED_SCATTER = 4.0, 0.25, 0.
 
 def floor_limit(cues: Cues) -> float:
     return _MOST_FLOOR + _FLOOR_PART * cues.floor_expected
-
-
-def penalty(cues: Cues) -> float:
-    """Return by how much the cues of a fit count against it, as a logarithm of evidence."""
-    beyond = max(0.0, cues.floor - floor_limit(cues)) / _FLOOR_DEVIATION
-    blurred = max(0.0, cues.blur - _blur_limit(cues)) / _BLUR_DEVIATION
-    return min(0.5 * beyond * beyond, _MOST_PENALTY) + min(0.5 * blurred * blurred, _MOST_PENALTY)
 
 
 def refusals(cues: Cues) -> list[str]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,7 +19,10 @@ from model.photo.lamp_fit.lamp_pictures import (
 )
 
 import occ_model as occ
+from occ_model.photo.lamp_fit.match import match_lamp
+from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.readings import readings_of
+from occ_model.photo.reading.load import region_within
 
 SCENE = occ.load_preset("phone-136us").replace(light="lamp", lamp_frequency=FREQUENCY)
 
@@ -58,6 +62,54 @@ def test_a_known_duty_or_a_noted_exposure_decides_between_the_readings() -> None
     assert not known.other_exposures
 
 
+def test_exchanging_duty_and_exposure_exchanges_their_errors() -> None:
+    photo = draw_lamp(np.random.default_rng(6), duty=0.12, exposure=0.35, periods=9.0).photo
+    one, other = (
+        occ.match_photo(replace(photo, exposure_time=noted / FREQUENCY), SCENE)
+        for noted in (0.35, 0.12)
+    )
+    assert one.duty == pytest.approx(other.exposure_time * FREQUENCY, rel=0.05)
+    error, exchanged = (
+        each.uncertainties["duty"] / (each.uncertainties["exposure_time"] * FREQUENCY)
+        for each in (one, other)
+    )
+    assert error == pytest.approx(1.0 / exchanged)
+    assert abs(error - 1.0) > 0.05
+
+
+def test_the_scene_of_a_match_begins_where_the_photo_does() -> None:
+    found = match(draw_lamp(np.random.default_rng(5), duty=0.3, exposure=0.12, periods=7.7))
+    region = found.region
+    simulated = occ.column_profile(found.scene)[region.first_column : region.last_column]
+    assert np.corrcoef(found.stripes.flattened, simulated)[0, 1] > 0.97
+
+
+def stripes(shift: float = 0.0, floor: float = 0.0, exposure: float = 0.2) -> occ.Photo:
+    """Photograph an evenly lit lamp, shifted by some columns from the first row to the last."""
+    random, rows = np.random.default_rng(9), 40
+    columns = np.arange(300.0) - np.linspace(0.0, shift, rows)[:, None]
+    light = lit(columns / 21.3, 0.4, exposure)
+    light = floor + (1.0 - floor) * light / light.max()
+    return photo_of(srgb(np.clip(0.6 * light + random.normal(0.0, 0.003, light.shape), 0.0, 1.0)))
+
+
+@pytest.mark.parametrize(
+    ("photo", "said"),
+    [
+        (stripes(shift=6.0), "The stripes are not upright"),
+        (stripes(floor=0.15), "more or less light than any duty and exposure leave"),
+        (stripes(exposure=1.2), "as with an exposure of a period or more"),
+    ],
+)
+def test_what_no_shutter_makes_of_a_lamp_is_doubted(photo: occ.Photo, said: str) -> None:
+    whole = region_within(photo, None)
+    match = match_lamp(photo, SCENE, whole, estimate="readout_time", is_duty_known=False)
+    assert match.verdict == "doubtful"
+    assert any(said in reason for reason in match.reasons)
+    upright = match_lamp(stripes(), SCENE, whole, estimate="readout_time", is_duty_known=False)
+    assert upright.verdict == "sure"
+
+
 @pytest.mark.parametrize("draw", OTHER_THINGS)
 def test_other_regular_things_are_never_sure(
     draw: Callable[[np.random.Generator], occ.Photo],
@@ -73,9 +125,14 @@ def test_other_regular_things_are_never_sure(
 def test_lines_that_a_sensor_reads_together_are_averaged(together: int) -> None:
     random = np.random.default_rng(7)
     groups = np.repeat(np.arange(480 // together) * together, together).astype(np.float64)
-    stripes = np.tile(lit(groups / 23.7, 0.45, 0.2), (24, 1))
-    light = np.clip(0.6 * stripes / stripes.max() + random.normal(0.0, 0.004, stripes.shape), 0, 1)
-    found = occ.match_photo(photo_of(srgb(light)), SCENE)
+    even = np.tile(lit(groups / 23.7, 0.45, 0.2), (24, 1))
+    light = np.clip(0.6 * even / even.max() + random.normal(0.0, 0.004, even.shape), 0, 1)
+    photo = photo_of(srgb(light))
+    profile = LampProfile.of(photo.samples / 255.0, np.ones(photo.samples.shape, dtype=bool))
+    assert profile.lines_at_once() == (together, 0)
+    apart = stripes().samples / 255.0
+    assert LampProfile.of(apart, np.ones(apart.shape, dtype=bool)).lines_at_once() == (1, 0)
+    found = occ.match_photo(photo, SCENE)
     assert found.verdict == "sure"
     assert found.readout_time == pytest.approx(readout_of(23.7), rel=2e-3)
 

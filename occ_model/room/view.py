@@ -128,7 +128,7 @@ def _view_lamp(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None
     first, size = frame.min(axis=0), np.ptp(frame, axis=0) + 1.0
     try:
         scene = lamp_scene(room, lamp)
-        margin = 4.0 * blur_of(scene) * size.max() / max(camera.rows, camera.columns)
+        margin = float(4.0 * blur_of(scene) * size.max() / max(camera.rows, camera.columns))
     except ParameterError:
         scene, margin = None, 0.0
     columns, rows = np.ceil(size + 2.0 * margin).astype(int).tolist()

@@ -104,6 +104,7 @@ class CameraSource:
         self._device = device
         self._capture: cv2.VideoCapture | None = None
         self._open_time = 0.0
+        self._is_locked = False
 
     def open(self) -> None:
         """Open the camera in full HD, or in the nearest size that it has."""
@@ -146,9 +147,12 @@ class CameraSource:
             return False
         if on:
             capture.set(cv2.CAP_PROP_EXPOSURE, exposure)
+        self._is_locked = on
         return abs(capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) - mode) < 0.01
 
     def close(self) -> None:
         if self._capture is not None:
+            if self._is_locked:  # the device would keep it for other programs
+                self.lock_exposure(False)
             self._capture.release()
             self._capture = None

@@ -60,7 +60,7 @@ def process_frame(request: FrameRequest) -> ShownFrame:
     except OccError as error:
         refusal = str(error)
     if simulated_frame is not None and simulated_frame.scene is not None:
-        is_draft = request.draft_step > 1 and request.scene.camera.rows > 1
+        is_draft = _step_of(request) > 1
         simulated_story = _make_story(simulated_frame, simulated_frame.scene, request, "Simulated")
         when = _describe_time(simulated_frame) if start is None else "in phase with the film"
         caption = f"Simulated{' (draft)' * is_draft}: {when}"
@@ -102,15 +102,21 @@ def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
 
 def _simulate(request: FrameRequest, start: float | None) -> VideoFrame:
     """Simulate the frame with the film's index, or a frame that starts at the film's phase."""
-    camera, scene = request.scene.camera, request.scene
-    step = request.draft_step if camera.rows * camera.columns > _MOST_DRAFT_PIXELS else 1
+    scene = request.scene
     if start is not None:
         scene = scene.replace(start_time=start)
     video = occ.render_video(
-        scene, None, request.recording, settings=request.settings,
-        rows_step=min(step, camera.rows),
+        scene, None, request.recording, settings=request.settings, rows_step=_step_of(request),
     )  # fmt: skip
     return video.frame(request.index if start is None else 0)
+
+
+def _step_of(request: FrameRequest) -> int:
+    """Return of how many rows one is simulated; 1 for a picture that a draft makes no faster."""
+    camera = request.scene.camera
+    if camera.rows * camera.columns <= _MOST_DRAFT_PIXELS:
+        return 1
+    return min(request.draft_step, camera.rows)
 
 
 def _make_picture(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:

@@ -162,6 +162,7 @@ class VideoWiring(Pane[FilmChoice]):
     def _on_film(self, film: Video | None) -> None:
         self.readings.forget()
         self.view.show_message("")
+        self._show_lock(False)  # a camera starts with an exposure of its own choice
         self.view.timeline.show_index(0)
         self._adopt_frame_rate(film)
         self._show_bar()
@@ -209,10 +210,13 @@ class VideoWiring(Pane[FilmChoice]):
         self._show_bar()
 
     def _on_exposure_refused(self, sentence: str) -> None:
+        self._show_lock(not self.view.bar.lock.isChecked())
+        self.view.show_message(sentence)
+
+    def _show_lock(self, is_locked: bool) -> None:
         lock = self.view.bar.lock
         with QSignalBlocker(lock):
-            lock.setChecked(not lock.isChecked())
-        self.view.show_message(sentence)
+            lock.setChecked(is_locked)
 
     def _scan_along(self, axis: str) -> None:
         """Open the film or the camera again, along another axis."""

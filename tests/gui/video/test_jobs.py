@@ -242,6 +242,13 @@ def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(
     assert shown.film.caption.startswith("Simulated film: frame 4, 0.1000 s")
 
 
+def test_a_small_picture_is_exact_and_not_called_a_draft(request_of: FrameRequest) -> None:
+    small = process_frame(replace(request_of, draft_step=8)).simulated
+    assert small is not None
+    assert small.rows_step == 1
+    assert "draft" not in small.caption
+
+
 def test_a_draft_lies_where_the_whole_picture_does(request_of: FrameRequest) -> None:
     large = request_of.scene.replace(rows=1000)
     draft = process_frame(replace(request_of, scene=large, draft_step=8)).simulated

@@ -113,6 +113,14 @@ def test_the_exposure_is_held_at_its_present_value(capture: FakeCapture) -> None
     assert not source.lock_exposure(True)
 
 
+def test_a_closed_camera_chooses_its_exposure_again(capture: FakeCapture) -> None:
+    source = CameraSource(CameraDevice(0, "Webcam"))
+    source.open()
+    assert source.lock_exposure(True)
+    source.close()
+    assert capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) == 3.0
+
+
 @pytest.mark.parametrize(("is_linux", "kind"), [(True, cv2.CAP_V4L2), (False, cv2.CAP_ANY)])
 def test_a_camera_is_opened_the_way_its_system_has(
     monkeypatch: pytest.MonkeyPatch, is_linux: bool, kind: int

@@ -145,6 +145,18 @@ def test_a_camera_that_cannot_hold_its_exposure_says_so(
     assert source.locked == [True]
 
 
+def test_the_next_camera_is_not_said_to_hold_its_exposure(
+    pane: VideoWiring, qtbot: QtBot, film: Video
+) -> None:
+    for title in ("First", "Second"):
+        source = FilmSource((VideoFrame(n, 0.01 * n, film.frame(0).image) for n in count()), title)
+        pane.live.start(source)
+        assert not pane.view.bar.lock.isChecked()
+        pane.view.bar.lock.click()
+        qtbot.waitUntil(lambda source=source: source.locked == [True])
+        assert pane.view.bar.lock.isChecked()
+
+
 def test_cameras_are_looked_for_when_their_menu_opens(
     pane: VideoWiring, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:

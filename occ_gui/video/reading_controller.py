@@ -61,7 +61,7 @@ class _Collector:
 
     def _new_reader(self) -> occ.VideoReader:
         reader = occ.VideoReader(self._request.scene)
-        reader.time_step = self._request.film.time_step or 0.0
+        reader.time_step = self._request.film.times.resolution
         return reader
 
     def add(self, frame: VideoFrame) -> None:

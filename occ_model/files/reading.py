@@ -121,8 +121,7 @@ def _refuse(path: Path, reason: str) -> SceneFileError:
 class Container:
     name: str
     reader: Literal["opencv", "pillow"]  # OpenCV with its FFmpeg, or Pillow
-    # The step of the frames' times in seconds; None if each file has its own
-    time_step: float | None = None
+    time_step: float = 0.0  # Of the frames' times in seconds; 0 if each file has its own
     # Whether it contains its number of frames, which is otherwise estimated from the duration
     states_frame_count: bool = True
 

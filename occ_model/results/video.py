@@ -14,6 +14,24 @@ USUAL_RATE = 30.0  # assumed frames a second of a film that does not state its r
 LATEST_TIME = 1e8  # latest time of a frame after the film's first one, in seconds: three years
 
 
+@dataclass(frozen=True, slots=True)
+class FilmTimes:
+    """What is known of the times of a film's frames.
+
+    Parameters
+    ----------
+    resolution
+        Step in seconds to which the file rounds the times, which are those of the recording; 0 if
+        they are exact.
+    slowdown
+        How many times slower the film plays than it was recorded, as the file states it. The
+        frames' times and the frame rate are those of the recording.
+    """
+
+    resolution: float = 0.0
+    slowdown: float = 1.0
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class VideoFrame:
     """One frame of a film.
@@ -67,9 +85,11 @@ class Video(ABC):
         Number of frames by the recording or the file; None if unknown or endless. A damaged file
         may have fewer, and for an MKV or WebM file the number is estimated from its length until
         all of it has been read.
-    time_step
-        Seconds to whose multiples the container rounds the frames' times; None if they are not
-        known to be rounded.
+    times
+        What is known of the frames' times.
+    line_step
+        Columns of the camera from one column of a frame to the next: 2 for the fields of an
+        interlaced film, of which each is a frame of its own.
     path
         The file, None if the film is simulated.
     scene, recording
@@ -82,7 +102,8 @@ class Video(ABC):
     shape: tuple[int, int]
     frame_rate: float | None
     frame_count: int | None
-    time_step: float | None = None
+    times: FilmTimes = FilmTimes()
+    line_step: int = 1
     path: Path | None = None
     scene: Scene | None = None
     recording: Recording | None = None

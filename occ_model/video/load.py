@@ -13,7 +13,7 @@ from occ_model.errors import ParameterError, SceneFileError, VideoError, inflect
 from occ_model.files.reading import FIRST_BYTES, container_of, read_start
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import roughness_along
-from occ_model.results.video import LATEST_TIME, Video, VideoFrame
+from occ_model.results.video import LATEST_TIME, FilmTimes, Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.provenance import first_scene_in
 from occ_model.scene.recording import Recording
@@ -85,7 +85,7 @@ class VideoFile(Video):
         except SceneFileError as error:  # its text suits any file
             raise VideoError(str(error)) from None
         self._container = container_of(path, start)
-        self.time_step = self._container.time_step
+        self.times = FilmTimes(self._container.time_step)
         self._problem: str | None = None
         self._times: list[float] = []
         # The last requested frame, and the decoder, which is positioned after it.
@@ -168,7 +168,7 @@ class VideoFile(Video):
         if self.frame_rate is None or self.frame_count is None or index >= self.frame_count:
             return None
         time = self._first_time + index / self.frame_rate
-        return decoder.seek(index, time, (self.time_step or 0.0) / 2 + _TIME_TOLERANCE)
+        return decoder.seek(index, time, self.times.resolution / 2 + _TIME_TOLERANCE)
 
     def _read_next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
         """Read the next frame, which has this number; note its time, or why the film ends."""

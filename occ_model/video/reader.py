@@ -68,7 +68,7 @@ def decode_video(
         The file cannot be read.
     """
     reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
-    reader.time_step = video.time_step or 0.0
+    reader.time_step = video.times.resolution
     for frame in video:
         film_progress = reader.add(frame)
         if progress is not None:

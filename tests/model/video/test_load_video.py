@@ -60,7 +60,7 @@ def test_every_kind_of_film_gives_frames_levels_and_times(
     frames = list(film)
     assert (len(frames), film.frame_count, film.frame_rate) == (20, 20, RATE)
     assert (film.shape, film.problem, film.simulated) == ((LINES, COLUMNS), None, False)
-    step = film.time_step or 0.0
+    step = film.times.resolution
     assert [frame.time for frame in frames] == pytest.approx(
         [number / RATE for number in range(20)], abs=step / 2 + 1e-12
     )

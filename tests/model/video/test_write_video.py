@@ -52,7 +52,7 @@ def test_a_film_is_read_back_as_it_was_written(
     assert (back.frame_count, back.shape, back.problem) == (7, film.shape, None)
     pairs = list(zip(film, back, strict=True))
     for made, read in pairs:
-        assert read.time == pytest.approx(made.time, abs=(back.time_step or 0.0) / 2 + 1e-9)
+        assert read.time == pytest.approx(made.time, abs=back.times.resolution / 2 + 1e-9)
         assert read.exposure_time == made.exposure_time
         error = read.image.astype(float) - made.image
         if ending in LOSSLESS:
@@ -300,7 +300,7 @@ def test_a_rate_is_refused_before_any_work_or_the_film_is_written(
         assert f"cannot have {rate:g} frames a second; allowed in a" in str(refusal)  # noqa: PT017
     else:
         assert write_frames(path, [stripes(n) for n in range(3)], rate, "") == 3
-        step = occ.load_video(path).time_step or 0.0
+        step = occ.load_video(path).times.resolution
         times = [frame.time for frame in occ.load_video(path)]
         assert times == pytest.approx([0.0, 1 / rate, 2 / rate], rel=1e-3, abs=step / 2 + 1e-9)
     assert capfd.readouterr() == ("", "")

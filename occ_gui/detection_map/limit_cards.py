@@ -244,7 +244,7 @@ class MostBitsCard(QFrame):
         self._failures: list[str] = []
         self._is_running = self._is_outdated = False
         self._state = ""
-        self.text = name_widget(ElidedLabel(), "What carries most bits a second")
+        self.text = name_widget(ElidedLabel(), "Highest bit rate")
         self.search = push_button(
             "Search",
             "Try line codes, frequencies and numbers of bits at the scene's exposure and "
@@ -257,7 +257,7 @@ class MostBitsCard(QFrame):
             "Go",
             "Change the scene to this code, frequency and number of bits.",
             lambda: self.chosen.emit(self._best),
-            name="Go to what carries most",
+            name="Go to the highest bit rate",
         )
         parts = ((self.text, 1), self.search, self.cancel, self.go)
         fill(QHBoxLayout(self), *parts, margins=(12, 4, 8, 4), spacing=8)
@@ -303,13 +303,19 @@ class MostBitsCard(QFrame):
 
     def _describe(self, best: MostBits | None) -> str:
         if best is None or best.scene is None:
-            return "Which code, frequency and number of bits carry most?"
+            return "Which code, frequency and number of bits give the highest bit rate?"
         transmitter = best.scene.transmitter
         text = (
-            f"{best.bits_a_second:,.0f} bits a second, {transmitter.payload_length} a picture in "
-            f"{transmitter.line_code} at "
+            f"{best.bits_a_second:,.0f} bits a second: {transmitter.payload_length} bits in each "
+            f"picture, line code {transmitter.line_code}, "
             f"{HERTZ.format(transmitter.switching_frequency, _DIGITS)}, "
             f"read by {best.decoder}"
         )
-        prefix = "Earlier scene" if self._is_outdated else "So far" if self._state else "Most"
+        prefix = (
+            "Earlier scene"
+            if self._is_outdated
+            else "So far"
+            if self._state
+            else "Highest bit rate"
+        )
         return f"{prefix}: {text}"

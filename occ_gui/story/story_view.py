@@ -109,7 +109,7 @@ class StoryView(QWidget):
         self.whole_picture.setChecked(is_whole)
         self._pages.setCurrentWidget(self._picture if is_whole else self.rows)
         self._size_by_page()
-        self.whole_picture.setText("Back to the rows" if is_whole else _WHOLE)
+        self.whole_picture.setText("Four rows" if is_whole else _WHOLE)
         self.whole_picture.setToolTip("Show the four rows again." if is_whole else _WHOLE_TIP)
         self.readout.setVisible(not is_whole)
         self._show_verdicts()

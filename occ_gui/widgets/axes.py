@@ -4,8 +4,8 @@ import math
 from typing import Any
 
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QGraphicsSceneResizeEvent, QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.widgets.columns import round_step
@@ -45,7 +45,10 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
         self.resizeEvent()
 
     def _fit_name(self) -> None:
-        """Shorten the name if the plot is too small for it; its tooltip shows the whole name."""
+        """Leave out the first words of a name that is too long: its symbol and unit are the last.
+
+        The tooltip shows the whole name.
+        """
         label, name = self.label, self.labelText
         if label is None or not name:  # None once the plot is closed
             return
@@ -53,16 +56,14 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
         # The name may extend beyond both ends of the axis by the same distance.
         place = self.scenePos()
         room = self.height() + 2.0 * place.y() if is_upright else self.width()
-        label.setHtml(self.labelString())
-        label.setToolTip("")
-        excess = label.boundingRect().width() - room
-        if excess <= 0.0 or room <= 0.0:
-            return
-        metrics = QFontMetricsF(label.font())
-        width = metrics.horizontalAdvance(name) - excess
-        short_name = metrics.elidedText(name, Qt.TextElideMode.ElideRight, max(width, 0.0))
-        label.setHtml(self.labelString().replace(name, short_name, 1))
-        label.setToolTip(name)
+        whole = self.labelString()
+        words = name.split(" ")
+        for first in range(len(words) + 1):
+            shown = name if first == 0 else " ".join(["…", *words[first:]])
+            label.setHtml(whole.replace(name, shown, 1))
+            label.setToolTip(name if first else "")
+            if label.boundingRect().width() <= room or room <= 0.0:
+                return
 
     def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name
         self, painter: QPainter

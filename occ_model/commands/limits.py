@@ -177,7 +177,7 @@ _TRIED_BAR = "{desc}: {n_fmt} of {total_fmt} combinations tried, {elapsed}"
 
 def _add_most_bits(commands: Commands) -> None:
     parser = commands.add_parser(
-        "most-bits", help="find the code, frequency and number of bits that carry most"
+        "most-bits", help="find the code, frequency and number of bits of the highest bit rate"
     )
     add_scene_options(parser)
     parser.add_argument(

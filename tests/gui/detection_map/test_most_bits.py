@@ -43,7 +43,9 @@ def buttons(card: MostBitsCard) -> set[str]:
 
 
 def test_the_card_searches_and_shows_the_best(card: MostBitsCard, small_scene: Scene) -> None:
-    assert card.text.toolTip() == "Which code, frequency and number of bits carry most?"
+    assert (
+        card.text.toolTip() == "Which code, frequency and number of bits give the highest bit rate?"
+    )
     assert buttons(card) == {"Search"}
     card.show_begun()
     card.show_progress("threshold", 12)
@@ -54,7 +56,8 @@ def test_the_card_searches_and_shows_the_best(card: MostBitsCard, small_scene: S
     assert card.text.toolTip().startswith("So far: 5,550 bits a second")
     card.show_ended("")
     assert card.text.toolTip() == (
-        "Most: 5,550 bits a second, 185 a picture in manchester at 28.8 kHz, read by equalizer"
+        "Highest bit rate: 5,550 bits a second: 185 bits in each picture, line code manchester, "
+        "28.8 kHz, read by equalizer"
     )
     assert buttons(card) == {"Go"}
 

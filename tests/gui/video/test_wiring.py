@@ -1,6 +1,7 @@
 """The pane of films shows, plays and reads a film, and reads live from a camera."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import TypeAlias
@@ -153,7 +154,7 @@ def test_the_next_camera_is_not_said_to_hold_its_exposure(
         pane.live.start(source)
         assert not pane.view.bar.lock.isChecked()
         pane.view.bar.lock.click()
-        qtbot.waitUntil(lambda source=source: source.locked == [True])
+        qtbot.waitUntil(partial(source.locked.__eq__, [True]))
         assert pane.view.bar.lock.isChecked()
 
 

@@ -15,6 +15,8 @@ from typing import IO, TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, SceneFileError, one_line
 from occ_model.files.reading import HEIC_BRANDS, HEIF_BRANDS, kind_of_film
+from occ_model.photo.reading.deep import Opened, needs_own_decoder
+from occ_model.photo.reading.levels import bits_of
 from occ_model.photo.reading.limits import (
     allowed_pixels,
     check_decoder,
@@ -31,7 +33,6 @@ from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
 
-    Opener: TypeAlias = Callable[[float, float], ImageFile]
     Factory: TypeAlias = Callable[[IO[bytes]], ImageFile]
 
 _BYTES_A_PIXEL, _BYTES_OF_NOTES = 8, 16_000_000
@@ -72,7 +73,9 @@ def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[Watched
         raise _make_refusal(path, error, max_pixels) from None
 
 
-def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
+def picture_opener(
+    path: Path, file: WatchedFile, max_pixels: int
+) -> Callable[[float, float], Opened]:
     """Return a function that opens a file's first picture at each call, without decoding it.
 
     Its arguments are the fractions of the work between which the picture will be decoded. It raises
@@ -142,7 +145,7 @@ def _check_file(path: Path, max_pixels: int) -> None:
 
 def _first_picture(
     path: Path, file: WatchedFile, max_pixels: int, fractions: tuple[float, float]
-) -> "ImageFile":
+) -> Opened:
     """Open the file's first picture, and check its size before decoding."""
     path_text, size = one_line(str(path)), os.fstat(file.fileno()).st_size
     name, factory = format_and_factory(path, file)
@@ -166,11 +169,17 @@ def _first_picture(
         )
     if picture.format == "TIFF":
         _check_tiff(path_text, picture)
-    check_decoder(path, picture, size)
-    check_memory(path, picture, file.total, file.last)
+    scan_header = file.last
+    content = _read_content(file, size) if picture.format in ("AVIF", "JPEG2000") else bytearray()
+    bits = bits_of(picture, content)
+    is_deep = needs_own_decoder(picture, bits)
+    if is_deep and not content:
+        content = _read_content(file, size)
+    check_decoder(path, picture, size, is_deep)
+    check_memory(path, picture, file.total, scan_header, is_deep)
     check_transparency(path, picture)
-    check_scans(path, picture, file.last, lambda: _read_content(file, size))
-    return picture
+    check_scans(path, picture, scan_header, lambda: _read_content(file, size))
+    return Opened(path_text, picture, bits, content if is_deep else b"")
 
 
 def _read_content(file: WatchedFile, size: int) -> bytearray:

@@ -1,23 +1,30 @@
 """Decode a picture in its file's full depth, convert it part by part, and extract one channel."""
 
-import os
-import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.pixel_arrays import Samples, find_white, round_to_16_bits, white_of
+from occ_model.camera.pixel_arrays import Samples, find_white, white_of
 from occ_model.errors import DecodeInputError, PhotoError
+from occ_model.photo.reading.conversion import (
+    colours_of,
+    combine_bytes,
+    convert_floats,
+    convert_integers,
+    palette_of,
+    put_on_black,
+    swap_bytes,
+)
+from occ_model.photo.reading.deep import Opened, decode_deep, needs_own_decoder
+from occ_model.photo.reading.levels import is_white_zero, levels_of
 from occ_model.photo.reading.limits import is_deep_in_colours, raw_modes_of
+from occ_model.photo.reading.stderr import no_stderr
 from occ_model.photo.reading.watched_file import Progress
 
 if TYPE_CHECKING:
-    from PIL.Image import Image as PillowImage
     from PIL.ImageFile import ImageFile
 
 Box: TypeAlias = tuple[int, int, int, int]
@@ -27,17 +34,10 @@ DECODED_FRACTION = 0.8  # fraction of the work that is done when a picture is de
 
 _PART = 1 << 20  # number of pixels that are converted at once, which take some megabytes
 
-_NATIVE, _SWAPPED = ("16L", "16B") if sys.byteorder == "little" else ("16B", "16L")
-
-_LOWER_BYTE_MODES = {
-    f"{colours};{order}": f"{colours};{other}"
-    for colours in ("RGB", "RGBA", "RGBX")
-    for order, other in (("16B", "16L"), ("16L", "16B"), ("16N", _SWAPPED))
-}
-"""Raw modes of the other byte order. Pillow keeps the upper bytes of 16-bit colours; in the other
-order these are the lower bytes."""
+_GREY_AND_OPACITY = {"LA;16B"}  # the raw mode of a PNG of 16 bits
 
 _Take: TypeAlias = Callable[[Samples], Samples]  # extracts a channel from some pixels
+_Convert: TypeAlias = Callable[[Box], Samples]  # converts a part of a picture
 
 _COLOURS = ("red", "green", "blue")
 _GREEN = 1
@@ -52,23 +52,46 @@ class DecodedPicture:
     of the work between which it will be decoded.
     """
 
-    def __init__(self, open_picture: "Callable[[float, float], ImageFile]") -> None:
-        self.picture = open_picture(0.0, DECODED_FRACTION / 2)
-        self._raw_modes = raw_modes_of(self.picture)
-        _load(self.picture)
+    def __init__(self, open_picture: Callable[[float, float], Opened]) -> None:
+        opened = open_picture(0.0, DECODED_FRACTION / 2)
+        self.picture, raw_modes = opened.picture, raw_modes_of(opened.picture)
         self._lower: ImageFile | None = None
-        if is_deep_in_colours(self._raw_modes):
+        if needs_own_decoder(self.picture, opened.bits):
+            self._convert = _convert_stored(opened)
+            return
+        if raw_modes == _GREY_AND_OPACITY:
+            # In the file these are four bytes, as a pixel of four channels has in memory.
+            _change_raw_modes(self.picture, lambda _: "RGBA")
+        _load(self.picture)
+        if is_deep_in_colours(raw_modes):
             # Pillow reads such files twice. OpenCV would read them once, but prints errors on
             # stderr, reports no progress and cannot be cancelled.
-            self._lower = open_picture(DECODED_FRACTION / 2, DECODED_FRACTION)
-            _take_lower_bytes(self._lower)
+            self._lower = open_picture(DECODED_FRACTION / 2, DECODED_FRACTION).picture
+            _change_raw_modes(self._lower, swap_bytes)
             _load(self._lower)
-        elif self.picture.mode == "I":
-            _, largest = self.picture.getextrema()
+        self._convert = self._converter(raw_modes, opened.bits)
+
+    def _converter(self, raw_modes: set[str], bits: int) -> _Convert:
+        """Return the function that converts a part of what Pillow has decoded."""
+        picture, lower = self.picture, self._lower
+        if lower is not None:
+            return lambda box: combine_bytes(picture.crop(box), lower.crop(box))
+        if raw_modes == _GREY_AND_OPACITY:
+            return lambda box: put_on_black(np.asarray(picture.crop(box)).view(">u2"))
+        if picture.mode == "P":
+            palette = palette_of(picture)
+            return lambda box: np.asarray(palette[np.asarray(picture.crop(box))])
+        if picture.mode == "F":
+            white, is_inverted = self._white_of_floats(), is_white_zero(picture)
+            return lambda box: convert_floats(np.asarray(picture.crop(box)), white, is_inverted)
+        if picture.mode == "I":
+            _, largest = picture.getextrema()
             if isinstance(largest, int | float) and largest > 65535:
                 raise PhotoError(f"The photo has samples up to {largest:,}; allowed: up to 65,535.")
-        self._white = self._white_of_floats() if self.picture.mode == "F" else 0.0
-        self._palette = _palette_of(self.picture) if self.picture.mode == "P" else None
+        levels = levels_of(picture, raw_modes, bits)
+        if picture.mode.startswith("I"):
+            return lambda box: convert_integers(picture.crop(box), levels)
+        return lambda box: colours_of(picture.crop(box), levels)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -87,19 +110,10 @@ class DecodedPicture:
         """Convert a rectangle of the picture to samples, with transparent parts black.
 
         The shape is (rows, columns) for grey, (rows, columns, 3) for colours. Samples have 16 bits
-        if the file has more than 8. In floating point, NaN and minus infinity are black, and
-        infinity is white.
+        if the file has more than 8. In floating point, NaN is black, and an infinite number black
+        or white.
         """
-        part = self.picture.crop(box)
-        if self._palette is not None:
-            return np.asarray(self._palette[np.asarray(part)])
-        if self._lower is not None:
-            return deep_colours(part, self._lower.crop(box))
-        if part.mode == "F":
-            return round_to_16_bits(np.asarray(part), self._white)
-        if part.mode.startswith("I"):
-            return _convert_integers(part, self._raw_modes)
-        return _colours(part)
+        return self._convert(box)
 
     def _white_of_floats(self) -> float:
         """Return the value of white, by the range of the finite values."""
@@ -119,69 +133,25 @@ class DecodedPicture:
         self.picture.close()
         if self._lower is not None:
             self._lower.close()
+        del self._convert
 
 
-def _palette_of(picture: "PillowImage") -> Samples:
-    swatch = picture.crop((0, 0, 256, 1))
-    swatch.frombytes(bytes(range(256)))
-    colours: Samples = _colours(swatch)[0]
-    return colours
+def _convert_stored(opened: Opened) -> _Convert:
+    """Decode what Pillow would reduce to 8 bits, and return the function that converts a part."""
+    values, levels = decode_deep(opened)
+    table = levels.tabulate(65535)
+
+    def convert(box: Box) -> Samples:
+        left, top, right, bottom = box
+        return put_on_black(table[values[top:bottom, left:right]])
+
+    return convert
 
 
-def _colours(part: "PillowImage") -> Samples:
-    """Convert pixels of 8 bits, and put transparent ones on black."""
-    from PIL import Image
-
-    visible = part
-    if part.has_transparency_data:
-        visible = part.convert("RGBA")
-        if visible.getchannel("A").getextrema() != (255, 255):
-            background = Image.new("RGBA", part.size, (0, 0, 0, 255))
-            visible = Image.alpha_composite(background, visible)
-    if visible.mode == "LAB":  # Pillow does not convert it to RGB
-        visible = visible.getchannel("L")
-    grey = visible.mode in ("1", "L")
-    return np.asarray(visible.convert("L" if grey else "RGB"))
-
-
-def _convert_integers(part: "PillowImage", raw_modes: set[str]) -> Samples:
-    """Convert integers to samples of 16 bits, without scaling to the picture's brightness."""
-    values = np.asarray(part)
-    if values.dtype.itemsize > 2:
-        values = np.maximum(values, 0)
-    samples = values.astype(np.uint16)
-    if raw_modes == {"I;12"}:  # white is 4095
-        samples = ((samples.astype(np.uint32) * 65535 + 2047) // 4095).astype(np.uint16)
-    transparent = part.info.get("transparency")
-    if isinstance(transparent, int):
-        samples[samples == transparent] = 0
-    return samples
-
-
-def deep_colours(upper: "PillowImage", lower: "PillowImage") -> Samples:
-    """Combine colours of 16 bits from their upper and their lower bytes."""
-    pixels = np.asarray(upper).astype(np.uint16)
-    pixels <<= 8
-    pixels |= np.asarray(lower)
-    transparent = upper.info.get("transparency")
-    if isinstance(transparent, tuple) and pixels.shape[2] == 3:
-        pixels[(pixels == np.array(transparent)).all(axis=2)] = 0
-    if pixels.shape[2] == 4 and pixels[..., 3].min() < 65535:
-        # Divide by 65535 and round, by shifts, as a division would take longer than all else.
-        products = pixels[..., :3].astype(np.uint32)
-        products *= pixels[..., 3:]
-        products += 32768
-        products += products >> 16
-        products >>= 16
-        return products.astype(np.uint16)
-    return np.ascontiguousarray(pixels[..., :3])
-
-
-def _take_lower_bytes(picture: "ImageFile") -> None:
+def _change_raw_modes(picture: "ImageFile", change: Callable[[str], str]) -> None:
     for place, tile in enumerate(picture.tile):
         raw, *others = tile[3] if isinstance(tile[3], tuple) else (tile[3],)
-        other = _LOWER_BYTE_MODES[raw]
-        arguments = (other, *others) if isinstance(tile[3], tuple) else other
+        arguments = (change(raw), *others) if isinstance(tile[3], tuple) else change(raw)
         picture.tile[place] = tile._replace(args=arguments)
 
 
@@ -192,23 +162,6 @@ def _load(picture: "ImageFile") -> None:
             picture.load()
     else:
         picture.load()
-
-
-@contextmanager
-def no_stderr() -> Iterator[None]:
-    """Redirect stderr to the null device: libtiff and LibRaw print their warnings there."""
-    try:
-        copy = os.dup(2)
-    except OSError:  # a program without a console has none
-        yield
-        return
-    try:
-        with Path(os.devnull).open("wb") as null_device:
-            os.dup2(null_device.fileno(), 2)
-        yield
-    finally:
-        os.dup2(copy, 2)
-        os.close(copy)
 
 
 def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:

@@ -57,6 +57,14 @@ _MOST_DEEP_AND_TRANSPARENT = 50_000_000
 """Largest number of pixels of 16-bit colours with transparency, which take at least twice the time
 of others."""
 
+_DEEP_BYTES = {
+    "AVIF": (26.0, 44.0),
+    "JPEG2000": (20.0, 26.0),
+    "HEIF": (13.0, 20.0),
+    "PPM": (12.0, 12.0),
+}
+"""Peak bytes of a pixel of more than 8 bits, by format, without and with opacity."""
+
 _LIBTIFF_COLOURS = 4  # bytes of a pixel if libtiff itself converts YCbCr colours
 
 _BITS_PER_SAMPLE = 258
@@ -121,15 +129,19 @@ def check_file_size(path: Path, file_format: str, size: int) -> None:
     _refuse_above(MOST_BYTES.get(file_format, size), path, file_format, size)
 
 
-def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
-    """Refuse a file that would take its decoder too long, before decoding."""
+def check_decoder(path: Path, picture: "ImageFile", size: int, is_deep: bool = False) -> None:
+    """Refuse a file that would take its decoder too long, before decoding.
+
+    ``is_deep``: whether it is one of :mod:`occ_model.photo.reading.deep`, of which only numbers as
+    text are slow.
+    """
     from PIL import Image
 
     decoders = {tile[0] for tile in picture.tile}
     kind = picture.format or ""
     if "libtiff" in decoders:
         _refuse_above(MOST_BYTES_OF_TIFF, path, "compressed TIFF", size)
-    if not decoders.isdisjoint(Image.DECODERS):
+    if not decoders.isdisjoint(Image.DECODERS) and not (is_deep and decoders == {"ppm"}):
         _refuse_above(MOST_BYTES_IN_PYTHON, path, kind, size)
 
 
@@ -153,14 +165,19 @@ def check_transparency(path: Path, picture: "ImageFile") -> None:
         )
 
 
-def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header: int) -> None:
+def check_memory(
+    path: Path, picture: "ImageFile", bytes_read: int, scan_header: int, is_deep: bool = False
+) -> None:
     """Refuse a picture that would take too much memory, before decoding.
 
     ``bytes_read``: bytes read on opening the file, all of which may stay in memory.
     ``scan_header``: bytes of the last read, which in a JPEG is the header of the first scan.
     """
-    pixels = picture.width * picture.height
-    decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
+    if is_deep:
+        bytes_a_pixel = _DEEP_BYTES[picture.format or ""]["A" in picture.mode]
+    else:
+        bytes_a_pixel = _bytes_a_pixel(picture, scan_header)
+    decoding = picture.width * picture.height * bytes_a_pixel + _bytes_of_a_strip(picture)
     check_bytes(path, picture.width, picture.height, decoding, bytes_read)
 
 

@@ -30,8 +30,9 @@ from occ_model.photo.reading.exif import (
     CameraNotes,
     notes_of,
 )
-from occ_model.photo.reading.image_decoding import DECODED_FRACTION, no_stderr
+from occ_model.photo.reading.image_decoding import DECODED_FRACTION
 from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
+from occ_model.photo.reading.stderr import no_stderr
 from occ_model.photo.reading.tiff import STARTS, Entry, directories, has_short_tags
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 

@@ -15,7 +15,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import PhotoError
 from occ_model.photo.reading.choices import CHANNELS
-from occ_model.photo.reading.image_decoding import deep_colours
+from occ_model.photo.reading.conversion import combine_bytes
 from occ_model.photo.reading.load import column_means, load_photo
 
 
@@ -259,4 +259,4 @@ def test_the_colour_that_is_called_transparent_is_black_and_no_other() -> None:
     upper.info["transparency"] = (700, 800, 900)
     expected = deep.copy()
     expected[2, 3] = expected[4, 4] = 0
-    assert deep_colours(upper, lower).tolist() == expected.tolist()
+    assert combine_bytes(upper, lower).tolist() == expected.tolist()

@@ -6,5 +6,6 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 ByteArray = NDArray[np.uint8]
+Samples = NDArray[np.uint8 | np.uint16]  # 8 or 16 bits, with white as the largest number
 Pixels = NDArray[np.float32]
 BoolArray = NDArray[np.bool_]

@@ -2,26 +2,35 @@
 
 import struct
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
-import cv2
+import av
 import numpy as np
 from damage import WAYS
 from numpy.random import Generator
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
-from occ_model.video.file.quiet import silence_opencv
 from occ_model.video.file.write import write_frames
 
 KINDS = (
     ("mp4", "mp4v"), ("mov", "mp4v"), ("mov", "MJPG"), ("avi", "MJPG"), ("avi", "XVID"),
-    ("avi", "HFYU"), ("mkv", "mp4v"), ("mkv", "FFV1"), ("mkv", "MPNG"), ("mkv", "VP80"),
-    ("webm", "VP90"),
+    ("avi", "HFYU"), ("mkv", "mp4v"), ("mkv", "FFV1"), ("mov", "MPNG"), ("mkv", "VP80"),
+    ("webm", "VP90"), ("mp4", "avc1"), ("mov", "hvc1"), ("webm", "AV01"), ("mov", "apcn"),
 )  # fmt: skip
-"""Endings and codecs that OpenCV writes everywhere."""
+"""Endings and codecs of films, which FFmpeg writes everywhere."""
+
+ENCODERS = {  # of FFmpeg, with the pixels that they are given
+    "mp4v": ("mpeg4", "yuv420p"), "MJPG": ("mjpeg", "yuvj420p"), "XVID": ("mpeg4", "yuv420p"),
+    "HFYU": ("huffyuv", "rgb24"), "FFV1": ("ffv1", "gray"), "MPNG": ("png", "rgb24"),
+    "VP80": ("libvpx", "yuv420p"), "VP90": ("libvpx-vp9", "yuv420p"),
+    "avc1": ("libx264", "yuv420p"), "hvc1": ("libx265", "yuv420p10le"),
+    "AV01": ("libsvtav1", "yuv420p"), "apcn": ("prores_ks", "yuv422p10le"),
+}  # fmt: skip
 
 PICTURES = (("gif", ""), ("png", ""))
 """Animated pictures, which Pillow reads."""
@@ -43,16 +52,26 @@ def write_film(
     pictures: Iterable[ByteArray],
     rate: float = RATE,
     size: tuple[int, int] = (LINES, COLUMNS),
+    milliseconds: Sequence[int] | None = None,
 ) -> None:
-    """Write grey pictures of a size (lines, columns) to a film, by OpenCV alone."""
-    lines, columns = size
-    code = cv2.VideoWriter.fourcc(*codec)
-    with silence_opencv():  # FFmpeg keeps to what it is told when it is used first
-        writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, code, rate, (columns, lines))
-    assert writer.isOpened(), (path.suffix, codec)
-    for picture in pictures:
-        writer.write(cv2.cvtColor(picture, cv2.COLOR_GRAY2BGR))
-    writer.release()
+    """Write grey pictures of a size (lines, columns), and their times, to a film by PyAV alone."""
+    encoder, form = ENCODERS[codec]
+    silent = {"libx265": {"x265-params": "log-level=none"}}.get(encoder, {})
+    with av.open(path, "w") as container:
+        stream: Any = container.add_stream(encoder, Fraction(rate).limit_denominator(1001), silent)
+        stream.height, stream.width, stream.pix_fmt = *size, form
+        stream.gop_size = 12
+        if codec != "AV01":
+            stream.bit_rate = 4_000_000
+        if milliseconds is not None:
+            stream.codec_context.time_base = Fraction(1, 1000)
+        if codec == "XVID":
+            stream.codec_context.codec_tag = codec
+        for number, picture in enumerate(pictures):
+            frame = av.VideoFrame.from_ndarray(picture, "gray").reformat(format=form, threads=1)
+            frame.pts = number if milliseconds is None else milliseconds[number]
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode(None))
 
 
 @lru_cache
@@ -134,6 +153,8 @@ def lasting(film: bytes, frames: int) -> bytes:
     film = _with_table(film, b"stsz", struct.pack(">II", size, frames))
     film = _with_table(film, b"stsc", struct.pack(">IIII", 1, 1, 1, 1))
     film = _with_table(film, b"stco", struct.pack(">I", frames) + struct.pack(">I", first) * frames)
+    length = film.index(b"mdhd") + 20
+    film = film[:length] + struct.pack(">I", frames * step) + film[length + 4 :]
     return film.replace(b"edts", b"free")  # which says how much of the film is shown
 
 

@@ -11,9 +11,9 @@ from typing import Protocol
 import cv2
 import numpy as np
 
+from occ_gui.video.quiet import silence_opencv
 from occ_model.arrays import ByteArray
 from occ_model.errors import VideoError, one_line
-from occ_model.video.file.quiet import silence_opencv
 
 AXES = ("lines", "columns")
 """Axes of a source's pictures that the rolling shutter scans, the usual one first."""

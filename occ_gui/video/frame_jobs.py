@@ -17,6 +17,7 @@ from occ_model.scene.light_words import describe_light
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.video.read_frame import read_by_itself
+from occ_model.video.reader import scene_of_frames
 
 _MOST_DRAFT_PIXELS = 1_000_000  # up to this size, an exact picture takes no longer than a draft
 
@@ -45,13 +46,14 @@ class ShownFrame:
 
 def process_frame(request: FrameRequest) -> ShownFrame:
     """Take a frame from its film, simulate the frame with the same number, and read both."""
-    film, title, frame = None, "", request.live
+    film, title, frame, scene = None, "", request.live, request.scene
     if frame is None and request.film is not None:
         frame = request.film.frame(request.index)
+        scene = scene_of_frames(request.film, scene)
     story = None
     if frame is not None:
         title = "" if request.film is None else request.film.title
-        story = _make_story(frame, request.scene, None, title)
+        story = _make_story(frame, scene, None, title)
         film = _make_picture(frame.image, story, f"{title}: {_describe_time(frame)}")
     simulated, refusal, simulated_frame = None, "", None
     start = None if story is None else start_of(story.reading.results[PAPER_DECODER], request.scene)

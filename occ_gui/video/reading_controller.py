@@ -16,6 +16,7 @@ from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.study.reading_facts import film_facts
+from occ_model.video.reader import reader_of
 
 _INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
 _LIVE_INTERVAL = 0.03  # seconds between two reports of a camera, which also show its picture
@@ -60,9 +61,7 @@ class _Collector:
         self._next_joint_reading = monotonic() + _JOINT_INTERVAL
 
     def _new_reader(self) -> occ.VideoReader:
-        reader = occ.VideoReader(self._request.scene)
-        reader.time_step = self._request.film.times.resolution
-        return reader
+        return reader_of(self._request.film, self._request.scene)
 
     def add(self, frame: VideoFrame) -> None:
         if self._request.is_live and self._frames == MOST_LIVE:

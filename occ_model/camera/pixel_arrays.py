@@ -1,16 +1,14 @@
 """Conversion of pixel arrays of any depth and byte order, by the value that is white."""
 
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, Samples as Samples
 from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import WHITE
 from occ_model.errors import DecodeInputError
-
-Samples: TypeAlias = NDArray[np.uint8 | np.uint16]  # 8 or 16 bits, with white as the largest number
 
 _WHITE_OF_16_BITS = 65535.0
 _ROUNDING = 0.5 / WHITE  # of white, by which a value may exceed it

@@ -120,16 +120,13 @@ def _refuse(path: Path, reason: str) -> SceneFileError:
 @dataclass(frozen=True, slots=True)
 class Container:
     name: str
-    reader: Literal["opencv", "pillow"]  # OpenCV with its FFmpeg, or Pillow
-    time_step: float = 0.0  # Of the frames' times in seconds; 0 if each file has its own
-    # Whether it contains its number of frames, which is otherwise estimated from the duration
-    states_frame_count: bool = True
+    reader: Literal["mov", "avi", "matroska", "pillow"]  # Pillow, or a demuxer of FFmpeg
 
 
-_MP4 = Container("MP4 or MOV", "opencv")
-_AVI = Container("AVI", "opencv")
-_MATROSKA = Container("MKV or WebM", "opencv", 1e-3, states_frame_count=False)
-_GIF = Container("GIF", "pillow", 1e-2)
+_MP4 = Container("MP4 or MOV", "mov")
+_AVI = Container("AVI", "avi")
+_MATROSKA = Container("MKV or WebM", "matroska")
+_GIF = Container("GIF", "pillow")
 _PNG = Container("animated PNG", "pillow")
 
 _BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")  # the first in MP4 and MOV
@@ -178,7 +175,7 @@ def is_film(path: Path) -> bool:
     kind = kind_of_film(start)
     if kind is None:
         return False
-    if kind.reader == "opencv":
+    if kind.reader != "pillow":
         return not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)
     # Slow to import, and needed only for these.
     from PIL import Image

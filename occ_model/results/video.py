@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, Samples
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 
@@ -57,6 +57,11 @@ class VideoFrame:
     start
         For a simulated frame, the exact real time at which its first column's exposure started, in
         seconds, counted as the scene's start time. None for a frame from a file.
+    first_column
+        Where the first column lies, in columns from that of the film's frames: 0.5 for the field of
+        an interlaced film whose lines lie between those of the other.
+    samples : ndarray of uint16, shape (rows, columns)
+        The picture in 16 bits, if the file has more than 8; else None.
     """
 
     index: int
@@ -65,6 +70,8 @@ class VideoFrame:
     exposure_time: float | None = None
     scene: Scene | None = None
     start: Fraction | None = None
+    first_column: float = 0.0
+    samples: Samples | None = None
 
 
 class Video(ABC):

@@ -8,7 +8,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray
 from occ_model.errors import ParameterError, SceneFileError, VideoError, inflect, one_line, quote
 from occ_model.files.reading import FIRST_BYTES, container_of, read_start
 from occ_model.photo.reading.choices import SCAN_AXES
@@ -21,16 +20,15 @@ from occ_model.video.file.decoder_main import NO_MEMORY
 from occ_model.video.file.decoder_process import (
     DecoderProcess,
     DecoderStoppedError,
-    OpenedFilm,
     put_back,
     take_decoder,
 )
 from occ_model.video.file.note import read_note
-from occ_model.video.file.source import CHANNELS, StoredFrame
+from occ_model.video.file.source import CHANNELS, FilmFacts, StoredFrame
 
-_TIME_TOLERANCE = 1e-6  # seconds by which a frame's time may differ from the stated one
 _MAX_DECODED_AHEAD = 10  # frames; frames further ahead are found by their times
 _MAX_END_STEPS = 2.0  # from a complete film's last frame to its end, in longest frame steps
+_LEVEL_OF_16_BITS = 255.0 / 65535.0
 _SCAN_AXIS_FRAMES = 5  # frames at a film's start from which the scan axis is found
 
 
@@ -85,7 +83,6 @@ class VideoFile(Video):
         except SceneFileError as error:  # its text suits any file
             raise VideoError(str(error)) from None
         self._container = container_of(path, start)
-        self.times = FilmTimes(self._container.time_step)
         self._problem: str | None = None
         self._times: list[float] = []
         # The last requested frame, and the decoder, which is positioned after it.
@@ -152,23 +149,13 @@ class VideoFile(Video):
                 return (
                     self._read_next(decoder, index) if decoder.skip(skipped) == skipped else None
                 ), decoder
-            frame = self._seek(decoder, index)
-            if frame is not None:
-                return frame, decoder
+            if decoder.seek(index):
+                return self._read_next(decoder, index), decoder
             self._open(decoder)
             skipped = decoder.skip(index)
             return (self._read_next(decoder, index) if skipped == index else None), decoder
         except DecoderStoppedError as error:
             raise VideoError(f"Frame {index} of {self._name} cannot be read: {error}.") from None
-
-    def _seek(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
-        """Find a frame by its time, which was read earlier or follows from the frame rate."""
-        if index < len(self._times):
-            return decoder.seek(index, self._times[index], _TIME_TOLERANCE)
-        if self.frame_rate is None or self.frame_count is None or index >= self.frame_count:
-            return None
-        time = self._first_time + index / self.frame_rate
-        return decoder.seek(index, time, self.times.resolution / 2 + _TIME_TOLERANCE)
 
     def _read_next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
         """Read the next frame, which has this number; note its time, or why the film ends."""
@@ -178,7 +165,7 @@ class VideoFile(Video):
             self._problem = f"{self._name} ends early: frame {index} cannot be read: {error}"
             return None
         if stored is None:
-            self._note_end(index)
+            self._note_end(index, decoder.damaged)
             if self._problem is not None and decoder.is_full:
                 self._problem = (
                     f"{self._name} ends early, after {inflect(index, 'frame')}: {NO_MEMORY}"
@@ -202,34 +189,38 @@ class VideoFile(Video):
             self._times.append(stored.time)
         return stored
 
-    def _note_end(self, frames: int) -> None:
-        """Compare the number of frames with the number that the file states."""
-        stated = self.frame_count
-        if stated is None or frames >= stated or frames > len(self._times):
+    def _note_end(self, frames: int, damaged: int) -> None:
+        """Compare the film, if all of it was read, with what its file states."""
+        stated, length = self.frame_count, self._facts.duration
+        if frames > len(self._times):
             return
-        if self._container.states_frame_count:
+        if length is None and stated is not None and frames < stated:
             self._problem = (
                 f"{self._name} contains {frames} of the {stated} frames that it states: it may be "
                 "cut off or damaged."
             )
             return
-        # The number was estimated from the duration and a rate that need not be that of the frames.
-        length = stated / self.frame_rate if self.frame_rate else 0.0
-        times = np.array(self._times[:frames])
-        end = float(times[-1] - self._first_time) if frames else 0.0
-        longest = float(np.diff(times).max()) if frames > 1 else 0.0
-        if end + _MAX_END_STEPS * longest < length:
+        times = np.array(self._times[:frames]) - self._first_time
+        end = float(times[-1]) if frames else 0.0
+        usual = 1.0 / self.frame_rate if self.frame_rate else 0.0
+        longest = max(float(np.diff(times).max()) if frames > 1 else 0.0, usual)
+        if length is not None and end + _MAX_END_STEPS * longest < length:
             self._problem = (
                 f"{self._name} ends after {end:.3g} s of the {length:.3g} s that it states: it "
                 "may be cut off or damaged."
             )
-        else:
-            self.frame_count = frames
+            return
+        self.frame_count = frames
+        if damaged:
+            parts = inflect(damaged, "part")
+            self._problem = f"{self._name} is damaged: {parts} cannot be decoded completely."
 
     def _read_first_frames(self, scan_axis: str) -> None:
         """Read the size, the first time and the scan axis from the first frames."""
-        decoder, stated = self._open_decoder()
-        self.frame_rate, self.frame_count = stated
+        decoder, self._facts = self._open_decoder()
+        facts = self._facts
+        self.frame_rate, self.frame_count = facts.frame_rate, facts.frame_count
+        self.times = FilmTimes(facts.resolution, facts.slowdown)
         try:
             first = decoder.read()
             if first is None:
@@ -243,6 +234,8 @@ class VideoFile(Video):
             )
         except (VideoError, DecoderStoppedError) as error:
             raise self._refuse(decoder, error) from None
+        if facts.field_axis is not None and bool(facts.field_axis) != self.turned:
+            self.line_step = 2
         lines, columns = first.pixels.shape
         self.shape = (columns, lines) if self.turned else (lines, columns)
         put_back(decoder)
@@ -271,19 +264,26 @@ class VideoFile(Video):
         return lines > columns
 
     def _make_frame(self, index: int, stored: StoredFrame) -> VideoFrame:
-        image: ByteArray = stored.pixels
+        pixels = stored.pixels
         if self.turned:
-            image = np.asarray(cv2.transpose(image), np.uint8)
+            pixels = np.asarray(cv2.transpose(pixels), pixels.dtype)
+        is_deep = pixels.dtype != np.uint8
+        image = cv2.convertScaleAbs(pixels, alpha=_LEVEL_OF_16_BITS) if is_deep else pixels
         exposure = None
         if self.scene is not None and self.recording is not None:
             exposure = self.recording.exposure_time(self.scene, index)
-        return VideoFrame(index, stored.time - self._first_time, image, exposure)
+        first_column = stored.first_line if self.line_step > 1 else 0.0
+        time = stored.time - self._first_time
+        return VideoFrame(
+            index, time, np.asarray(image, np.uint8), exposure,
+            first_column=first_column, samples=pixels if is_deep else None,
+        )  # fmt: skip
 
-    def _open_decoder(self) -> tuple[DecoderProcess, OpenedFilm]:
+    def _open_decoder(self) -> tuple[DecoderProcess, FilmFacts]:
         decoder = take_decoder()
         return decoder, self._open(decoder)
 
-    def _open(self, decoder: DecoderProcess) -> OpenedFilm:
+    def _open(self, decoder: DecoderProcess) -> FilmFacts:
         try:
             return decoder.open(self.path, self._container.reader, self._channel)
         except (VideoError, DecoderStoppedError) as error:

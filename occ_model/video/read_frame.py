@@ -117,7 +117,8 @@ class FrameReader:
             )
         columns_after = region.last_column - result.region.last_column
         timed = _time_frame(reading, region, (columns_before > 0, columns_after > 0), timing)
-        return replace(timed, problem=problem, white=white_fraction)
+        column = timed.column + frame.first_column
+        return replace(timed, column=column, problem=problem, white=white_fraction)
 
     def _read_enhanced(
         self, frame: VideoFrame, panel: Region, region: Region, light: FloatArray

@@ -35,6 +35,11 @@ from occ_model.video.placed_frames import FIRST_FIT, PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import FrameReader
 from occ_model.video.without_packets import WithoutPackets
 
+_INTERLACED = (
+    "The film is interlaced: each of its fields is read as a frame, whose columns are every other "
+    "line of the camera, so that its readout time is that of two lines."
+)
+
 
 def decode_video(
     video: Video,
@@ -67,13 +72,35 @@ def decode_video(
     VideoError
         The file cannot be read.
     """
-    reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
-    reader.time_step = video.times.resolution
+    reader = reader_of(video, scene, decoder, readout_tolerance)
     for frame in video:
         film_progress = reader.add(frame)
         if progress is not None:
             progress(film_progress)
     return reader.reading()
+
+
+def reader_of(
+    video: Video,
+    scene: Scene,
+    decoder: str = PAPER_DECODER,
+    readout_tolerance: float = READOUT_TOLERANCE,
+) -> "VideoReader":
+    """Return a reader of a film's frames; arguments and errors as for :func:`decode_video`."""
+    reader = VideoReader(
+        scene_of_frames(video, scene), decoder, readout_tolerance=readout_tolerance
+    )
+    reader.time_step = video.times.resolution
+    if video.line_step > 1:
+        reader.notes = (_INTERLACED,)
+    return reader
+
+
+def scene_of_frames(video: Video, scene: Scene) -> Scene:
+    """Return a scene for the frames of a film: a field takes longer from line to line."""
+    if video.line_step == 1:
+        return scene
+    return scene.replace(readout_time=video.line_step * scene.camera.readout_time)
 
 
 def decode_frames(
@@ -139,6 +166,7 @@ class VideoReader:
         self._white: float | None = None  # the value of white in the first frame
         self._completing_frame: int | None = None
         self._payload, self._faults = "", Faults()
+        self.notes: tuple[str, ...] = ()  # Sentences on the film that precede the problems found
 
     @property
     def time_step(self) -> float:
@@ -211,7 +239,10 @@ class VideoReader:
             complete_at=None if number is None else placed.frames[number].reading.time,
             duration=0.0 if times is None else sum(part.duration for part in times.parts),
             failure=failure,
-            problems=self._describe_problems(times) if clock is None else clock.problems,
+            problems=(
+                *self.notes,
+                *(self._describe_problems(times) if clock is None else clock.problems),
+            ),
             faults=str(self._faults),
             complete_after=None
             if number is None or times is None or placed.clock is None

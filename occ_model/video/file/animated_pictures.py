@@ -14,7 +14,7 @@ from pathlib import Path
 
 import cv2
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import Samples
 from occ_model.errors import OutputError
 
 _LARGEST_SIDE = 65_535
@@ -28,7 +28,7 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _MAX_DELAY_PART = 65_535  # largest numerator or denominator of a frame's delay
 
 
-def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
+def write_gif(path: Path, pictures: Iterator[Samples], rate: float, note: str) -> int:
     """Write grey or coloured pictures, with a note as the comment; return their number.
 
     Times, not the steps between frames, are rounded to 1/100 s, so that errors do not add up.
@@ -58,7 +58,7 @@ def _split_into_blocks(content: bytes) -> bytes:
     return b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
 
 
-def _encode_gif(picture: ByteArray) -> bytes:
+def _encode_gif(picture: Samples) -> bytes:
     from PIL import Image
 
     buffer = BytesIO()
@@ -74,7 +74,7 @@ def _encode_gif(picture: ByteArray) -> bytes:
     return bytes(description) + table + pixels
 
 
-def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
+def write_png(path: Path, pictures: Iterator[Samples], rate: float, note: str) -> int:
     """Write grey or coloured pictures, with a note as text ``Description``; return their number."""
     delay = (1 / Fraction(rate)).limit_denominator(_MAX_DELAY_PART)
     count = sequence = count_position = 0
@@ -112,7 +112,7 @@ def _chunk(name: bytes, content: bytes) -> bytes:
     return struct.pack(">I4s", len(content), name) + content + struct.pack(">I", check)
 
 
-def _encode_png(picture: ByteArray) -> tuple[bytes, bytes]:
+def _encode_png(picture: Samples) -> tuple[bytes, bytes]:
     """Encode one picture; return the contents of its header and its compressed pixels."""
     bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR) if picture.ndim == 3 else picture
     encoded = cv2.imencode(".png", bgr)[1].tobytes()

@@ -13,18 +13,17 @@ import sys
 import threading
 import time
 from contextlib import suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import IO, Any
 
 DECODER_OPTION = "--decoder-of-films"  # starts a bundled program as a decoder
 MOST_MEMORY = 400_000_000  # bytes for decoding, beyond those in use at the process's start
-_BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to continue: four coloured frames
 LONGEST_REQUEST = 4.0  # maximum processor time of a request in seconds
 TIMEOUT_CODE = 21  # exit code of a process that took too long
 
 HEADER = struct.Struct("<II")  # precedes each answer: numbers of bytes of JSON and of pixels
 NO_MEMORY = "decoding it takes more memory than is allowed."  # end of a sentence
-_NO_MEMORY_LEFT = -4  # OpenCV's error code for lack of memory, ``cv2.Error.StsNoMem``
 _CHECK_SECONDS = 0.2  # seconds between checks of the processor time
 
 
@@ -64,11 +63,11 @@ def main() -> None:
     with Path(os.devnull).open("r+b") as nowhere:
         os.dup2(nowhere.fileno(), 1)
         os.dup2(nowhere.fileno(), 2)
-    from occ_model.video.file.source import FrameSource, OpenCvSource, PillowSource
+    from occ_model.video.file.av_source import AvSource
+    from occ_model.video.file.pillow_source import PillowSource
 
     _limit_memory()
-    kinds: dict[str, type[FrameSource]] = {"opencv": OpenCvSource, "pillow": PillowSource}
-    responder = _Responder(kinds)
+    responder = _Responder(PillowSource, AvSource)
     watch = _Watch()
     with suppress(BrokenPipeError):
         # A bundled program without a console has no sys.stdin.
@@ -84,8 +83,8 @@ def main() -> None:
 class _Responder:
     """Answers requests about one film at a time."""
 
-    def __init__(self, kinds: dict[str, Any]) -> None:
-        self._kinds = kinds
+    def __init__(self, pillow: Any, ffmpeg: Any) -> None:
+        self._pillow, self._ffmpeg = pillow, ffmpeg
         self._source: Any = None
 
     @property
@@ -100,7 +99,7 @@ class _Responder:
         except VideoError as error:
             return {"refused": str(error)}, None
         except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files
-            if isinstance(error, MemoryError) or getattr(error, "code", 0) == _NO_MEMORY_LEFT:
+            if isinstance(error, MemoryError):
                 return {"refused": NO_MEMORY}, None
             return {"refused": f"decoding it failed ({type(error).__name__})."}, None
 
@@ -111,21 +110,30 @@ class _Responder:
         if request["do"] == "close":
             return {}, None
         if request["do"] == "open":
-            kind = self._kinds[request["reader"]]
-            self._source = source = kind(Path(request["path"]), request["channel"])
-            return {"rate": source.frame_rate, "count": source.frame_count}, None
+            path, channel, reader = Path(request["path"]), request["channel"], request["reader"]
+            self._source = (
+                self._pillow(path, channel)
+                if reader == "pillow"
+                else self._ffmpeg(path, channel, reader)
+            )
+            return asdict(self._source.facts), None
         if request["do"] == "skip":
             skipped = 0
             while skipped < request["frames"] and self._source.skip():
                 skipped += 1
             return {"skipped": skipped}, None
         if request["do"] == "seek":
-            frame = self._source.seek(request["index"], request["time"], request["within"])
-        else:
-            frame = self._source.read()
+            return {"next": self._source.seek(request["index"])}, None
+        frame = self._source.read()
         if frame is None:
-            return {"end": True, "full": _is_memory_full(self._source)}, None
-        return {"time": frame.time, "shape": frame.pixels.shape}, frame.pixels
+            is_full = _is_memory_full(self._source.pixels)
+            return {"end": True, "full": is_full, "damaged": self._source.damaged}, None
+        return {
+            "time": frame.time,
+            "shape": frame.pixels.shape,
+            "type": frame.pixels.dtype.str,
+            "first": frame.first_line,
+        }, frame.pixels
 
 
 def _send(answers: IO[bytes], answer: dict[str, Any], pixels: Any) -> None:
@@ -162,12 +170,11 @@ def _count_data_bytes() -> int:
     return 0
 
 
-def _is_memory_full(source: Any) -> bool:
-    """Return whether a few more frames would exceed the memory, since FFmpeg gives no reason."""
-    import numpy as np
+def _is_memory_full(pixels: int) -> bool:
+    from occ_model.video.file.source import check_memory
 
     try:
-        np.empty(_BYTES_A_PIXEL_LEFT * source.pixels, np.uint8)
+        check_memory(pixels)
     except MemoryError:
         return True
     return False

@@ -14,7 +14,7 @@ import numpy as np
 
 from occ_model.errors import VideoError
 from occ_model.video.file.decoder_main import DECODER_OPTION, HEADER, TIMEOUT_CODE
-from occ_model.video.file.source import StoredFrame
+from occ_model.video.file.source import FilmFacts, StoredFrame
 
 _PACKAGES = Path(__file__).resolve().parents[3]  # the folder that contains this package
 
@@ -22,16 +22,10 @@ START = "import sys; sys.path.insert(0, sys.argv[1]); " \
     "from occ_model.video.file.decoder_main import main; main()"  # fmt: skip
 
 _ENVIRONMENT = {
-    "OPENCV_FFMPEG_LOGLEVEL": "-8",
-    "OPENCV_LOG_LEVEL": "SILENT",
     # Threads take memory, and FFmpeg decodes with its own threads.
     "OPENBLAS_NUM_THREADS": "1",
     "OMP_NUM_THREADS": "1",
 }
-
-
-OpenedFilm = tuple[float | None, int | None]
-"""Frame rate and number of frames as stated by a film; None if it does not state them."""
 
 
 class DecoderStoppedError(Exception):
@@ -41,7 +35,8 @@ class DecoderStoppedError(Exception):
 class DecoderProcess:
     """A process that decodes one film at a time, and always the next frame in advance.
 
-    ``is_full``: whether the film ended without memory for more frames.
+    ``is_full``: whether the film ended without memory for more frames. ``damaged``: the number of
+    its parts that could not be decoded, or not completely, if it was read from its start.
     """
 
     def __init__(self) -> None:
@@ -54,16 +49,16 @@ class DecoderProcess:
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
         self._has_advance_request = False
-        self.is_full = False
+        self.is_full, self.damaged = False, 0
         self.end = weakref.finalize(self, _end, process)
 
-    def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
-        """Open a film; return its frame rate and count. A VideoError is the end of a sentence."""
+    def open(self, path: Path, reader: str, channel: str) -> FilmFacts:
+        """Open a film; return what it states. A VideoError is the end of a sentence."""
         self._discard_advance_answer()
         answer, _ = self._ask(
             {"do": "open", "path": str(path.resolve()), "reader": reader, "channel": channel}
         )
-        return answer["rate"], answer["count"]
+        return FilmFacts(**answer)
 
     def read(self) -> StoredFrame | None:
         """Return the next frame, None after the last, and request the one after it in advance.
@@ -75,7 +70,7 @@ class DecoderProcess:
         self._has_advance_request = False
         answer, pixels = self._receive()
         frame = _parse_frame(answer, pixels)
-        self.is_full = bool(answer.get("full"))
+        self.is_full, self.damaged = bool(answer.get("full")), int(answer.get("damaged", 0))
         if frame is not None:
             self._send({"do": "read"})
             self._has_advance_request = True
@@ -98,12 +93,11 @@ class DecoderProcess:
                 break
         return skipped
 
-    def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Return a frame by its number if its time is ``within`` seconds of ``time``; else None."""
+    def seek(self, index: int) -> bool:
+        """Go to the frame with a number; return False if it cannot be found."""
         self._discard_advance_answer()
-        return _parse_frame(
-            *self._ask({"do": "seek", "index": index, "time": time, "within": within})
-        )
+        found: int | None = self._ask({"do": "seek", "index": index})[0]["next"]
+        return found is not None and self.skip(index - found) == index - found
 
     def close_film(self) -> None:
         """Close the open film and free its memory."""
@@ -203,8 +197,8 @@ def put_back(decoder: DecoderProcess) -> None:
 def _parse_frame(answer: dict[str, Any], pixels: bytearray) -> StoredFrame | None:
     if "time" not in answer:
         return None
-    image = np.frombuffer(pixels, np.uint8).reshape(answer["shape"])
-    return StoredFrame(float(answer["time"]), image)
+    image = np.frombuffer(pixels, answer["type"]).reshape(answer["shape"])
+    return StoredFrame(float(answer["time"]), image, float(answer["first"]))
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:

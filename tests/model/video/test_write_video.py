@@ -1,7 +1,6 @@
 """A film written to a file is complete, can be opened, and states how it was made."""
 
 import resource
-import shutil
 import struct
 import tracemalloc
 from collections.abc import Generator
@@ -109,7 +108,7 @@ def test_rounding_errors_of_a_gif_films_times_do_not_add_up(tmp_path: Path) -> N
 
 def test_a_film_of_odd_size_keeps_it_if_the_codec_can(tmp_path: Path) -> None:
     odd = [stripes(n, 45, 63) for n in range(2)]
-    for ending, shape in [(".png", (45, 63)), (".gif", (45, 63)), (".mkv", (44, 62))]:
+    for ending, shape in [(".png", (45, 63)), (".gif", (45, 63)), (".mkv", (45, 63))]:
         path = tmp_path / f"film{ending}"
         write_frames(path, odd, 25.0, "")
         image = occ.load_video(path, "columns").frame(1).image
@@ -261,17 +260,6 @@ def test_a_briefly_full_disk_leaves_only_the_older_file(
     assert capfd.readouterr() == ("", "")
 
 
-def test_no_more_frames_are_requested_when_the_disk_is_full(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Simulating a film can take hours, and OpenCV does not report a full disk."""
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(9, 9, 0))
-    pictures = iter([stripes(0)] * 5)
-    with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
-        write_frames(tmp_path / "a.mkv", pictures, 30.0, "")
-    assert len(list(pictures)) == 4
-
-
 @pytest.mark.parametrize("ending", FILM_ENDINGS)
 @pytest.mark.parametrize(
     ("frames", "words"),
@@ -308,9 +296,9 @@ def test_a_rate_is_refused_before_any_work_or_the_film_is_written(
 
 def test_a_film_of_one_row_is_refused_in_its_own_size(tmp_path: Path) -> None:
     low = occ.render_video(SCENE.replace(rows=1), 2)
-    for ending in (".mkv", ".mp4"):
-        with pytest.raises(
-            occ.OutputError, match=r"cannot have 160 x 1 pixels; allowed in an M.. file: from 2 a"
-        ):
-            occ.write_video(low, tmp_path / f"a{ending}")
-    assert occ.write_video(low, tmp_path / "a.gif") == 2
+    with pytest.raises(
+        occ.OutputError, match=r"cannot have 160 x 1 pixels; allowed in an MP4 file: from 2 a side"
+    ):
+        occ.write_video(low, tmp_path / "a.mp4")
+    for ending in LOSSLESS:
+        assert occ.write_video(low, tmp_path / f"a{ending}") == 2

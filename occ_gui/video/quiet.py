@@ -1,4 +1,4 @@
-"""Keep OpenCV and its FFmpeg from printing, because errors are reported in sentences."""
+"""Keep OpenCV from printing, because errors are reported in sentences."""
 
 import os
 from collections.abc import Iterator

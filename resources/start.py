@@ -261,7 +261,9 @@ def install_project(python: str, extras: Iterable[str]) -> None:
     say(f"Installing the project into .venv ({occasion}, a minute or two) ...")
     STAMP.unlink(missing_ok=True)  # a pip that is stopped half-way must run again
     target = f".[{','.join(sorted(extras))}]"
-    pip = [str(PYTHON), "-m", "pip", "install", *uncompiled(extras), "-e", target]
+    # Without a wheel of PyAV for this Python and system, pip says so; building takes all of FFmpeg.
+    wheels = ["--only-binary", "av"]
+    pip = [str(PYTHON), "-m", "pip", "install", *uncompiled(extras), *wheels, "-e", target]
     if not run_visibly(pip, PIP_DISABLE_PIP_VERSION_CHECK="1"):
         raise SetUpError(
             "pip could not install the project; its own words are above. "

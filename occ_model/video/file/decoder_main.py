@@ -63,11 +63,15 @@ def main() -> None:
     with Path(os.devnull).open("r+b") as nowhere:
         os.dup2(nowhere.fileno(), 1)
         os.dup2(nowhere.fileno(), 2)
-    from occ_model.video.file.av_source import AvSource
     from occ_model.video.file.pillow_source import PillowSource
 
+    ffmpeg: Any = _refuse_without_pyav
+    with suppress(ImportError):
+        from occ_model.video.file.av_source import AvSource
+
+        ffmpeg = AvSource
     _limit_memory()
-    responder = _Responder(PillowSource, AvSource)
+    responder = _Responder(PillowSource, ffmpeg)
     watch = _Watch()
     with suppress(BrokenPipeError):
         # A bundled program without a console has no sys.stdin.
@@ -78,6 +82,12 @@ def main() -> None:
             _send(answers, answer, pixels)
     # Skip the decoders' clean-up, which may wait for their threads.
     os._exit(0)
+
+
+def _refuse_without_pyav(*_arguments: object) -> None:
+    from occ_model.errors import VideoError
+
+    raise VideoError("the package av, which reads films, cannot be imported: pip install av.")
 
 
 class _Responder:

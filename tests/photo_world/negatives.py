@@ -236,7 +236,7 @@ def negative(seed: int) -> tuple[str, occ.Photo]:
     """Make a picture without the stripes of an LED: what it shows, and the picture."""
     random = np.random.default_rng((911, seed))
     kind = KINDS[seed % len(KINDS)]
-    return kind.__name__, as_loaded(_photographed(kind(random), random))
+    return kind.__name__, as_loaded(photographed(kind(random), random))
 
 
 def as_loaded(image: ByteArray) -> occ.Photo:
@@ -244,7 +244,7 @@ def as_loaded(image: ByteArray) -> occ.Photo:
     return photo_of(np.ascontiguousarray(image.T) if stripes_are_lines(image, False) else image)
 
 
-def _photographed(light: FloatArray, random: Random) -> ByteArray:
+def photographed(light: FloatArray, random: Random) -> ByteArray:
     """Turn, shade, blur, expose and compress a picture."""
     rows, columns = light.shape
     angle = float(

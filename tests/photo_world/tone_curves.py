@@ -1,5 +1,6 @@
 """Tone curves of cameras: from light, 0 to 1, to pixel values, 0 to 1."""
 
+import math
 from collections.abc import Callable
 from functools import partial
 
@@ -34,6 +35,17 @@ def _shoulder(light: np.ndarray, knee: float) -> np.ndarray:
     return _power(light * (1.0 + knee) / (light + knee), 2.2)
 
 
+def _logarithmic(light: np.ndarray, strength: float) -> np.ndarray:
+    return np.asarray(np.log1p(strength * light) / math.log1p(strength))
+
+
+def _phone(light: np.ndarray, strength: float, black: float) -> np.ndarray:
+    """Put an S on sRGB, and cut its darkest levels off, as the pictures of phones do."""
+    value = _srgb(light)
+    value = (1.0 - strength) * value + strength * value**2 * (3.0 - 2.0 * value)
+    return np.asarray(np.clip((value - black) / (1.0 - black), 0.0, 1.0))
+
+
 def power(gamma: float) -> Curve:
     """Return the curve of a plain gamma."""
     return partial(_power, gamma=gamma)
@@ -51,3 +63,15 @@ def unknown_curve(random: np.random.Generator) -> Curve:
     if kind == 3:
         return partial(_contrasty, strength=float(random.uniform(0.2, 0.8)))
     return partial(_shoulder, knee=float(random.uniform(0.6, 3.0)))
+
+
+def any_camera_curve(random: np.random.Generator) -> Curve:
+    """Draw an unknown curve, or one of two that are farther from a power."""
+    kind = random.random()
+    if kind < 0.15:
+        return partial(_logarithmic, strength=float(random.uniform(5.0, 60.0)))
+    if kind < 0.4:
+        return partial(
+            _phone, strength=float(random.uniform(0.0, 0.7)), black=float(random.uniform(0.0, 0.06))
+        )
+    return unknown_curve(random)

@@ -22,18 +22,20 @@ from occ_model.photo.lamp_fit.model import (
     Levels,
     envelope_basis,
 )
+from occ_model.photo.lamp_fit.products import products_of
 from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.wave import Wave
 
 _MULTIPLES = (1.0, 2.0, 3.0, 0.5)
 _SAME_PERIOD = 0.08  # relative difference up to which two starts are one
-_STIFFNESSES = (0.15, 0.6, 2.5)  # deviations of the envelope's bends; hot spots need the last
+_STIFFNESS, _OTHER_STIFFNESSES = 0.6, (0.25, 4.0)
+"""Deviation of the envelope's bends, and factors of it; hot spots need the last."""
+_FIRST_NOISE = 0.03, 0.02  # parts of the level and of the swing
 _MOST_KNOTS = 30
 _ROUNDING = 0.15 / 255.0  # noise that no profile is below
 
 _FITTED_STARTS = 3  # of the best, which are fitted to the end
-_ROUNDS = 3  # of noise, each with a fit
-_STEPS, _FIRST_STEPS = 25, 8
+_FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # of each round, after which the noise is estimated anew
 _LEAST_GAIN = 0.02
 _MOST_TRIES = 7
 _MOST_CORRELATION = 0.8
@@ -90,36 +92,48 @@ def fit_lamp(
                 abs(tried / other - 1.0) > _SAME_PERIOD for other in starts
             ):
                 starts.append(tried)
-    middle = _STIFFNESSES[1]
-    rough = [_fit(profile, period, middle, is_linear, 1, _FIRST_STEPS) for period in starts]
+    rough = [_from_period(profile, period, is_linear, _FIRST_STEPS) for period in starts]
     rough.sort(key=lambda fit: -fit.score)
-    found = rough[_FITTED_STARTS:]
-    for place, start in enumerate(rough[:_FITTED_STARTS]):
-        for stiffness in (middle,) if place else _STIFFNESSES:
-            found.append(_fit(profile, start.wave.period, stiffness, is_linear, _ROUNDS, _STEPS))
-    return sorted(found, key=lambda fit: -fit.score)
+    found = [
+        _from_period(profile, start.wave.period, is_linear, _STEPS)
+        for start in rough[:_FITTED_STARTS]
+    ]
+    if found:
+        best = max(found, key=lambda fit: fit.score)
+        found += [_with_stiffness(best, factor) for factor in _OTHER_STIFFNESSES]
+    return sorted([*found, *rough[_FITTED_STARTS:]], key=lambda fit: -fit.score)
+
+
+def _from_period(
+    profile: LampProfile, period: float, is_linear: bool, steps: Sequence[int]
+) -> LampFit:
+    """Fit from a period, in as many steps in each round of noise."""
+    count = len(profile.values)
+    knots = int(min(max(round(count / (0.9 * period)), 2), _MOST_KNOTS))
+    basis = envelope_basis(count, knots)
+    deviation = _STIFFNESS * min(1.0, (6.0 / knots) ** 1.5)
+    bending = np.diff(np.eye(basis.shape[1]), 2, axis=0) / deviation
+    model = Levels(profile.columns, basis, bending, is_linear)
+    return _fit(profile, model, _start(profile, model, period), _FIRST_NOISE, steps)
+
+
+def _with_stiffness(fit: LampFit, factor: float) -> LampFit:
+    """Fit further, with other deviations of the envelope's bends."""
+    model = replace(fit.model, bending=fit.model.bending / factor)
+    parts = _noise_parts(fit.profile, fit.levels, fit.noise, len(fit.values))
+    return _fit(fit.profile, model, fit.values, parts, _STEPS[1:])
 
 
 def _fit(
     profile: LampProfile,
-    period: float,
-    stiffness: float,
-    is_linear: bool,
-    rounds: int,
-    steps: int,
+    model: Levels,
+    values: FloatArray,
+    parts: tuple[float, float],
+    steps: Sequence[int],
 ) -> LampFit:
-    count = len(profile.values)
-    knots = int(min(max(round(count / (0.9 * period)), 2), _MOST_KNOTS))
-    basis = envelope_basis(count, knots)
-    size = basis.shape[1]
-    tau = stiffness * min(1.0, (6.0 / knots) ** 1.5)
-    bending = np.diff(np.eye(size), 2, axis=0) / tau
-    model = Levels(profile.columns, basis, bending, is_linear)
-    values = _start(profile, model, period)
-    parts = 0.03, 0.02  # of the level and of the swing
-    for _ in range(rounds):
+    for most in steps:
         noise = _noise(profile, model.levels(values), parts)
-        values = _minimize(profile, model, values, noise, steps)
+        values = _minimize(profile, model, values, noise, most)
         parts = _noise_parts(profile, model.levels(values), noise, len(values))
     noise = _noise(profile, model.levels(values), parts)
     return _described(LampFit(profile, model, values, np.empty(0), noise, 0.0))
@@ -216,7 +230,7 @@ def _equations(
     slopes = slopes / noise[:, None]
     slopes[profile.clipped & (off == 0.0)] = 0.0
     beliefs, of_beliefs = model.beliefs(values)
-    products = slopes.T @ slopes + of_beliefs.T @ of_beliefs
+    products = products_of(slopes) + products_of(of_beliefs)
     return products, slopes.T @ off + of_beliefs.T @ beliefs
 
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,7 +39,7 @@ MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3])
 """Largest steps of the parameters; that of the place is in periods."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Levels:
     """The model of a profile's levels, as fractions of white."""
 
@@ -64,13 +65,13 @@ class Levels:
 
     def levels(self, values: FloatArray) -> FloatArray:
         light = self._light(values, self.wave(values).values(self.columns))[0]
-        return self.tone(values).slopes(light)[0]
+        return self.tone(values).levels(light)
 
     def ends(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the levels where the wave is 0 and where it is 1."""
         tone, size = self.tone(values), len(self.columns)
         dark, lit = (
-            tone.slopes(self._light(values, np.full(size, wave))[0])[0] for wave in (0.0, 1.0)
+            tone.levels(self._light(values, np.full(size, wave))[0]) for wave in (0.0, 1.0)
         )
         return dark, lit
 
@@ -78,7 +79,8 @@ class Levels:
         """Return the levels and their slopes, shapes (n,) and (n, parameters)."""
         wave, by_wave = self.wave(values).slopes(self.columns)
         light, brightness, scale = self._light(values, wave)
-        level, by_light, by_tone = self.tone(values).slopes(light)
+        tone = self.tone(values)
+        by_light, by_tone = tone.slopes(light)
         floor, steep = self.floor(values), _FLOOR_SCALE * math.cosh(values[FLOOR])
         by_floor = brightness * (scale - math.copysign(scale * scale, floor) * (wave + floor))
         by_envelope = by_light * (light - values[AMBIENT])
@@ -89,7 +91,7 @@ class Levels:
             by_tone,
             by_envelope * self.envelope.T,
         ])  # fmt: skip
-        return level, slopes.T
+        return tone.levels(light), slopes.T
 
     def _light(self, values: FloatArray, wave: FloatArray) -> tuple[FloatArray, FloatArray, float]:
         log = np.clip(self.envelope @ values[COUNT:], -_LARGEST_LOG, _LARGEST_LOG)
@@ -99,17 +101,18 @@ class Levels:
 
     def beliefs(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what contradicts the priors, in standard deviations, and its slopes."""
-        priors = self.priors
-        places = list(priors)
-        means, deviations = np.array(list(priors.values())).T
-        own = np.zeros((len(places), len(values)))
-        own[np.arange(len(places)), places] = 1.0 / deviations
-        bending = np.zeros((len(self.bending), len(values)))
-        bending[:, COUNT:] = self.bending
-        slopes = np.concatenate([own, bending])
-        return np.concatenate(
-            [(values[places] - means) / deviations, self.bending @ values[COUNT:]]
-        ), slopes
+        means, slopes = self._linear_beliefs
+        return slopes @ values - means, slopes
+
+    @cached_property
+    def _linear_beliefs(self) -> tuple[FloatArray, FloatArray]:
+        places = list(self.priors)
+        means, deviations = np.array(list(self.priors.values())).T
+        bends, splines = self.bending.shape
+        slopes = np.zeros((len(places) + bends, COUNT + splines))
+        slopes[np.arange(len(places)), places] = 1.0 / deviations
+        slopes[len(places) :, COUNT:] = self.bending
+        return np.concatenate([means / deviations, np.zeros(bends)]), slopes
 
 
 def envelope_basis(count: int, knots: int) -> FloatArray:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.photo.lamp_fit.products import products_of
 
 _LEAST_PERIOD = 3.0  # columns
 _LEAST_PERIODS = 1.3  # in view
@@ -71,7 +72,7 @@ def _gain(values: FloatArray, trends: FloatArray, frequency: float) -> float:
 
 def _residual(values: FloatArray, parts: FloatArray) -> float:
     # The normal equations are fast, and exact enough to rank periods.
-    products = parts.T @ parts
+    products = products_of(parts)
     products.flat[:: len(products) + 1] *= 1.0 + 1e-9
     off = np.asarray(values - parts @ np.linalg.solve(products, parts.T @ values), np.float64)
     return float(np.sum(off * off))

@@ -10,11 +10,6 @@ from occ_model.arrays import FloatArray
 LEAST_RAMP = 0.02  # columns; a steeper ramp cannot be told from a step
 _REACH = 4.0  # deviations of the blur beyond which it is not computed
 
-# A trapezoid is the sum of four bent lines: the side of their bend, its place on the ramp, its sign
-_SIDES = np.array([1.0, 1.0, -1.0, -1.0])
-_ON_RAMP = np.array([0.5, -0.5, 0.5, -0.5])
-_SIGNS = np.array([1.0, -1.0, -1.0, 1.0])
-
 
 @dataclass(frozen=True, slots=True)
 class Wave:
@@ -36,8 +31,13 @@ class Wave:
 
     def values(self, columns: FloatArray) -> FloatArray:
         """Return the light, 0 between the pulses and 1 on them, where these are not blurred."""
-        _, ends, below, bell = self._lines(columns)
-        return np.asarray(self._sum(_SIGNS, ends * below + self.blur * bell) / self.ramp_columns)
+        _, off = self._places(columns)
+        away, total = np.abs(off), np.zeros(len(columns))
+        ramps = self._ramps()
+        for side, pulse, _ in ramps:
+            ends, below, bell = self._bends(side, pulse, away)
+            total += ends[0] * below[0] - ends[1] * below[1] + self.blur * (bell[0] - bell[1])
+        return np.asarray(total / self.ramp_columns - sum(whole for *_, whole in ramps))
 
     def slopes(self, columns: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the light and its slopes over the five parameters, shapes (n,) and (5, n).
@@ -45,39 +45,64 @@ class Wave:
         The first slope is over the period's logarithm, the third and fourth over the width's and
         the ramp's logits, the last over the blur's logarithm.
         """
-        pulses, ends, below, bell = self._lines(columns)
-        width, ramp, period = self.width, self.ramp_columns, self.period
-        values = self._sum(_SIGNS, ends * below + self.blur * bell) / ramp
-        by_width = 0.5 * width * period * self._sum(_SIGNS * _SIDES, below) / ramp
-        by_period = by_width - period * self._sum(_SIGNS, below * pulses) / ramp
+        pulses, off = self._places(columns)
+        away, width, ramp, period = np.abs(off), self.width, self.ramp_columns, self.period
+        ramps = self._ramps()
+        values = np.full(len(columns), -sum(whole for *_, whole in ramps))
+        by_away, by_half, by_pulse, by_ramp, by_blur = np.zeros((5, len(columns)))
+        for side, pulse, _ in ramps:
+            ends, below, bell = self._bends(side, pulse, away)
+            bells = (bell[0] - bell[1]) * (self.blur / ramp)
+            part = (ends[0] * below[0] - ends[1] * below[1]) / ramp + bells
+            steep = (below[0] - below[1]) / ramp
+            values += part
+            by_half += steep
+            by_away += side * steep
+            by_pulse += pulse * steep
+            by_ramp += 0.5 * (below[0] + below[1]) - part  # over its logarithm
+            by_blur += bells
+        by_place = -np.sign(off) * by_away
+        by_width = 0.5 * width * period * by_half
+        by_period = by_width + period * (pulses * by_place + by_pulse)
         by_width = by_width * (1.0 - width)
-        by_shape = np.zeros_like(values)
+        by_shape = np.zeros(len(columns))
         if ramp > LEAST_RAMP:
-            by_ramp = self._sum(_SIGNS * _ON_RAMP, below) - values  # over its logarithm
             by_period = by_period + by_ramp
             by_width = by_width + by_ramp * (1.0 - width if width < 0.5 else -width)
             by_shape = by_ramp * (1.0 - self.ramp)
-        by_place = -self._sum(_SIGNS, below) / ramp
-        by_blur = self.blur * self._sum(_SIGNS, bell) / ramp
         return values, np.stack([by_period, by_place, by_width, by_shape, by_blur])
 
-    def _lines(self, columns: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return the bent lines of the pulses near each column, shapes (4, pulses, n).
+    def _places(self, columns: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the number of the pulse nearest to each column, and how far off its middle is."""
+        pulses = np.rint((columns - self.place) / self.period)
+        return pulses, columns - self.place - pulses * self.period
 
-        Numbers of the pulses, distances past each bend, and the normal distribution and its density
-        there.
+    def _ramps(self) -> list[tuple[float, float, float]]:
+        """Return the ramps that reach columns within half a period of a pulse's middle.
+
+        Each by its side of a pulse (-1 falls away from the middle of the nearest pulse, 1 rises),
+        the pulses that it is away, and its light there without it, which is taken off.
+        """
+        half, period = 0.5 * self.width * self.period, self.period
+        reach = 0.5 * self.ramp_columns + _REACH * self.blur
+        beside = (
+            (1.0, 0.0, 1.0, half), (1.0, -1.0, 0.0, 0.5 * period - half),
+            (-1.0, 1.0, 1.0, 0.5 * period + half), (-1.0, -1.0, 0.0, period - half),
+        )  # fmt: skip
+        near = [(side, pulse, whole) for side, pulse, whole, away in beside if away < reach]
+        return [(-1.0, 0.0, 0.0), *near]
+
+    def _bends(
+        self, side: float, pulse: float, away: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the two bent lines whose difference is a ramp, shapes (2, n).
+
+        Distances past each bend, and the normal distribution and its density there.
         """
         from scipy.special import ndtr  # slow to import, and needed only for photos
 
-        half = 0.5 * self.width * self.period
-        beside = 1 if _REACH * self.blur + half + self.ramp_columns < self.period else 2
-        pulses = np.rint((columns - self.place) / self.period)
-        pulses = pulses + np.arange(-beside, beside + 1.0)[:, None]
-        off = columns - self.place - pulses * self.period
-        ends = off + (_SIDES * half + _ON_RAMP * self.ramp_columns)[:, None, None]
+        ends = side * away + (0.5 * self.width + pulse) * self.period
+        ends = ends + 0.5 * self.ramp_columns * np.array([[1.0], [-1.0]])
         scaled = ends / self.blur
         bell = np.exp(-0.5 * scaled * scaled) / math.sqrt(2.0 * math.pi)
-        return pulses, ends, np.asarray(ndtr(scaled)), bell
-
-    def _sum(self, weights: FloatArray, lines: FloatArray) -> FloatArray:
-        return np.asarray(np.tensordot(weights, lines.sum(axis=1), 1))
+        return ends, np.asarray(ndtr(scaled)), bell

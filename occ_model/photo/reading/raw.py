@@ -12,16 +12,21 @@ unlike in a plane of half the lines.
 
 import os
 from contextlib import suppress
-from dataclasses import dataclass
-from itertools import chain
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Literal
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.camera.pixel_arrays import Samples
 from occ_model.errors import PhotoError, one_line
+from occ_model.photo.reading.dng import (
+    BlackLevel,
+    black_of_lines,
+    has_sensor_samples,
+    is_jpeg_xl,
+)
 from occ_model.photo.reading.exif import (
     EXIF_IFD,
     EXPOSURE_TIME,
@@ -31,9 +36,10 @@ from occ_model.photo.reading.exif import (
     notes_of,
 )
 from occ_model.photo.reading.image_decoding import DECODED_FRACTION
+from occ_model.photo.reading.levels import Levels
 from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
 from occ_model.photo.reading.stderr import no_stderr
-from occ_model.photo.reading.tiff import STARTS, Entry, directories, has_short_tags
+from occ_model.photo.reading.tiff import STARTS, has_short_tags
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -46,15 +52,14 @@ _RAW_STARTS = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILMCCD-RAW", b"FOVb")
 
 _CR3 = b"ftypcrx "  # bytes 4 to 11 of Canon's newer files
 
-_PHOTOMETRIC, _DNG_VERSION = 262, 50706
-_SENSOR_SAMPLES = (32803, 34892)  # TIFF/EP's and DNG's: a colour filter array, linear samples
-
 _GREEN = b"G"[0]
 _ANY = "brightest"
 _NO_COLOUR = 6  # LibRaw's colour number for a sensor without filters
 
 _ORIENTATIONS = {0: 1, 1: 2, 2: 4, 3: 3, 4: 5, 5: 8, 6: 6, 7: 7}
 """The EXIF orientation for LibRaw's flip: bit 0 mirrors columns, bit 1 rows, bit 2 transposes."""
+
+_LINES_AT_ONCE = 128  # of which the light is computed
 
 WHITE_SAMPLE = 65535  # the sample value of the sensor's white level
 
@@ -66,8 +71,8 @@ class Mosaic:
     photosites: NDArray[np.uint16]  # Values as stored by the camera, shape (lines, columns)
     # Whether each photosite of a square of four is green, shape (2, 2); all of them without colours
     is_green: NDArray[np.bool_]
-    # The black and the white level of each photosite of a square, shape (2, 2, 2)
-    levels: NDArray[np.float64]
+    black: BlackLevel
+    white: float  # The white level of the photosites that are read
     notes: CameraNotes
     orientation: int  # The EXIF orientation, which is not applied to the photosites
 
@@ -76,9 +81,9 @@ class Mosaic:
         return "grey" if self.is_green.all() else "green"
 
     def one_plane(self) -> Samples:
-        """Return one green photosite of each square of four, shape (lines / 2, columns / 2)."""
+        """Return the light of one green photosite of each square of four."""
         row, column = np.argwhere(self.is_green)[0].tolist()
-        return np.ascontiguousarray(self.photosites[row::2, column::2])
+        return self._light(row, column)
 
     def samples(self, along_lines: bool) -> Samples:
         """Return the light as a linear picture, shape (lines, columns); 65535 is white.
@@ -87,20 +92,40 @@ class Mosaic:
         of a column. A photosite of another colour gets the value of its green neighbour of the same
         time.
         """
-        photosites, is_green, levels = self.photosites, self.is_green, self.levels
         if not along_lines:
-            photosites, is_green, levels = photosites.T, is_green.T, levels.transpose(0, 2, 1)
-        picture = np.empty(photosites.shape, np.uint16, order="C" if along_lines else "F")
+            transposed = replace(
+                self,
+                photosites=self.photosites.T,
+                is_green=self.is_green.T,
+                black=self.black.transposed,
+            )
+            return transposed.samples(along_lines=True).T
+        picture = np.empty(self.photosites.shape, np.uint16)
         for row, column in np.ndindex(2, 2):
             target = picture[row::2, column::2]
-            green_column = column if is_green[row, column] else 1 - column
-            light = _tabulate_light(*levels[:, row, green_column].tolist())
-            values = light[photosites[row::2, green_column::2]]
-            width = min(target.shape[1], values.shape[1])
-            target[:, :width] = values[:, :width]
+            light = self._light(row, column if self.is_green[row, column] else 1 - column)
+            width = min(target.shape[1], light.shape[1])
+            target[:, :width] = light[:, :width]
             # In an odd number of columns, the last one's green neighbour is on the other side.
-            target[:, width:] = values[:, -1:]
-        return picture if along_lines else picture.T
+            target[:, width:] = light[:, -1:]
+        return picture
+
+    def _light(self, row: int, column: int) -> Samples:
+        """Return the light of a photosite of each square of four."""
+        values = self.photosites[row::2, column::2]
+        height, width = self.photosites.shape
+        lines, columns = np.arange(row, height, 2), np.arange(column, width, 2)
+        # All lines are amplified alike, so the largest black level tells the range of all.
+        span = self.white - self.black.largest
+        if self.black.is_of_squares:
+            level = self.black.at(np.array([row]), np.array([column])).item()
+            return Levels(level, level + span).tabulate(WHITE_SAMPLE)[values]
+        light = np.empty(values.shape, np.uint16)
+        for first in range(0, len(values), _LINES_AT_ONCE):
+            part = slice(first, first + _LINES_AT_ONCE)
+            fraction = (values[part] - self.black.at(lines[part], columns)) / span
+            light[part] = np.rint(np.clip(fraction, 0.0, 1.0) * WHITE_SAMPLE)
+        return light
 
 
 def is_raw(file: IO[bytes]) -> bool:
@@ -109,17 +134,7 @@ def is_raw(file: IO[bytes]) -> bool:
     start = file.read(16)
     if start.startswith(_RAW_STARTS) or start[4:12] == _CR3:
         return True
-    if not start.startswith(STARTS):
-        return False
-    order: Literal["little", "big"] = "little" if start.startswith(b"II") else "big"
-    entries = chain.from_iterable(directories(file))
-    return start[8:10] == b"CR" or any(_is_of_a_sensor(entry, order) for entry in entries)
-
-
-def _is_of_a_sensor(entry: Entry, order: Literal["little", "big"]) -> bool:
-    # A number of 16 bits is in the first two of the four bytes.
-    value = int.from_bytes(entry.content[:2], order)
-    return entry.tag == _DNG_VERSION or (entry.tag == _PHOTOMETRIC and value in _SENSOR_SAMPLES)
+    return start.startswith(STARTS) and (start[8:10] == b"CR" or has_sensor_samples(file))
 
 
 def read_mosaic(
@@ -144,7 +159,12 @@ def read_mosaic(
         )
     size = os.fstat(file.fileno()).st_size
     check_file_size(path, "RAW", size)
-    notes = _tags_of(file)
+    if is_jpeg_xl(file):
+        raise PhotoError(
+            f"{name} cannot be read: its samples are compressed as JPEG XL; allowed: DNG without "
+            "compression or with that of JPEG."
+        )
+    tags = _tags_of(file)
     file.seek(0, os.SEEK_SET)
     file.watch(size, 0.0, 0.5 * DECODED_FRACTION)
     try:
@@ -155,7 +175,7 @@ def read_mosaic(
             check_bytes(path, width, height, _BYTES_A_PIXEL * width * height, size)
             raw.unpack()
             report(DECODED_FRACTION)
-            return _make_mosaic(name, raw, notes)
+            return _make_mosaic(name, file, raw, tags)
     except (rawpy.LibRawError, rawpy.NotSupportedError) as error:
         if report.ended_by is not None:
             raise report.ended_by from None
@@ -165,7 +185,7 @@ def read_mosaic(
         ) from None
 
 
-def _make_mosaic(name: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
+def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
     photosites = raw.raw_image_visible if raw.raw_type.name == "Flat" else None
     pattern = raw.raw_pattern if photosites is not None else None
     if photosites is None or pattern is None or photosites.dtype != np.uint16:
@@ -191,7 +211,16 @@ def _make_mosaic(name: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
             f"{name} cannot be read: its sensor's colours are in another pattern; allowed: a "
             "Bayer pattern, or a sensor without colours."
         )
-    levels = np.array([[_levels(name, raw, int(c)) for c in line] for line in colours])
+    white = min(_white_level(raw, colour) for colour in set(colours[is_green].tolist()))
+    black = black_of_lines(file, photosites.shape, (sizes.top_margin, sizes.left_margin))
+    if black is None:
+        levels = np.array(raw.black_level_per_channel, np.float64)[colours]
+        black = BlackLevel(levels, *(np.zeros(count) for count in photosites.shape))
+    if not 0.0 <= black.largest < white <= WHITE_SAMPLE:
+        raise PhotoError(
+            f"{name} cannot be read: the file is damaged (it states that black is "
+            f"{black.largest:g} and white {white:g})."
+        )
     metadata = raw.other
     tags_of_metadata = {
         EXPOSURE_TIME: metadata.shutter_speed,
@@ -201,24 +230,17 @@ def _make_mosaic(name: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
     return Mosaic(
         photosites=photosites.copy(),
         is_green=is_green,
-        levels=levels.transpose(2, 0, 1),
+        black=black,
+        white=white,
         notes=notes_of(tags_of_metadata | tags),
         orientation=_ORIENTATIONS.get(sizes.flip, 1),
     )
 
 
-def _levels(name: str, raw: "RawPy", colour: int) -> tuple[float, float]:
-    black = float(raw.black_level_per_channel[colour])
+def _white_level(raw: "RawPy", colour: int) -> float:
     white = float(raw.white_level)
     noted = raw.camera_white_level_per_channel
-    if noted is not None and 0 < noted[colour] < white:
-        white = float(noted[colour])
-    if not 0.0 <= black < white <= WHITE_SAMPLE:
-        raise PhotoError(
-            f"{name} cannot be read: the file is damaged (it states that black is {black:g} and "
-            f"white {white:g})."
-        )
-    return black, white
+    return float(noted[colour]) if noted is not None and 0 < noted[colour] < white else white
 
 
 def _tags_of(file: IO[bytes]) -> dict[int, Any]:
@@ -243,10 +265,3 @@ def _message_of(error: Exception) -> str:
     if isinstance(text, bytes):
         text = text.decode("utf-8", errors="replace")
     return one_line(str(text), 120)
-
-
-def _tabulate_light(black: float, white: float) -> NDArray[np.uint16]:
-    """Return the sample for every possible value of a photosite, shape (65536,)."""
-    fraction = np.clip((np.arange(65536) - black) / (white - black), 0.0, 1.0)
-    light: NDArray[np.uint16] = np.rint(fraction * WHITE_SAMPLE).astype(np.uint16)
-    return light

@@ -20,11 +20,17 @@ MOST_NUMBERS = 4_000_000
 """Numbers in a tag: the offsets of strips of one line, in four planes, of the longest picture."""
 
 
+_NUMBERS = {1: "B", 3: "H", 4: "L", 5: "2L", 8: "h", 9: "l", 10: "2l", 11: "f", 12: "d", 16: "Q"}
+"""Layouts of the value types that are numbers."""
+_FRACTIONS = (5, 10)
+
+
 class Entry(NamedTuple):
     tag: int
     kind: int
     number: int  # number of values
     content: bytes  # the values, or their offset if they take more bytes
+    order: str  # the byte order, as in a format of struct
 
 
 def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
@@ -50,12 +56,13 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
         count = sum(numbers(counter, 1, place))
         content = file.read(layout.size * min(count, _MOST_ENTRIES))
         complete = len(content) // layout.size * layout.size
-        return [Entry(*values) for values in layout.iter_unpack(content[:complete])]
+        entries = layout.iter_unpack(content[:complete])
+        return [Entry(tag, kind, number, start, order) for tag, kind, number, start in entries]
 
     offsets = [*numbers(offset, 1, 8 if is_big else 4)]
     first = directory(*offsets) if offsets else []
     yield first
-    for tag, kind, count, content in first:
+    for tag, kind, count, content, _ in first:
         if tag not in _DIRECTORY_TAGS or kind not in _OFFSETS:
             continue
         offset_layout, limit = _OFFSETS[kind], min(count, _MOST_DIRECTORIES)
@@ -66,6 +73,28 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
         if len(offsets) > _MOST_DIRECTORIES:
             break
     yield from map(directory, list(dict.fromkeys(offsets))[1 : _MOST_DIRECTORIES + 1])
+
+
+def numbers_of(file: IO[bytes], entry: Entry) -> list[float]:
+    """Read the numbers of an entry; none of another type.
+
+    ValueError is raised if they are beyond the end of the file.
+    """
+    if entry.kind not in _NUMBERS or entry.number > MOST_NUMBERS:
+        return []
+    layout = struct.Struct(entry.order + _NUMBERS[entry.kind])
+    size, content = layout.size * entry.number, entry.content
+    if size > len(content):
+        offset = "L" if len(content) == 4 else "Q"
+        (place,) = struct.unpack(entry.order + offset, content)
+        file.seek(place, os.SEEK_SET)
+        content = file.read(size)
+    if len(content) < size:
+        raise ValueError(f"tag {entry.tag} is incomplete")
+    numbers = layout.iter_unpack(content[:size])
+    if entry.kind in _FRACTIONS:
+        return [numerator / (denominator or 1) for numerator, denominator in numbers]
+    return [float(*number) for number in numbers]
 
 
 def has_short_tags(file: IO[bytes]) -> bool:

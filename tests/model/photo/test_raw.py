@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tifffile
+from numpy.typing import NDArray
 from raw_files import PATTERNS, light_of, mosaic_of, overwrite, written
 
 import occ_model as occ
@@ -112,6 +113,54 @@ def test_black_level_is_zero_and_white_level_is_saturated(tmp_path: Path) -> Non
     assert np.array_equal(np.unique(photo.samples[:, 20:40]), [65535])
     assert not photo.samples[:, :20].any()
     assert not photo.samples[:, 40:].any()
+
+
+def fractions(numbers: NDArray[np.float64]) -> tuple[int, ...]:
+    return tuple(part for number in numbers for part in (round(100 * number), 100))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("margins", [(0, 0), (2, 4)])
+def test_black_levels_of_lines_and_columns_leave_no_stripes(
+    tmp_path: Path, margins: tuple[int, int], turned: bool
+) -> None:
+    rng = np.random.default_rng(3)
+    lines, columns = 60, 80
+    of_lines, of_columns = rng.uniform(-20, 300, lines), rng.uniform(0, 40, columns)
+    repeated = np.array([[500, 510, 520], [530, 540, 550], [500, 560, 505], [515, 525, 535]])
+    black = np.tile(repeated, (lines, columns))[:lines, :columns]
+    black = black + of_lines[:, None] + of_columns
+    light = np.tile(rng.uniform(0, 0.8, columns if turned else lines), (lines, 1))
+    light = light[:, :columns] if turned else light[:, :lines].T.repeat(2, axis=1)[:, :columns]
+    mosaic = np.full((lines + margins[0], columns + margins[1]), 9, np.uint16)
+    scale = 16383 - black.max()
+    mosaic[margins[0] :, margins[1] :] = np.rint(black + light * scale)
+    tags = (
+        (50713, 3, 2, repeated.shape, True),
+        (50714, 3, repeated.size, tuple(repeated.ravel().tolist()), True),
+        (50715, 10, columns, fractions(of_columns), True),
+        (50716, 10, lines, fractions(of_lines), True),
+        (50829, 4, 4, (*margins, *mosaic.shape), True),
+    )
+    path = written(tmp_path / "x.dng", mosaic, bits=14, black=None, more_tags=tags)
+    photo = occ.load_photo(path, "columns" if turned else "lines")
+    samples = photo.samples if turned else photo.samples.T
+    assert np.ptp(samples.astype(int), axis=0 if turned else 1).max() <= 2 * 65535 / scale
+    assert np.abs(samples / 65535 - light).max() <= 2 / scale
+
+
+def test_too_few_black_levels_of_lines_are_damage(tmp_path: Path) -> None:
+    mosaic = np.full((40, 60), 500, np.uint16)
+    tags = ((50716, 10, 39, fractions(np.arange(39.0)), True),)
+    with pytest.raises(occ.PhotoError, match="tag 50716 has too few numbers"):
+        occ.load_photo(written(tmp_path / "x.dng", mosaic, more_tags=tags))
+
+
+def test_a_dng_in_jpeg_xl_is_named(tmp_path: Path) -> None:
+    path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
+    overwrite(path, Compression=52546)
+    with pytest.raises(occ.PhotoError, match="its samples are compressed as JPEG XL; allowed: DNG"):
+        occ.load_photo(path)
 
 
 def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path) -> None:

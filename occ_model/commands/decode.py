@@ -6,15 +6,22 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from occ_model.arrays import ByteArray
+from occ_model.commands.film_lines import (
+    Tolerances,
+    add_tolerances,
+    describe_slow_motion,
+    film_channel,
+    print_problems,
+    tolerances_of,
+)
 from occ_model.commands.options import (
     Commands,
-    add_option,
     add_scene_options,
     decoder_name,
     progress_bar,
     scene_of,
 )
-from occ_model.errors import ParameterError, inflect
+from occ_model.errors import inflect
 from occ_model.files.reading import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
@@ -30,8 +37,6 @@ from occ_model.scene.units import SECOND
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
 from occ_model.transmitter.scheme import check_code
-from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
-from occ_model.video.file.source import CHANNELS as FILM_CHANNELS
 from occ_model.video.load import load_video
 from occ_model.video.reader import decode_video
 
@@ -62,23 +67,16 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--follow", action="store_true", help="for a film: print what is known after each frame"
     )
-    add_option(
-        parser, "--readout-tolerance", 100.0 * READOUT_TOLERANCE,
-        "for a film: by how much the readout time may differ", metavar="PERCENT",
-    )  # fmt: skip
+    add_tolerances(parser)
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     check_code(scene.transmitter, instead="match its picture")
-    percent, largest = options.readout_tolerance, 100.0 * MOST_READOUT_TOLERANCE
-    if not 0.0 < percent <= largest:
-        raise ParameterError.of(
-            "--readout-tolerance", f"{percent:g} %", f"above 0 % up to {largest:g} %"
-        )
+    tolerances = tolerances_of(options)
     if options.follow or is_film(options.file):
-        return read_film(options, scene)
+        return read_film(options, scene, tolerances)
     result, image = _decode_picture(scene, options, options.scan_axis)
     for line in _report_lines(result):
         print(line)
@@ -138,9 +136,9 @@ _RATE_PARTS = 5  # parts of a film for which error rates are reported
 _MIN_RATE_PACKETS = 50  # fewest packets for which the rates of parts are reported
 
 
-def read_film(options: argparse.Namespace, scene: Scene) -> int:
+def read_film(options: argparse.Namespace, scene: Scene, tolerances: Tolerances) -> int:
     """Read the film of a command line and print the results."""
-    video = load_video(options.file, options.scan_axis, channel=_film_channel(options.channel))
+    video = load_video(options.file, options.scan_axis, channel=film_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
         def report_progress(progress: FilmProgress) -> None:
@@ -153,16 +151,13 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             video,
             scene,
             options.decoder,
-            readout_tolerance=options.readout_tolerance / 100.0,
             progress=report_progress,
+            **tolerances,
         )
     for line in _film_lines(reading, video):
         print(line)
-    for sentence in (video.problem, *reading.problems, reading.faults):
-        if sentence:
-            print(sentence, file=sys.stderr)
+    print_problems(video, reading)
     if reading.failure is not None:
-        print(reading.failure, file=sys.stderr)
         if video.scene is not None and video.scene.transmitter.light != "code":
             light = describe_light(video.scene.transmitter)
             print(
@@ -170,16 +165,6 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             )
         return EXIT_FAILURE
     return 0
-
-
-def _film_channel(name: str) -> str:
-    if name == "brightest":
-        return "luma"
-    if name not in FILM_CHANNELS:
-        raise ParameterError.of(
-            "channel", f"'{name}'", f"brightest, {', '.join(FILM_CHANNELS)}", condition="for a film"
-        )
-    return name
 
 
 def _format_progress(progress: FilmProgress) -> str:
@@ -197,7 +182,8 @@ def _format_progress(progress: FilmProgress) -> str:
 def _film_lines(reading: VideoReading, video: Video) -> list[str]:
     placed = sum(frame.place is not None for frame in reading.frames)
     rows, columns = video.shape
-    lines = []
+    slow_motion = describe_slow_motion(video, reading.clock)
+    lines = [f"{'film':18}{slow_motion}"] if slow_motion else []
     if reading.bits.size:
         lines += [
             f"payload           {reading.payload}",

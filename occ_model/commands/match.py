@@ -5,6 +5,8 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+from occ_model.commands.film_lines import add_tolerances
+from occ_model.commands.match_film import match_film
 from occ_model.commands.match_many import add_many_options, outputs_of_match, run_many
 from occ_model.commands.options import (
     Commands,
@@ -15,6 +17,7 @@ from occ_model.commands.options import (
     scene_of,
 )
 from occ_model.errors import MatchError, ParameterError, one_line, quote
+from occ_model.files.reading import is_film
 from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
@@ -32,8 +35,8 @@ from occ_model.scene.units import Unit
 
 
 def add_to(commands: Commands) -> None:
-    parser = commands.add_parser("match", help="find the settings that explain a photo")
-    parser.add_argument("file", type=Path, help="image file; several files give one table")
+    parser = commands.add_parser("match", help="find the settings that explain a photo or film")
+    parser.add_argument("file", type=Path, help="photo or film; several photos give one table")
     add_many_options(parser)
     add_scene_options(parser)
     parser.add_argument(
@@ -69,6 +72,7 @@ def add_to(commands: Commands) -> None:
         action="store_true",
         help="only read the chips in view, which need not repeat or be known",
     )
+    add_tolerances(parser)
     parser.add_argument(
         "--out",
         type=Path,
@@ -88,6 +92,8 @@ def _run(options: argparse.Namespace) -> int:
         scene = scene.replace(light="lamp", lamp_frequency=frequency)
     if options.more:
         return run_many(options, scene)
+    if is_film(options.file):
+        return match_film(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
     if options.chips:
         print("\n".join(chip_lines(read_chips(photo, region))))

@@ -10,10 +10,9 @@ import numpy as np
 from occ_model.light.cosine import Cosine
 from occ_model.light.waveform import Waveform
 from occ_model.scene.light_samples import levels_of, samples_of
+from occ_model.scene.light_words import MAINS_HARMONIC
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter.scheme import sent_chips
-
-HARMONIC = 2  # cycles of a mains lamp's light in one cycle of the mains
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -110,7 +109,7 @@ def _recorded_light(samples: str) -> PiecewiseLight:
 
 @lru_cache(maxsize=8)
 def _mains_light(frequency: float, depth: float) -> Cosine:
-    return Cosine(HARMONIC * frequency, depth)
+    return Cosine(MAINS_HARMONIC * frequency, depth)
 
 
 def forget_lights() -> None:

@@ -10,6 +10,8 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.results.decoding import Region
 from occ_model.results.sent_packets import PacketReading, SentPackets
 
+_AGREEING_ERRORS = 4.0  # standard deviations up to which two values agree
+
 
 @dataclass(frozen=True, slots=True)
 class MeasuredValue:
@@ -56,44 +58,63 @@ class FrameReading:
 
 
 @dataclass(frozen=True, slots=True)
-class Clock:
-    """The clock of a film, from the phases of the stripes and the frames' times.
+class ClockSolution:
+    """The values of one clock that fits a film.
 
-    All times are by the clock that stamps the frames. Errors are standard deviations.
+    Times are by the clock that stamps the frames, or, where the lamp's frequency is known, by the
+    lamp's and the camera's clock together. Errors are standard deviations.
 
     Parameters
     ----------
     switching_frequency
         In Hz, at the middle of the film.
-    drift
-        Its change in Hz a second; None if there are too few frames to measure it.
-    chips_of_cycle
-        Number of chips in a cycle of the filmed lamp; 0 for a code.
     readout_time
         From one column to the next in seconds: chips a column over chips a second.
     frame_period
         From one frame to the next, in seconds.
     gap
         The part of the frame period in which no column starts its exposure, in seconds.
-    timing_noise
-        Root mean square difference of the frames' starts from their time stamps, in seconds.
-    frames
-        Number of frames whose phase was used.
-    alternatives
-        Other switching frequencies in Hz that fit equally well, each with its readout time: aliases
-        that the approximate readout time does not exclude.
-    problems
-        Sentences on contradictions in the frames' times or phases, and on uncertainties.
+    slow_motion
+        How many times longer the film's stated times are.
     """
 
     switching_frequency: MeasuredValue
-    drift: MeasuredValue | None
     readout_time: MeasuredValue
     frame_period: MeasuredValue
     gap: MeasuredValue
-    timing_noise: float
+    slow_motion: int
+
+
+@dataclass(frozen=True, slots=True)
+class Clock(ClockSolution):
+    """The clock of a film, from the phases of the stripes and the frames' times.
+
+    Parameters
+    ----------
+    drift
+        The change of the frequency in Hz a second; None if there are too few frames to measure it.
+    timing_noise
+        Root mean square difference of the frames' starts from equal steps or, where these explain
+        them better, from their time stamps, in seconds; None if the phases fit no clock, so that
+        all times rest on the lamp's known frequency.
+    frames
+        Number of frames whose phase was used.
+    spacing
+        How far apart in Hz the switching frequencies are that fit the frames equally well,
+        whatever is known; None if the frames do not come in equal steps.
+    alternatives
+        Other clocks that fit equally well and that what is known does not exclude.
+    problems
+        Sentences on contradictions in the frames' times or phases, and on uncertainties.
+    chips_of_cycle
+        Number of chips in a cycle of the filmed lamp; 0 for a code.
+    """
+
+    drift: MeasuredValue | None
+    timing_noise: float | None
     frames: int
-    alternatives: tuple[tuple[float, float], ...] = ()
+    spacing: float | None = None
+    alternatives: tuple[ClockSolution, ...] = ()
     problems: tuple[str, ...] = ()
     chips_of_cycle: int = 0
 
@@ -113,8 +134,15 @@ class Clock:
 
     @property
     def is_sure(self) -> bool:
-        """Whether no other frequency fits equally well."""
+        """Whether no other clock fits equally well."""
         return not self.alternatives
+
+    def is_sure_of(self, name: str) -> bool:
+        """Return whether all clocks that fit agree on a value within its error."""
+        value: MeasuredValue = getattr(self, name)
+        bound = _AGREEING_ERRORS * value.error
+        others: list[MeasuredValue] = [getattr(other, name) for other in self.alternatives]
+        return all(abs(other.value - value.value) <= bound for other in others)
 
     @property
     def gap_ratio(self) -> float:

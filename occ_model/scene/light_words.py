@@ -5,6 +5,9 @@ from dataclasses import dataclass
 from occ_model.scene.scene import Transmitter
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
 
+MAINS_HARMONIC = 2  # cycles of a mains lamp's light in one cycle of the mains
+CYCLIC_LIGHTS = ("lamp", "pulses", "mains")  # of one pulse or swing a cycle
+
 PICTURE_ONLY = "ask for its picture, its spectrum or its bars"  # of a light that is no code
 
 
@@ -37,6 +40,14 @@ def blinking_lamp(transmitter: Transmitter) -> BlinkingLamp | None:
     if sent.light == "code":
         return lamp_of_chips(sent.pattern, sent.switching_frequency)
     return None
+
+
+def cycle_frequency(transmitter: Transmitter) -> float | None:
+    """Return how often a light repeats in Hz if each cycle has one pulse or swing, else None."""
+    if transmitter.light == "mains":
+        return MAINS_HARMONIC * transmitter.mains_frequency
+    lamp = blinking_lamp(transmitter)
+    return None if lamp is None else lamp.frequency
 
 
 def lamp_of_chips(pattern: str, frequency: float) -> BlinkingLamp | None:

@@ -10,6 +10,7 @@ from occ_model.study.confidence import wilson_interval
 
 _PERCENT = 100.0
 _RATE = Unit("Hz/s")
+_MOST_SPACING = 0.5  # of the frequency, from which no one takes another solution for it
 
 
 def film_facts(progress: FilmProgress, reading: VideoReading | None) -> tuple[Fact, ...]:
@@ -84,42 +85,57 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
 
 def clock_facts(clock: Clock) -> Iterator[Fact]:
     """List what a film reveals about the clocks of the camera and of the transmitter."""
-    doubt = "" if clock.is_sure else ", not sure"
+    doubts = {
+        name: "" if clock.is_sure_of(name) else ", not sure"
+        for name in ("switching_frequency", "readout_time", "gap", "frame_period")
+    }
     lamp, drift = clock.lamp_frequency, clock.lamp_drift or clock.drift
     name = "lamp frequency" if lamp else "switching frequency"
-    for key, label, unit, measured, suffix, meaning in (
+    spacing = clock.spacing
+    if spacing is not None and spacing > _MOST_SPACING * clock.switching_frequency.value:
+        spacing = None
+    if spacing is not None and lamp:
+        spacing /= clock.chips_of_cycle
+    for key, label, unit, measured, suffix, note, meaning in (
         (
             "frequency", "Lamp frequency" if lamp else "Frequency", HERTZ,
-            lamp or clock.switching_frequency, doubt,
-            f"The {name} measured by the clock that gives the frames' times.",
+            lamp or clock.switching_frequency, doubts["switching_frequency"],
+            "" if spacing is None else f"another one every {HERTZ.format(spacing, 4)}",
+            f"The {name} by the clock of the frames, which any other whole number of steps away "
+            "would fit as well; what is known of the lamp or the camera selects one.",
         ),
         (
-            "readout_time", "Readout time", SECOND, clock.readout_time, doubt,
-            "Time from one column to the next, measured without a known LED.",
+            "readout_time", "Readout time", SECOND, clock.readout_time,
+            doubts["readout_time"], "",
+            "Time from one column to the next.",
         ),
         (
-            "gap", "Gap", SECOND, clock.gap, doubt,
+            "gap", "Gap", SECOND, clock.gap, doubts["gap"], "",
             f"The part of a frame's period, {_PERCENT * clock.gap_ratio:.3g} %, in which no "
             "column begins.",
         ),
         (
-            "frame_period", "Frame period", SECOND, clock.frame_period, "",
+            "frame_period", "Frame period", SECOND, clock.frame_period,
+            doubts["frame_period"],
+            f"slow motion of 1/{clock.slow_motion}" if clock.slow_motion > 1 else "",
             "From one frame to the next.",
         ),
     ):  # fmt: skip
         text = unit.format_estimate(measured.value, measured.error) + suffix
-        yield Fact(key, label, text, meaning=meaning)
+        yield Fact(key, label, text, note, meaning)
     if drift is not None:
         text = _RATE.format_estimate(drift.value, drift.error)
         meaning = f"Change of the {name} during the film."
         yield Fact("drift", "Drift", text, meaning=meaning)
-    yield Fact(
-        "frame_starts",
-        "Frame jitter",
-        SECOND.format(clock.timing_noise, 4),
-        f"root mean square of {clock.frames} frames",
-        "Deviation of the frames' starts from their stated times.",
-    )
+    if clock.timing_noise is not None:
+        yield Fact(
+            "frame_starts",
+            "Frame jitter",
+            SECOND.format(clock.timing_noise, 4),
+            f"root mean square of {clock.frames} frames",
+            "Deviation of the frames' starts from equal steps, or from their stated times where "
+            "these explain them better.",
+        )
 
 
 def error_rate(count: int, total: int, what: str) -> tuple[str, str]:

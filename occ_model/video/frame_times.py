@@ -1,4 +1,9 @@
-"""Find the period of a film's stated frame times, and their irregularities."""
+"""Find the period of a film's stated frame times, and their irregularities.
+
+A container keeps times to a resolution: Matroska whole milliseconds, GIF hundredths of a second.
+Where the resolution is as long as a frame period, as in AVI, frames are counted, and the stated
+period is taken as exact.
+"""
 
 from dataclasses import dataclass
 
@@ -7,6 +12,7 @@ import numpy as np
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.units import SECOND
+from occ_model.video.frame_period import fit_rounded_period
 
 _MAX_INTERVAL_DEVIATION = 0.25  # maximum deviation of an interval from whole periods, in periods
 _MAX_TIME_DEVIATION = 0.02  # scatter of frame times in periods from which it is reported
@@ -18,6 +24,8 @@ camera or a damaged file have no relation to the frames before."""
 
 _MIN_FRAMES_PER_PART = 4.0  # mean number of frames per part from which the times are meaningful
 _MIN_INTERVAL = 1e-9  # seconds below which two frames have the same time
+_COUNTED = 0.9  # periods from which a resolution is that of counted frames
+_ROUNDED_INTERVAL = 1.01  # resolutions by which rounding alone changes an interval
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +40,9 @@ class Part:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameTimes:
-    period: MeasuredValue  # Frame period in seconds, with an error from the times' scatter
+    period: MeasuredValue  # Frame period in seconds, with an error from scatter and resolution
+    resolution: float  # In seconds; 0 if the times are exact, or count frames
+    scatter: float  # Standard deviation in seconds of the times from equal steps
     # Shape (frames,): number of periods from the first frame of its part to each frame
     numbers: IndexArray
     parts: tuple[Part, ...]  # The parts of the film, between which the times jump
@@ -41,6 +51,10 @@ class FrameTimes:
     def is_jump(self, interval: float) -> bool:
         """Return whether an interval is negative, or so long that a new part begins after it."""
         return interval > LEAST_BREAK * self.period.value or interval < -_MIN_INTERVAL
+
+    def ends(self, part: Part) -> FloatArray:
+        """Return the numbers of the period that begins a part, and of the one after its end."""
+        return np.array([0.0, self.numbers[part.end - 1] + 1.0])
 
     @property
     def are_consecutive(self) -> bool:
@@ -58,56 +72,66 @@ class FrameTimes:
         return earlier + float(self.numbers[frame] + 1) * self.period.value
 
 
-def fit_frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
+def fit_frame_times(times: FloatArray, resolution: float = 0.0) -> FrameTimes | None:
     """Find the period of frame times in seconds; None if fewer than two differ.
 
-    ``rounded_to``: the step in seconds of which they are multiples.
+    ``resolution``: the step in seconds to whose multiples the times were rounded.
     """
     intervals = np.diff(times)
     forward_intervals = intervals[intervals > _MIN_INTERVAL]
     if forward_intervals.size == 0:
         return None
     usual = float(np.median(forward_intervals))
+    rounding = _ROUNDED_INTERVAL * resolution + _MIN_INTERVAL
+    near = np.abs(forward_intervals - usual) <= rounding
+    if near.any():  # the mean of what rounding alone makes of one interval
+        usual = float(forward_intervals[near].mean())
+    if resolution >= _COUNTED * usual:
+        resolution, rounding = 0.0, _MIN_INTERVAL
     jumps = (intervals > LEAST_BREAK * usual) | (intervals < -_MIN_INTERVAL)
-    counts = np.where(jumps, 0, np.rint(intervals / usual)).astype(np.int64)
+    is_usual = (np.abs(intervals - usual) <= rounding) & (intervals > _MIN_INTERVAL)
+    counts = np.where(is_usual, 1, np.rint(np.where(jumps, 0.0, intervals) / usual))
+    counts = counts.astype(np.int64)
     firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])
     sizes = np.diff(np.append(firsts, len(times)))
     period_numbers = np.concatenate([[0], np.cumsum(counts)])
     numbers = period_numbers - np.repeat(period_numbers[firsts], sizes)
-    # Parts begin at arbitrary times, so only steps within one show the period.
-    steps, centred_times = (
-        values - np.repeat(np.add.reduceat(values, firsts) / sizes, sizes)
-        for values in (numbers.astype(np.float64), times)
-    )
-    power, freedom = (
-        float(steps @ steps),
-        len(times) - len(firsts) - 1,
-    )
-    period = MeasuredValue(float(steps @ centred_times) / power, rounded_to)
-    problems = _describe_problems(np.where(jumps, 1.0, intervals / usual), counts + jumps, usual)
-    if freedom > 0:
-        residuals = centred_times - steps * period.value
-        scatter = float(residuals @ residuals) / freedom
-        error = np.sqrt(max(scatter, rounded_to**2 / 12.0) / power)
-        period = MeasuredValue(period.value, float(error))
-        if np.sqrt(scatter) > max(_MAX_TIME_DEVIATION * usual, rounded_to):
-            problems.append(
-                f"The frame times are uneven: they deviate by {SECOND.format(np.sqrt(scatter))} "
-                f"from equal steps of {SECOND.format(period.value)}."
-            )
+    period, scatter = _fit_period(times, numbers, firsts, resolution)
+    steps = np.where(jumps, 1.0, np.where(is_usual, 1.0, intervals / usual))
+    problems = _describe_problems(steps, counts + jumps, usual)
+    if scatter > max(_MAX_TIME_DEVIATION * usual, resolution):
+        problems.append(
+            f"The frame times are uneven: they deviate by {SECOND.format(scatter)} from equal "
+            f"steps of {SECOND.format(period.value)}."
+        )
     if jumps.any():
         problems.append(_describe_jump(intervals, jumps))
     ends = (firsts + sizes).tolist()
     parts = tuple(
-        Part(
-            first,
-            end,
-            float(times[first]),
-            float(numbers[end - 1] + 1) * period.value,
-        )
+        Part(first, end, float(times[first]), float(numbers[end - 1] + 1) * period.value)
         for first, end in zip(firsts.tolist(), ends, strict=True)
     )
-    return FrameTimes(period, numbers, parts, tuple(problems))
+    return FrameTimes(period, resolution, scatter, numbers, parts, tuple(problems))
+
+
+def _fit_period(
+    times: FloatArray, numbers: IndexArray, firsts: IndexArray, resolution: float
+) -> tuple[MeasuredValue, float]:
+    """Return the period of parts that begin at arbitrary times, and the times' scatter."""
+    sizes = np.diff(np.append(firsts, len(times)))
+    steps, centred_times = (
+        values - np.repeat(np.add.reduceat(values, firsts) / sizes, sizes)
+        for values in (numbers.astype(np.float64), times)
+    )
+    power, freedom = float(steps @ steps), len(times) - len(firsts) - 1
+    period = float(steps @ centred_times) / power
+    residuals = centred_times - steps * period
+    scatter = float(np.sqrt(residuals @ residuals / max(freedom, 1)))
+    if resolution == 0.0:
+        return MeasuredValue(period, scatter / float(np.sqrt(power))), scatter
+    longest = int(sizes.argmax())
+    part = slice(int(firsts[longest]), int(firsts[longest] + sizes[longest]))
+    return fit_rounded_period(numbers[part].astype(np.float64), times[part], resolution), scatter
 
 
 def _describe_jump(intervals: FloatArray, jumps: BoolArray) -> str:

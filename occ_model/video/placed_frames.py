@@ -13,12 +13,13 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.video_reading import Clock, FrameReading
 from occ_model.scene.light_words import blinking_lamp
-from occ_model.video.clock import describe_clock, fit_film_clock
+from occ_model.video.film_clock import FilmClock, FilmFit, FilmPhases, describe_clock
 from occ_model.video.frame_times import FrameTimes, Part, fit_frame_times
 from occ_model.video.joining import JoinedChips
+from occ_model.video.known_timing import KnownTiming
 from occ_model.video.packets import CountedPart, PlacedFrame, unwrap_places
 from occ_model.video.period import SentPeriod
-from occ_model.video.phase_fit import ClockFit, FramePhases
+from occ_model.video.phase_fit import FramePhases
 from occ_model.video.read_frame import TimedFrame
 
 _REFIT_GROWTH = 1.25  # growth of the number of frames after which the clock is fitted again
@@ -32,22 +33,22 @@ PART_UNKNOWN = (
 
 
 class PlacedFrames:
-    """Frames in the order of time, and their places, found with an approximate readout time."""
+    """Frames in the order of time, and their places."""
 
-    def __init__(self, period: SentPeriod, readout_time: float, tolerance: float) -> None:
+    def __init__(self, period: SentPeriod, known: KnownTiming, resolution: float = 0.0) -> None:
         self.joined = JoinedChips(period)
         self.clock: Clock | None = None
-        self.time_step = 0.0
+        self.no_clock = ""  # why there is no clock, as the end of a sentence
         self.columns = 0
         self.frames: list[TimedFrame] = []
         self.placed = 0
         self.part_unknown = False  # whether places are known only up to a number of sub-packets
-        self._period = period
-        self._readout_time, self._tolerance = readout_time, tolerance
+        self._period, self._known, self._resolution = period, known, resolution
         self._places: list[int | None] = []
-        self._fits: tuple[ClockFit, ...] = ()
+        self._clocks = FilmClock()
         self._next_fit, self._next_try = FIRST_FIT, _MIN_PREDICTING_FRAMES
-        self._times: FrameTimes | None = None
+        self._times: FrameTimes | None = None  # of all frames at the last fit
+        self._all_times: tuple[int, FrameTimes | None] = 0, None
         self._clock_first_frame = 0
 
     def add(self, timed: TimedFrame) -> bool:
@@ -75,8 +76,8 @@ class PlacedFrames:
                 break
 
     @property
-    def fit(self) -> ClockFit | None:
-        return self._fits[0] if self._fits else None
+    def fit(self) -> FilmFit | None:
+        return self._clocks.fits[0] if self._clocks.fits else None
 
     def reading(self, number: int) -> FrameReading:
         reading, place = self.frames[number].reading, self._places[number]
@@ -89,59 +90,74 @@ class PlacedFrames:
 
     def times(self) -> FrameTimes | None:
         """Return the frames' times; None for fewer than two frames."""
-        times = np.array([timed.reading.time for timed in self.frames])
-        return fit_frame_times(times, self.time_step) if len(times) > 1 else None
+        count, times = self._all_times
+        if count != len(self.frames):
+            stated = np.array([timed.reading.time for timed in self.frames])
+            times = fit_frame_times(stated, self._resolution) if len(stated) > 1 else None
+            self._all_times = len(self.frames), times
+        return times
 
     def count_parts(self) -> list[CountedPart]:
         """Return the parts of the film in the numbering of all chips sent; needs a fit."""
-        times, fit = self.times(), self.fit
+        times, found = self.times(), self.fit
         assert times is not None  # noqa: S101 - a fit exists
-        assert fit is not None  # noqa: S101 - the caller has checked
-        return [self._count_part(fit, part) for part in times.parts]
+        assert found is not None  # noqa: S101 - the caller has checked
+        return [self._count_part(found, times, part) for part in times.parts]
 
-    def _count_part(self, fit: ClockFit, part: Part) -> CountedPart:
+    def _count_part(self, found: FilmFit, times: FrameTimes, part: Part) -> CountedPart:
         """Count the chips of a part by the clock, aligned to the part if fitted to another one."""
-        length = self._period.length
-        placed_frames = [
-            (self.frames[number], place)
-            for number in range(part.first, part.end)
-            if (place := self._places[number]) is not None
+        length, fit = self._period.length, found.fit
+        numbers = [
+            number for number in range(part.first, part.end) if self._places[number] is not None
         ]
-        start_times, offsets, places = _starts_and_places(fit, placed_frames)
-        if part.first <= self._clock_first_frame < part.end:
-            starts = fit.at_start(start_times)
-            start, end = fit.at_start(np.array([part.start, part.start + part.duration])).tolist()
+        offsets, places = self._offsets_and_places(fit.step, numbers)
+        if found.is_by_number:
+            ticks, ends = times.numbers[numbers].astype(np.float64), times.ends(part)
         else:
-            starts = fit.frequency * (start_times - part.start)
+            ticks = np.array([self.frames[number].reading.time for number in numbers])
+            ends = np.array([part.start, part.start + part.duration])
+        if part.first <= self._clock_first_frame < part.end:
+            starts, span = fit.at_start(ticks), fit.at_start(ends)
+        else:
+            starts, span = (fit.frequency * (each - ends[0]) for each in (ticks, ends))
             phasor = np.exp(2j * np.pi * (places - starts - offsets) / length).sum()
             start = float(np.angle(phasor)) / (2.0 * np.pi) * length
-            starts, end = starts + start, start + fit.frequency * part.duration
+            starts, span = starts + start, span + start
         firsts = unwrap_places(places, starts + offsets, length).tolist()
         frames = [
-            PlacedFrame(timed.reading, first)
-            for (timed, _), first in zip(placed_frames, firsts, strict=True)
+            PlacedFrame(self.frames[number].reading, first)
+            for number, first in zip(numbers, firsts, strict=True)
         ]
-        return CountedPart(frames, part.start, part.duration, (start, end))
+        return CountedPart(frames, part.start, part.duration, (float(span[0]), float(span[1])))
 
     def _place(self, number: int) -> bool:
         timed = self.frames[number]
         if not timed.is_read:
             return False
-        predicted, deviation, fit = None, 0.0, self.fit
+        predicted, deviation, found = None, 0.0, self.fit
         if (
-            fit is not None
-            and fit.kept.sum() >= _MIN_PREDICTING_FRAMES
+            found is not None
+            and found.fit.kept.sum() >= _MIN_PREDICTING_FRAMES
             and self._is_predictable(number)
         ):
-            time = timed.reading.time
-            phase = float(fit.at_start(np.array([time]))[0]) + fit.step * timed.column
+            tick, fit = self._tick(found, number), found.fit
+            phase = float(fit.at_start(np.array([tick]))[0]) + fit.step * timed.column
             predicted = (phase - timed.middle) % self._period.length
-            deviation = float(np.hypot(fit.phase_error(time), timed.middle_error))
+            deviation = float(np.hypot(fit.phase_error(tick), timed.middle_error))
         place = self.joined.place(timed.reading, predicted, deviation, self.part_unknown)
         if place is None:
             return False
         self._record_place(number, place)
         return True
+
+    def _tick(self, found: FilmFit, number: int) -> float:
+        """Return when a frame begins, in ticks of a clock; its times need not hold the frame."""
+        time, times = self.frames[number].reading.time, self._times
+        if times is None or not found.is_by_number:
+            return time
+        known = min(number, len(times.numbers) - 1)
+        later = (time - self.frames[known].reading.time) / times.period.value
+        return float(times.numbers[known] + np.rint(later))
 
     def _is_predictable(self, number: int) -> bool:
         """Return whether the times lead without a jump from the frames of the clock to this one."""
@@ -189,18 +205,19 @@ class PlacedFrames:
         placed_frames = [(self.frames[number], place) for number, place in placed]
         if len(placed_frames) < _MIN_PREDICTING_FRAMES:
             return
+        numbers = [number for number, _ in placed]
         phases = _frame_phases(placed_frames, length)
-        fits = fit_film_clock(
-            phases, self._readout_time, self._tolerance, self.columns, times.period.value
-        )
-        if len(fits) != 1:
+        film = FilmPhases(phases, times.numbers[numbers], times, self._known, self.columns)
+        clocks = film.fit_clocks()
+        if len(clocks.fits) != 1:
             return
         self.part_unknown = True
-        start_times, offsets, places_in_part = _starts_and_places(fits[0], placed_frames)
-        firsts = unwrap_places(
-            places_in_part, fits[0].at_start(start_times) + offsets, length
-        ).tolist()
-        for (number, _), first, is_kept in zip(placed, firsts, fits[0].kept, strict=True):
+        fit = clocks.fits[0].fit
+        offsets = _offsets(fit.step, [timed for timed, _ in placed_frames])
+        places_in_part = np.array([place for _, place in placed], dtype=np.int64)
+        ticks = film.ticks(clocks.fits[0].is_by_number)
+        firsts = unwrap_places(places_in_part, fit.at_start(ticks) + offsets, length).tolist()
+        for number, first, is_kept in zip(numbers, firsts, fit.kept, strict=True):
             if is_kept:
                 self._record_place(number, first % self._period.length)
 
@@ -222,29 +239,32 @@ class PlacedFrames:
                 return
 
     def _fit(self) -> None:
-        self._fits, self.clock, times = (), None, self.times()
+        self._clocks, self.clock, times = FilmClock(), None, self.times()
         if times is None or not times.are_consecutive:
+            self.no_clock = "the frame times do not increase, or jump too often."
             return
-        placed_numbers = [
-            (number, place) for number, place in enumerate(self._places) if place is not None
-        ]
-        part = _fullest_part(times, (number for number, _ in placed_numbers))
-        part_frames = [
-            (self.frames[number], chip)
-            for number, chip in placed_numbers
-            if part.first <= number < part.end
-        ]
-        if len(part_frames) < FIRST_FIT:
+        placed = [number for number, place in enumerate(self._places) if place is not None]
+        part = _fullest_part(times, placed)
+        numbers = [number for number in placed if part.first <= number < part.end]
+        if len(numbers) < FIRST_FIT:
             return
-        phases, period = _frame_phases(part_frames, self._period.length), times.period.value
+        frames = [(self.frames[number], self._places[number] or 0) for number in numbers]
+        phases = _frame_phases(frames, self._period.length)
         self._times, self._clock_first_frame = times, part.first
-        self._fits = fit_film_clock(
-            phases, self._readout_time, self._tolerance, self.columns, period
-        )
-        if self._fits:
+        film = FilmPhases(phases, times.numbers[numbers], times, self._known, self.columns)
+        self._clocks = film.fit_clocks()
+        self.no_clock = self._clocks.reason
+        if self._clocks.fits:
             is_lamp = blinking_lamp(self._period.transmitter) is not None
             cycle = self._period.length if is_lamp else 0
-            self.clock = describe_clock(self._fits, phases, times, part, self.columns, cycle)
+            self.clock = describe_clock(self._clocks, film, part, cycle)
+
+    def _offsets_and_places(
+        self, step: float, numbers: Sequence[int]
+    ) -> tuple[FloatArray, IndexArray]:
+        """Return the chips from each frame's start to its first chip, and that chip's place."""
+        places = np.array([self._places[number] for number in numbers], dtype=np.int64)
+        return _offsets(step, [self.frames[number] for number in numbers]), places
 
 
 def _fullest_part(times: FrameTimes, frames: Iterable[int]) -> Part:
@@ -258,15 +278,8 @@ def _next_count(count: int) -> int:
     return int(np.ceil(count * _REFIT_GROWTH)) + 1
 
 
-def _starts_and_places(
-    fit: ClockFit, placed_frames: Sequence[tuple[TimedFrame, int]]
-) -> tuple[FloatArray, FloatArray, IndexArray]:
-    """Return the frames' start times, the chips from each to the first chip, and its place."""
-    return (
-        np.array([timed.reading.time for timed, _ in placed_frames]),
-        np.array([fit.step * timed.column - timed.middle for timed, _ in placed_frames]),
-        np.array([place for _, place in placed_frames], dtype=np.int64),
-    )
+def _offsets(step: float, frames: Sequence[TimedFrame]) -> FloatArray:
+    return np.array([step * timed.column - timed.middle for timed in frames])
 
 
 def _frame_phases(placed_frames: Sequence[tuple[TimedFrame, int]], period: int) -> FramePhases:

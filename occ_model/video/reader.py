@@ -13,14 +13,15 @@ from occ_model.receiver.decode import decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame, read_frame as read_soft_frame
 from occ_model.results.decoding import PAPER_DECODER, overexposed_text
 from occ_model.results.sent_packets import SentPackets
-from occ_model.results.video import LATEST_TIME, Video, VideoFrame
+from occ_model.results.video import LATEST_TIME, FilmTimes, Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count, is_number
+from occ_model.scene.light_words import CYCLIC_LIGHTS, cycle_frequency
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.scheme import check_code, code_of
-from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.frame_times import FrameTimes
+from occ_model.video.known_timing import MOST_TOLERANCE, READOUT_TOLERANCE, KnownTiming
 from occ_model.video.packets import count_packets
 from occ_model.video.payload_so_far import (
     NO_CLOCK,
@@ -31,9 +32,9 @@ from occ_model.video.payload_so_far import (
     known_bits,
 )
 from occ_model.video.period import SentPeriod
-from occ_model.video.placed_frames import FIRST_FIT, PART_UNKNOWN, PlacedFrames
+from occ_model.video.placed_frames import PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import FrameReader
-from occ_model.video.without_packets import WithoutPackets
+from occ_model.video.without_packets import HALF_CYCLES, WithoutPackets
 
 _INTERLACED = (
     "The film is interlaced: each of its fields is read as a frame, whose columns are every other "
@@ -46,7 +47,8 @@ def decode_video(
     scene: Scene,
     decoder: str = PAPER_DECODER,
     *,
-    readout_tolerance: float = READOUT_TOLERANCE,
+    readout_tolerance: float | None = None,
+    frequency_tolerance: float | None = None,
     progress: Callable[[FilmProgress], object] | None = None,
 ) -> VideoReading:
     """Read a film: its clock, its packets and the payload.
@@ -55,24 +57,33 @@ def decode_video(
     ----------
     scene
         What the receiver knows: the scheme, the number of bits, and approximately the switching
-        frequency, the exposure time and the readout time.
+        frequency, the exposure time and the readout time. Of a lamp, flashes or the mains as its
+        light the clock alone is read.
     decoder
         The decoder that finds the chips in each frame.
-    readout_tolerance
-        Maximum relative error of the scene's readout time; frequencies that imply a larger one are
-        excluded.
+    readout_tolerance, frequency_tolerance
+        Maximum relative errors of the scene's readout time and frequency, None if one is only a
+        guess; clocks that imply larger ones are excluded. If both are None, the readout time is
+        taken to be right within 5 %. A known frequency (1e-4 for a lamp with a crystal) measures
+        the readout time, and shows slow motion.
     progress
         Called after each frame. An exception from it ends the reading.
 
     Raises
     ------
     ParameterError
-        The decoder does not exist, the tolerance is out of range, the scheme cannot be used, or no
-        code is sent.
+        The decoder does not exist, a tolerance is out of range, the scheme cannot be used, or the
+        light is neither a code nor that of a lamp.
     VideoError
         The file cannot be read.
     """
-    reader = reader_of(video, scene, decoder, readout_tolerance)
+    reader = reader_of(
+        video,
+        scene,
+        decoder,
+        readout_tolerance=readout_tolerance,
+        frequency_tolerance=frequency_tolerance,
+    )
     for frame in video:
         film_progress = reader.add(frame)
         if progress is not None:
@@ -84,13 +95,18 @@ def reader_of(
     video: Video,
     scene: Scene,
     decoder: str = PAPER_DECODER,
-    readout_tolerance: float = READOUT_TOLERANCE,
+    *,
+    readout_tolerance: float | None = None,
+    frequency_tolerance: float | None = None,
 ) -> "VideoReader":
     """Return a reader of a film's frames; arguments and errors as for :func:`decode_video`."""
     reader = VideoReader(
-        scene_of_frames(video, scene), decoder, readout_tolerance=readout_tolerance
+        scene_of_frames(video, scene),
+        decoder,
+        readout_tolerance=readout_tolerance,
+        frequency_tolerance=frequency_tolerance,
+        times=video.times,
     )
-    reader.time_step = video.times.resolution
     if video.line_step > 1:
         reader.notes = (_INTERLACED,)
     return reader
@@ -108,7 +124,8 @@ def decode_frames(
     scene: Scene,
     decoder: str = PAPER_DECODER,
     *,
-    readout_tolerance: float = READOUT_TOLERANCE,
+    readout_tolerance: float | None = None,
+    frequency_tolerance: float | None = None,
 ) -> Iterator[FilmProgress]:
     """Read frames as they arrive; yield what is known after each.
 
@@ -116,7 +133,7 @@ def decode_frames(
     ----------
     frames
         A film, or frames from a camera.
-    scene, decoder, readout_tolerance
+    scene, decoder, readout_tolerance, frequency_tolerance
         As for :func:`decode_video`.
 
     Raises
@@ -124,8 +141,34 @@ def decode_frames(
     ParameterError
         As for :func:`decode_video`, raised at once.
     """
-    reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
+    reader = VideoReader(
+        scene,
+        decoder,
+        readout_tolerance=readout_tolerance,
+        frequency_tolerance=frequency_tolerance,
+    )
     return (reader.add(frame) for frame in frames)
+
+
+def _known_timing(
+    scene: Scene, readout_tolerance: float | None, frequency_tolerance: float | None
+) -> KnownTiming:
+    tolerances = {
+        "readout_tolerance": readout_tolerance,
+        "frequency_tolerance": frequency_tolerance,
+    }
+    for name, tolerance in tolerances.items():
+        if tolerance is None:
+            continue
+        if not is_number(tolerance) or not 0.0 < tolerance <= MOST_TOLERANCE:
+            raise ParameterError.of(name, quote(tolerance), f"above 0 up to {MOST_TOLERANCE:g}")
+    if readout_tolerance is None and frequency_tolerance is None:
+        readout_tolerance = READOUT_TOLERANCE
+    sent = scene.transmitter
+    cycles = cycle_frequency(sent) if sent.light in CYCLIC_LIGHTS else None
+    frequency = sent.switching_frequency if cycles is None else HALF_CYCLES * cycles
+    readout = scene.camera.readout_time
+    return KnownTiming(frequency, readout, frequency_tolerance, readout_tolerance)
 
 
 class VideoReader:
@@ -135,8 +178,10 @@ class VideoReader:
 
     Parameters
     ----------
-    scene, decoder, readout_tolerance
+    scene, decoder, readout_tolerance, frequency_tolerance
         As for :func:`decode_video`.
+    times
+        What is known of the frames' times: how far they are rounded.
     """
 
     def __init__(
@@ -144,38 +189,27 @@ class VideoReader:
         scene: Scene,
         decoder: str = PAPER_DECODER,
         *,
-        readout_tolerance: float = READOUT_TOLERANCE,
+        readout_tolerance: float | None = None,
+        frequency_tolerance: float | None = None,
+        times: FilmTimes = FilmTimes(),  # noqa: B008 - it is frozen
     ) -> None:
         check_scene(scene)
-        check_code(scene.transmitter)
+        self._is_lamp = scene.transmitter.light in CYCLIC_LIGHTS
+        if not self._is_lamp:
+            check_code(scene.transmitter)
         decoder_named(decoder)
-        most = MOST_READOUT_TOLERANCE
-        if not is_number(readout_tolerance) or not 0.0 < readout_tolerance <= most:
-            raise ParameterError.of(
-                "readout_tolerance", quote(readout_tolerance), f"above 0 up to {most:g}"
-            )
+        known = _known_timing(scene, readout_tolerance, frequency_tolerance)
         self._scene, self._frame_reader = scene, FrameReader(scene, decoder)
-        self._period = SentPeriod(scene.transmitter)
-        readout = scene.camera.readout_time
-        self._placed = PlacedFrames(self._period, readout, readout_tolerance)
+        self._period = SentPeriod(replace(scene.transmitter, light="code"))
+        self._placed = PlacedFrames(self._period, known, times.resolution)
         self._joined = self._placed.joined
-        self._readout_tolerance = readout_tolerance
-        self._without_packets = WithoutPackets()
+        self._without_packets = WithoutPackets(known if self._is_lamp else known.without_frequency)
         self._chips_in_view = -1
         self._shape: tuple[int, ...] | None = None
         self._white: float | None = None  # the value of white in the first frame
         self._completing_frame: int | None = None
         self._payload, self._faults = "", Faults()
         self.notes: tuple[str, ...] = ()  # Sentences on the film that precede the problems found
-
-    @property
-    def time_step(self) -> float:
-        """The step of which frame times are multiples, in seconds; 0 if they are exact."""
-        return self._placed.time_step
-
-    @time_step.setter
-    def time_step(self, step: float) -> None:
-        self._placed.time_step = step
 
     def add(self, frame: VideoFrame) -> FilmProgress:
         """Read the next frame.
@@ -223,10 +257,11 @@ class VideoReader:
         if failure is not None:
             failure += self._describe_overexposure()
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
-        times, clock = placed.times(), placed.clock
+        times, clock, no_clock = placed.times(), placed.clock, placed.no_clock
         if placed.placed == 0 and placed.columns:
-            readout, tolerance = self._scene.camera.readout_time, self._readout_tolerance
-            clock = self._without_packets.fit_clock(times, readout, tolerance, placed.columns)
+            clock, no_clock = self._without_packets.fit_clock(times, placed.columns)
+            if self._is_lamp and clock is not None:
+                failure = None
         number = self._completing_frame if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),
@@ -241,7 +276,7 @@ class VideoReader:
             failure=failure,
             problems=(
                 *self.notes,
-                *(self._describe_problems(times) if clock is None else clock.problems),
+                *(self._describe_problems(times, no_clock) if clock is None else clock.problems),
             ),
             faults=str(self._faults),
             complete_after=None
@@ -254,13 +289,12 @@ class VideoReader:
         white = float(np.mean([frame.white for frame in self._placed.frames] or [0.0]))
         return f" {overexposed_text(white)}" if white else ""
 
-    def _describe_problems(self, times: FrameTimes | None) -> tuple[str, ...]:
-        """Report irregular times of frames that do not determine a clock."""
-        placed = self._placed
+    def _describe_problems(self, times: FrameTimes | None, no_clock: str) -> tuple[str, ...]:
+        """Report irregular times of frames that do not determine a clock, and why there is none."""
         problems = () if times is None else times.problems
-        if times is None and len(placed.frames) > 1:
+        if times is None and len(self._placed.frames) > 1:
             problems = ("The frame times do not increase.",)
-        return (*problems, NO_CLOCK) if placed.placed >= FIRST_FIT else problems
+        return (*problems, f"{NO_CLOCK}: {no_clock}") if no_clock else problems
 
     def _check_frame(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
         """Return a frame in bytes and the value of white; refuse one unlike the earlier frames."""
@@ -316,6 +350,8 @@ class VideoReader:
             description = self._without_packets.describe(self._scene.camera.readout_time)
             if not description:
                 return explain_unplaced(self._placed.frames)
+            if self._is_lamp:
+                return description
             if self._without_packets.may_be_packets:
                 return f"{description} {explain_unplaced(self._placed.frames)}"
             return f"{description} No frame contains packets as the scene sends them."
@@ -333,4 +369,4 @@ class VideoReader:
         fit = self._placed.fit
         if fit is None or self._period.scheme is None or self._placed.part_unknown:
             return SentPackets()
-        return count_packets(self._placed.count_parts(), self._period, bits, fit.frequency)
+        return count_packets(self._placed.count_parts(), self._period, bits, fit.stated_frequency)

@@ -14,11 +14,12 @@ from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
 from occ_model.results.video_reading import Clock, MeasuredValue
 from occ_model.scene.units import HERTZ, SECOND, Unit
-from occ_model.video.clock import describe_clock, fit_film_clock
+from occ_model.video.film_clock import FilmPhases, clock_of_lamp, describe_clock
 from occ_model.video.frame_times import FrameTimes
+from occ_model.video.known_timing import KnownTiming
 from occ_model.video.phase_fit import FramePhases
 
-_HALF_CYCLES = 2  # a lamp's phase is counted in half cycles, for which limits in chips are suitable
+HALF_CYCLES = 2  # a lamp's phase is counted in half cycles, for which limits in chips are suitable
 
 _MIN_PERIODS = 3.0  # minimum in a frame, because two may be equal by chance
 _MAX_UNREPEATED = 0.1  # of the stripes' variance that a repeated wave may leave unexplained
@@ -47,7 +48,8 @@ class _FrameStripes:
 class WithoutPackets:
     """Analyses the frames of a film in which no packet is found."""
 
-    def __init__(self) -> None:
+    def __init__(self, known: KnownTiming) -> None:
+        self._known = known  # in half cycles
         self._frames: list[_FrameStripes] = []
 
     def add(self, time: float, image: ByteArray, region: Region | None) -> None:
@@ -55,40 +57,34 @@ class WithoutPackets:
         levels = remove_trend(column_means(image, region))
         self._frames.append(_analyse_frame(time, float(image.mean()), levels, region.first_column))
 
-    def fit_clock(
-        self, times: FrameTimes | None, readout_time: float, tolerance: float, columns: int
-    ) -> Clock | None:
-        pulses = [frame for frame in self._frames if frame.is_pulse]
-        if (
-            times is None
-            or len(times.parts) != 1
-            or len(pulses) < _MIN_SAME_FRACTION * len(self._frames)
-        ):
-            return None
-        phases = FramePhases(
-            times=np.array([frame.time for frame in pulses]),
-            columns=np.array([frame.column for frame in pulses]),
-            places=np.array([frame.place for frame in pulses]),
-            errors=np.array([frame.place_error for frame in pulses]),
-            steps=np.array([_HALF_CYCLES / frame.period for frame in pulses]),
-            step_errors=np.array(
-                [_HALF_CYCLES / frame.period**2 * frame.period_error for frame in pulses]
-            ),
-            period=float(_HALF_CYCLES),
+    def fit_clock(self, times: FrameTimes | None, columns: int) -> tuple[Clock | None, str]:
+        """Return the clock of a lamp, or the reason why there is none; empty if it is no lamp."""
+        pulses = [(number, frame) for number, frame in enumerate(self._frames) if frame.is_pulse]
+        if len(pulses) < max(_MIN_SAME_FRACTION * len(self._frames), 1):
+            return None, ""
+        if times is None or len(times.parts) != 1:
+            return None, "the frame times do not increase, or jump."
+        numbers, frames = zip(*pulses, strict=True)
+        film = FilmPhases(
+            _half_cycle_phases(frames), times.numbers[[*numbers]], times, self._known, columns
         )
-        fits = fit_film_clock(phases, readout_time, tolerance, columns, times.period.value)
-        if not fits:
-            return None
-        clock = describe_clock(fits, phases, times, times.parts[0], columns, _HALF_CYCLES)
+        clocks = film.fit_clocks()
+        clock = (
+            describe_clock(clocks, film, times.parts[0], HALF_CYCLES)
+            if clocks.fits
+            else clock_of_lamp(film, clocks.reason, HALF_CYCLES)
+        )
+        if clock is None:
+            return None, clocks.reason
         # The lamp's shape shifts the stripes of all frames equally, which causes no scatter.
-        readout, shared_error = clock.readout_time, self._period_error(pulses)
+        readout, shared_error = clock.readout_time, self._period_error(frames)
         error = math.hypot(readout.error, shared_error * readout.value)
         gap_error = math.hypot(clock.gap.error, columns * shared_error * readout.value)
         return replace(
             clock,
             readout_time=MeasuredValue(readout.value, error),
             gap=MeasuredValue(clock.gap.value, gap_error),
-        )
+        ), ""
 
     @staticmethod
     def _period_error(repeating: Sequence[_FrameStripes]) -> float:
@@ -136,6 +132,20 @@ class WithoutPackets:
         )
 
 
+def _half_cycle_phases(frames: Sequence[_FrameStripes]) -> FramePhases:
+    return FramePhases(
+        times=np.array([frame.time for frame in frames]),
+        columns=np.array([frame.column for frame in frames]),
+        places=np.array([frame.place for frame in frames]),
+        errors=np.array([frame.place_error for frame in frames]),
+        steps=np.array([HALF_CYCLES / frame.period for frame in frames]),
+        step_errors=np.array(
+            [HALF_CYCLES / frame.period**2 * frame.period_error for frame in frames]
+        ),
+        period=float(HALF_CYCLES),
+    )
+
+
 def _select_pulses(frames: Sequence[_FrameStripes]) -> list[_FrameStripes]:
     """Return the frames that show a plain pulse; none if many show other stripes."""
     pulses = [frame for frame in frames if frame.is_pulse]
@@ -165,8 +175,8 @@ def _analyse_frame(
         time,
         level,
         period,
-        _HALF_CYCLES * (phase / (2.0 * math.pi) % 1.0),
-        _HALF_CYCLES / (2.0 * math.pi) * math.sqrt(unrepeated / max(independent, 1.0)),
+        HALF_CYCLES * (phase / (2.0 * math.pi) % 1.0),
+        HALF_CYCLES / (2.0 * math.pi) * math.sqrt(unrepeated / max(independent, 1.0)),
         error,
         first_column + middle,
         is_pulse=rising <= columns / period + 1.0,

@@ -51,16 +51,24 @@ DOORS: dict[str, Callable[[Scene], object]] = {
     "most bits": lambda scene: occ.most_bits(scene, ["threshold"]),
     "film study": lambda scene: FilmRequest(scene, (8e3,), (0.1,), (16,)),
     "code lengths": _code_lengths,
+}
+FILM_DOORS: dict[str, Callable[[Scene], object]] = {
     "film": lambda scene: occ.decode_video(occ.render_video(scene, 1), scene),
     "frames": lambda scene: occ.decode_frames([], scene),
 }
 
 
-@each_case((door, light) for door in DOORS for light in OTHER_LIGHTS)
+@each_case(
+    [
+        *((door, light) for door in DOORS for light in OTHER_LIGHTS),
+        # Films show the clock of all others.
+        *((door, light) for door in FILM_DOORS for light in ("levels", "recorded")),
+    ]
+)
 def test_what_needs_chips_refuses_the_light_and_names_what_to_ask(door: str, light: str) -> None:
     scene = SCENE.replace(**OTHER_LIGHTS[light])
     with pytest.raises(ParameterError) as refusal:
-        DOORS[door](scene)
+        (DOORS | FILM_DOORS)[door](scene)
     kind = scene.transmitter.light
     begin, instead = str(refusal.value).split(REFUSAL)
     assert (begin, instead) == (f"light is {kind}; ", INSTEAD.get(door, SEEN))

@@ -277,7 +277,14 @@ ROWS: list[Row] = [
         lambda wrong: occ.VideoReader(SCENE, readout_tolerance=wrong),
         *(
             ({"wrong": wrong}, "readout_tolerance", repr(wrong), "above 0 up to 0.5")
-            for wrong in (0.7, 0.0, None, "0.01", True)
+            for wrong in (0.7, 0.0, "0.01", True)
+        ),
+    ),
+    *calls(
+        lambda wrong: occ.VideoReader(SCENE, frequency_tolerance=wrong),
+        *(
+            ({"wrong": wrong}, "frequency_tolerance", repr(wrong), "above 0 up to 0.5")
+            for wrong in (0.7, 0.0, "0.01", True)
         ),
     ),
     (

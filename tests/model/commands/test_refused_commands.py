@@ -59,8 +59,10 @@ READING = {
     "match black.png --lamps": "No lamp was found: no place is much brighter than the rest of the ",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
-        f"decode p.png {kind} --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
-        "%; allowed: above 0 % up to 50 %."
+        f"decode p.png {kind} --readout-tolerance={percent}": (
+            f"--readout-tolerance is '{percent}'; allowed: above 0 % up to 50 %, such as 1% or "
+            "100ppm."
+        )
         for kind, percent in (("--follow", "nan"), ("--follow", "0"), ("", "-5"), ("", "51"))
     },
     "match p.png --chips --lamps": "--chips is given with --lamps",

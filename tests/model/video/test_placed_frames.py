@@ -7,6 +7,7 @@ import numpy as np
 import occ_model as occ
 from occ_model.results.video_reading import FrameReading
 from occ_model.transmitter.scheme import sent_chips
+from occ_model.video.known_timing import KnownTiming
 from occ_model.video.period import SentPeriod
 from occ_model.video.placed_frames import PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import TimedFrame
@@ -37,7 +38,7 @@ def place_frames(shift: float) -> tuple[PlacedFrames, list[TimedFrame], list[int
     """Place frames that start this many chips apart, beginning after eight sub-packets."""
     period, chips = SentPeriod(SCENE.transmitter), sent_chips(SCENE.transmitter)
     frequency = (len(chips) + shift) / FRAME_PERIOD
-    placed = PlacedFrames(period, 1.002 * STEP / frequency, 0.005)
+    placed = PlacedFrames(period, KnownTiming(frequency, 1.002 * STEP / frequency, None, 0.005))
     placed.columns = COLUMNS
     frames, firsts = zip(
         *(make_frame(index, chips, frequency) for index in range(5, 50)), strict=True

@@ -247,12 +247,12 @@ def test_a_payload_is_complete_after_the_frames_it_needed() -> None:
 @pytest.mark.parametrize(
     ("times", "said"),
     [
-        (60.0 * np.arange(30), "do not determine a clock"),
+        (60.0 * np.arange(30), "gives no clock"),
         (np.full(30, 7.0), "do not increase"),
         (1.0 - np.arange(30) / 30.0, "do not increase"),
         (3600.0 * (np.arange(30) % 2) + np.arange(30) / 30.0, "times jump by"),
         (np.random.default_rng(1).permutation(30) / 30.0, "times jump by"),
-        (np.arange(30) / 60.0, "do not determine a clock"),
+        (np.arange(30) / 60.0, "gives no clock"),
         (1e-300 * np.arange(30), "do not increase"),
     ],
 )
@@ -326,7 +326,7 @@ def test_a_square_wave_leaves_aliases_that_are_stated() -> None:
     reading = occ.decode_video(frames, scene, readout_tolerance=0.03)
     assert not reading.clock.is_sure
     stated = [reading.clock.switching_frequency.value]
-    stated += [frequency for frequency, _ in reading.clock.alternatives]
+    stated += [other.switching_frequency.value for other in reading.clock.alternatives]
     # A wave of two chips at 30 frames per second: one every 60 Hz from 4 kHz / 1.03 to 4 kHz /
     # 0.97.
     assert sorted(round(frequency) for frequency in stated) == [3940, 4000, 4060, 4120]

@@ -1,0 +1,194 @@
+"""The clock of a film from rounded times, and all solutions that what is known leaves."""
+
+import numpy as np
+import pytest
+from amount import amount
+from each_case import each_case
+
+from occ_model.video.film_clock import FilmClock, FilmPhases, describe_clock
+from occ_model.video.frame_period import fit_rounded_period
+from occ_model.video.frame_times import fit_frame_times
+from occ_model.video.known_timing import CRYSTAL_TOLERANCE, KnownTiming
+from occ_model.video.phase_fit import FramePhases
+
+COLUMNS, READOUT = 1000, 25e-6
+LAMP = 2e3  # half cycles a second: a lamp of 1 kHz
+NOISE = 0.003
+MILLISECOND, HUNDREDTH = 1e-3, 1e-2
+
+
+def film(
+    known: KnownTiming,
+    rate: float = 30.0,
+    frames: int = 60,
+    resolution: float = 0.0,
+    jitter: float = 0.0,
+    slow_motion: int = 1,
+    frequency: float = LAMP,
+    readout: float = READOUT,
+    period: float = 2.0,
+    seed: int = 1,
+) -> FilmPhases:
+    """Return the phases of a film whose frames' starts its container rounds and slows down."""
+    random = np.random.default_rng(seed)
+    starts = random.uniform(0.0, 1.0) + np.arange(frames) / rate
+    starts = starts + jitter * random.standard_normal(frames)
+    stated = slow_motion * starts
+    if resolution:
+        stated = np.round(stated / resolution) * resolution
+    stated = stated - stated[0]
+    step = frequency * readout
+    columns = 500.0 + 30.0 * np.sin(np.arange(frames))
+    places = frequency * starts + step * columns + NOISE * random.standard_normal(frames)
+    phases = FramePhases(
+        stated, columns, np.mod(places, period), np.full(frames, NOISE),
+        step * (1.0 + 1e-4 * random.standard_normal(frames)), np.full(frames, 1e-4 * step), period,
+    )  # fmt: skip
+    times = fit_frame_times(stated, resolution)
+    return FilmPhases(phases, times.numbers, times, known, COLUMNS)
+
+
+def lamp_known(frequency: float = LAMP, tolerance: float = CRYSTAL_TOLERANCE) -> KnownTiming:
+    return KnownTiming(frequency, 1.3 * READOUT, tolerance, None)
+
+
+def errors_of(clock: FilmClock, period: float, frequency: float = LAMP) -> list[float]:
+    """Return the errors of the first solution in stated ones: frequency, readout, gap, period."""
+    values = clock.fits[0].values
+    truth = (frequency, READOUT, period - COLUMNS * READOUT, period)
+    measured = (values.switching_frequency, values.readout_time, values.gap, values.frame_period)
+    return [
+        (one.value - true) / max(one.error, 1e-12 * true)
+        for one, true in zip(measured, truth, strict=True)
+    ]
+
+
+@each_case(
+    (rate, resolution)
+    for rate in (23.976, 24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 90.0)
+    for resolution in (1e-7, 1 / 90_000, MILLISECOND, HUNDREDTH)
+)
+def test_the_period_of_rounded_times_holds_for_nominal_and_other_rates(
+    rate: float, resolution: float
+) -> None:
+    """A nominal rate lies at the tip of what its rounded times allow."""
+    if resolution > 0.7 / rate:
+        return
+    random = np.random.default_rng(7)
+    off = []
+    for _ in range(amount(8, 40)):
+        count = int(random.integers(5, 150))
+        period = (1.0 + random.uniform(-1e-4, 1e-4)) / rate
+        times = random.uniform(0.0, 1.0) + np.arange(count) * period
+        times = times + random.choice([0.0, 2e-5, 2e-4]) * random.standard_normal(count)
+        found = fit_rounded_period(
+            np.arange(count, dtype=float), np.round(times / resolution) * resolution, resolution
+        )
+        off.append(abs(found.value - period) / found.error)
+    assert max(off) < 5.0
+    assert np.mean(np.array(off) < 2.0) > 0.8
+
+
+def test_the_error_of_a_rounded_period_is_not_larger_than_the_rounding_allows() -> None:
+    times = np.round(np.arange(100) / 29.97 / MILLISECOND) * MILLISECOND
+    found = fit_rounded_period(np.arange(100.0), times, MILLISECOND)
+    assert 0.0 < found.error < MILLISECOND / 99 / 2
+
+
+@each_case((24.0, 240.0, 480.0, 720.0))
+def test_frames_are_counted_whatever_their_times_are_rounded_to(rate: float) -> None:
+    times = np.floor(np.arange(200) / rate / MILLISECOND) * MILLISECOND
+    found = fit_frame_times(times, MILLISECOND)
+    assert found.numbers.tolist() == list(range(200))
+    assert found.problems == ()
+    assert abs(found.period.value - 1.0 / rate) < 4.0 * found.period.error
+
+
+def test_a_missing_frame_is_counted_between_rounded_times() -> None:
+    numbers = np.delete(np.arange(80), [30, 31, 60])
+    times = np.round(numbers / 29.97 / MILLISECOND) * MILLISECOND
+    assert fit_frame_times(times, MILLISECOND).numbers.tolist() == numbers.tolist()
+
+
+def test_a_container_that_counts_frames_states_an_exact_period() -> None:
+    found = fit_frame_times(np.arange(50) / 25.0, 0.04)
+    assert (found.resolution, found.period.error) == (0.0, pytest.approx(0.0, abs=1e-12))
+
+
+@each_case((0.0, MILLISECOND, HUNDREDTH))
+def test_a_known_lamp_measures_the_readout_time_whatever_the_times_are_rounded_to(
+    resolution: float,
+) -> None:
+    clock = film(lamp_known(), resolution=resolution).fit_clocks()
+    assert len(clock.fits) == 1
+    assert max(map(abs, errors_of(clock, 1 / 30))) < 4.0
+    readout = clock.fits[0].values.readout_time
+    assert readout.error < 1e-4 * READOUT
+
+
+@each_case((0.0, 0.03, -0.03, 0.049))
+def test_a_wrong_guess_of_the_readout_time_never_gives_one_wrong_answer(off: float) -> None:
+    known = KnownTiming(1.7 * LAMP, (1.0 + off) * READOUT)
+    clock = film(known).fit_clocks()
+    frequencies = [each.values.switching_frequency.value for each in clock.fits]
+    assert len(frequencies) > 1
+    assert min(abs(one - LAMP) for one in frequencies) < 0.01
+    # Every whole number of cycles in a frame period: 60 half cycles a second.
+    assert np.diff(sorted(frequencies)) == pytest.approx(60.0, abs=0.01)
+
+
+def test_a_stated_frequency_is_preferred_to_a_guessed_readout_time() -> None:
+    clock = film(KnownTiming(LAMP, 1.034 * READOUT)).fit_clocks()
+    assert clock.fits[0].values.switching_frequency.value == pytest.approx(LAMP, rel=1e-5)
+
+
+def test_an_oscillator_of_two_percent_leaves_all_lamps_that_fit() -> None:
+    known = lamp_known(0.985 * LAMP, 0.02)
+    clock = film(known, readout=27e-6).fit_clocks()
+    found = sorted(each.values.switching_frequency.value for each in clock.fits)
+    assert found == pytest.approx([LAMP - 60.0, LAMP], rel=2e-4)
+
+
+@each_case((1, 2, 4, 8))
+def test_a_known_lamp_shows_slow_motion(slow_motion: int) -> None:
+    rate = 30.0 * slow_motion
+    readout = 0.8 / rate / COLUMNS
+    known = lamp_known(1940.0 * 1.00005)
+    phases = film(known, rate, 90, slow_motion=slow_motion, frequency=1940.0, readout=readout)
+    clock = phases.fit_clocks()
+    assert [each.values.slow_motion for each in clock.fits] == [slow_motion]
+    values = clock.fits[0].values
+    assert abs(values.readout_time.value - readout) < 4.0 * values.readout_time.error
+    assert abs(values.frame_period.value - 1.0 / rate) < 4.0 * values.frame_period.error
+
+
+def test_slow_motion_that_the_lamp_cannot_tell_leaves_the_readout_time_sure() -> None:
+    """33 1/3 cycles of 1 kHz in 1/30 s and 8 1/3 in 1/120 s end at the same phase."""
+    readout = 0.8 / 120 / COLUMNS
+    phases = film(lamp_known(), 120.0, 90, slow_motion=4, readout=readout)
+    clocks = phases.fit_clocks()
+    assert [each.values.slow_motion for each in clocks.fits] == [1, 4]
+    clock = describe_clock(clocks, phases, phases.times.parts[0], 2)
+    assert not clock.is_sure
+    assert clock.is_sure_of("readout_time")
+    assert clock.is_sure_of("switching_frequency")
+    assert not clock.is_sure_of("frame_period")
+    assert not clock.is_sure_of("gap")
+
+
+def test_times_that_hide_the_clock_are_named_as_the_reason() -> None:
+    """Uneven frames whose times are kept to ten cycles of the lamp."""
+    clock = film(KnownTiming(LAMP, READOUT), resolution=HUNDREDTH, jitter=0.008).fit_clocks()
+    assert clock.fits == ()
+    assert "their times are kept to 10 ms only, in which what is sent repeats 9." in clock.reason
+
+
+def test_a_readout_longer_than_the_frame_period_is_named_as_the_reason() -> None:
+    clock = film(KnownTiming(LAMP, 2.0 * READOUT), readout=2.0 * READOUT).fit_clocks()
+    assert clock.reason.startswith("1000 columns cannot be read out within a frame period of 33.3")
+
+
+def test_exact_uneven_times_are_used_as_they_are() -> None:
+    clock = film(KnownTiming(LAMP, READOUT), jitter=0.002).fit_clocks()
+    assert [each.is_by_number for each in clock.fits] == [False]
+    assert abs(errors_of(clock, 1 / 30)[0]) < 4.0

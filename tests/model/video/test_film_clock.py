@@ -1,5 +1,7 @@
 """The clock of a film from rounded times, and all solutions that what is known leaves."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from amount import amount
@@ -63,30 +65,26 @@ def errors_of(clock: FilmClock, period: float, frequency: float = LAMP) -> list[
     ]
 
 
-@each_case(
-    (rate, resolution)
-    for rate in (23.976, 24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 90.0)
-    for resolution in (1e-7, 1 / 90_000, MILLISECOND, HUNDREDTH)
-)
-def test_the_period_of_rounded_times_holds_for_nominal_and_other_rates(
-    rate: float, resolution: float
-) -> None:
+def test_the_period_of_rounded_times_holds_for_nominal_and_other_rates() -> None:
     """A nominal rate lies at the tip of what its rounded times allow."""
-    if resolution > 0.7 / rate:
-        return
     random = np.random.default_rng(7)
     off = []
-    for _ in range(amount(8, 40)):
-        count = int(random.integers(5, 150))
-        period = (1.0 + random.uniform(-1e-4, 1e-4)) / rate
-        times = random.uniform(0.0, 1.0) + np.arange(count) * period
-        times = times + random.choice([0.0, 2e-5, 2e-4]) * random.standard_normal(count)
-        found = fit_rounded_period(
-            np.arange(count, dtype=float), np.round(times / resolution) * resolution, resolution
-        )
-        off.append(abs(found.value - period) / found.error)
+    rates = (23.976, 24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 90.0)
+    resolutions = (1e-7, 1 / 90_000, MILLISECOND, HUNDREDTH)
+    for rate, resolution in product(rates, resolutions):
+        if resolution > 0.7 / rate:
+            continue
+        for _ in range(amount(8, 40)):
+            count = int(random.integers(5, 150))
+            period = (1.0 + random.uniform(-1e-4, 1e-4)) / rate
+            times = random.uniform(0.0, 1.0) + np.arange(count) * period
+            times += random.choice([0.0, 2e-5, 2e-4]) * random.standard_normal(count)
+            rounded = np.round(times / resolution) * resolution
+            found = fit_rounded_period(np.arange(float(count)), rounded, resolution)
+            off.append(abs(found.value - period) / found.error)
     assert max(off) < 5.0
-    assert np.mean(np.array(off) < 2.0) > 0.8
+    # The standard deviation of this fraction in 240 trials is 1.4 %.
+    assert np.mean(np.array(off) < 2.0) > 0.9
 
 
 def test_the_error_of_a_rounded_period_is_not_larger_than_the_rounding_allows() -> None:

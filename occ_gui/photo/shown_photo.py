@@ -141,9 +141,12 @@ class ShownPhoto:
 
     @property
     def compared_stripes(self) -> Stripes | None:
-        """The stripes to compare: a match does not change their levels."""
+        """The stripes to compare: the match of a code does not change their levels."""
         search = self.stripe_search
-        return self.stripes if search is None else search.stripes or self.stripes
+        is_lamp = self.match is not None and self.match.lamp is not None
+        if is_lamp or search is None or search.stripes is None:
+            return self.stripes
+        return search.stripes
 
     @property
     def why_no_stripes(self) -> str:

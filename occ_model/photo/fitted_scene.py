@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.errors import MatchError, distinct_texts
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
+from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.photo_scene import fit_to_photo, with_chips, with_explanation, with_levels
@@ -33,14 +33,6 @@ DOUBTFUL_EXPOSURE_DEVIATION = 0.5
 two standard deviations."""
 
 _MOST_EDGE_ERROR = 0.25  # maximum error of the outermost edges in shortest pulses
-
-
-def scale_frequency(scene: Scene, rate: float) -> Scene:
-    """Return a scene at ``rate`` times its switching frequency."""
-    if rate == 1.0:
-        return scene
-    frequency = scene.transmitter.switching_frequency * rate
-    return with_explanation(scene, switching_frequency=frequency)
 
 
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
@@ -73,8 +65,7 @@ def make_match(
 
     If fits with several exposures are equally good, the one nearest to the exposure time in the
     photo's EXIF data is chosen, or the shortest. ``check`` is called every few hundredths of a
-    second, and may raise an exception to end the work. A pulse that ``was_read`` has an estimated
-    duty.
+    second, and may raise an exception to end the work.
     """
     region = stripes.region
     better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
@@ -93,12 +84,6 @@ def make_match(
     doubts = doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
     exposure_fraction = uncertainties["exposure_time"] / scene.camera.exposure_time
     scene = round_estimates(scene, uncertainties)
-    if was_read and is_single_pulse(explanation.chips):
-        # The stated duty is that of whole chips, so that its change in the fit is also an error.
-        shortest_pulse = min(runs_of(explanation.chips))  # an upper limit of that error
-        uncertainties["duty"] = min(math.hypot(*fit.longer), shortest_pulse) / len(
-            explanation.chips
-        )
     camera = scene.camera
     return Match(
         scene=scene,

@@ -30,6 +30,7 @@ LABELS = {
     "exposed": "Exposure in chips",
     "exposed_periods": "Exposure in periods",
     "averaging": "Averaging",
+    "lines": "Lines read together",
     "region": "Region",
     "correlation": "Correlation",
     "residual": "Residual (RMSE)",
@@ -39,6 +40,7 @@ LABELS = {
 }
 """Names of the facts, in their order."""
 
+_NUMBERS = {2: "two", 3: "three", 4: "four", 8: "eight"}
 _DIGITS = 4
 
 _LARGEST_ERROR = 0.5  # relative standard deviation above which only an upper limit is stated
@@ -101,6 +103,8 @@ def _fit(match: Match) -> dict[str, tuple[str, str]]:
         "residual": (f"{match.rmse:.2f} grey levels", "rims included"),
         "saturated": (f"{100.0 * stripes.saturated:.1f} % of the region's pixels", ""),
     }
+    if match.lines_at_once > 1:
+        texts["lines"] = f"this camera reads {_NUMBERS[match.lines_at_once]} lines at a time", ""
     if stripes.period is not None:
         columns = Unit("columns").format_estimate(stripes.period, stripes.period_uncertainty)
         texts["repeats"] = columns, ""

@@ -36,6 +36,8 @@ def known_value(estimate: str, scene: Scene) -> tuple[str, float]:
     return name, float(scene.value(name))
 
 
+NEVER_CHANGES = "What the scene sends never changes: it makes no stripes."
+
 PLAIN_STRIPES = (  # advice if a repeating pulse is refused as a code
     "These look like the plain stripes of a lamp; if so, state that a lamp is sent."
 )
@@ -160,9 +162,8 @@ class Match:
     Parameters
     ----------
     scene
-        The given scene with the parameters estimated from the photo. Light with one pulse per
-        period is a lamp of full depth, because a photo does not distinguish the lamp's steady light
-        from that of others.
+        The given scene with the parameters estimated from the photo. A lamp has full depth, because
+        a photo does not distinguish its steady light from that of others.
     stripes
         The matched stripes, with the fitted levels.
     readout_time, exposure_time, start_time, gamma
@@ -173,8 +174,7 @@ class Match:
         Standard deviations of the estimates, in SI units, by name; for a lamp ``lamp_frequency``
         and ``duty`` in place of ``switching_frequency``.
     pattern
-        The chips sent, from the start of a period; for a lamp, the chips that represent its light
-        in the fit.
+        The chips sent, from the start of a period; for a lamp ``"10"``, as a cycle counts as two.
     pattern_was_read
         Whether it was read from the photo.
     profile : ndarray of float64, shape (columns of the region,)
@@ -190,6 +190,8 @@ class Match:
     exposure_reasons
         Sentences on why the exposure time is doubtful; the chips and the readout time or frequency
         do not depend on it.
+    lines_at_once
+        Lines that the sensor reads together, as a lamp's stripes show; 1 for others.
     """
 
     scene: Scene
@@ -208,6 +210,7 @@ class Match:
     reasons: tuple[str, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
     exposure_reasons: tuple[str, ...] = ()
+    lines_at_once: int = 1
 
     @property
     def lamp(self) -> BlinkingLamp | None:

@@ -7,6 +7,7 @@ import pytest
 from documents import FOLDER, text_of
 
 import occ_model as occ
+from occ_model.results.match import PLAIN_STRIPES
 
 pytestmark = pytest.mark.photos
 
@@ -88,14 +89,11 @@ def test_the_frequency_comes_out_where_the_readout_is_known(led: occ.Photo) -> N
     assert match.switching_frequency == pytest.approx(2e3, rel=0.003)
 
 
-def test_the_square_wave_is_read_where_it_is_not_given(
-    led: occ.Photo, square_wave: occ.Match
-) -> None:
+def test_the_square_wave_is_no_code_where_it_is_not_given(led: occ.Photo) -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
-    match = occ.match_photo(led, scene, sent="read")
-    assert match.pattern == "10"
-    stated = square_wave.uncertainties["exposure_time"]
-    assert match.exposure_time == pytest.approx(square_wave.exposure_time, abs=stated)
+    with pytest.raises(occ.MatchError) as refused:
+        occ.match_photo(led, scene, sent="read")
+    assert refused.value.reasons[0] == PLAIN_STRIPES
 
 
 def test_all_chips_are_read_without_being_given(photos: Path) -> None:

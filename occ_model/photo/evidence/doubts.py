@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.errors import distinct_texts
 from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
-from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse, runs_of
+from occ_model.photo.fit.chip_runs import chips_if_longer, runs_of
 from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes
 from occ_model.scene.units import PERCENT
@@ -63,11 +63,6 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
 
 def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
     """Return why the exposure of a hypothesis is doubtful, also where its chips are not."""
-    if found.rate != 1.0 and stripes.saturated > CLIPPED_FRACTION:
-        return [
-            f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
-            "pulses: the duty may be smaller."
-        ]
     if stripes.saturated <= _MOST_SATURATED_FOR_EXPOSURE:
         return []
     if found.was_read and stripes.saturated > _MOST_SATURATED:
@@ -85,28 +80,22 @@ def _too_white(saturated: float, most: float) -> str:
 
 def _doubts_by_extent(found: Hypothesis) -> list[str]:
     reasons = []
-    chips, one_pulse = len(found.chips), is_single_pulse(found.chips)
+    chips = len(found.chips)
     is_long = chips >= _LONG_PATTERN and not found.was_read
     least = _LEAST_PERIODS if is_long else _LEAST_PERIODS_OF_OTHERS
     if found.periods < least:
         shown, limit = distinct_texts(found.periods, least)
-        of_chips = "" if one_pulse else f" of {chips} chips"
-        reasons.append(f"Only {shown} periods{of_chips} are in view; at least {limit} are needed.")
-    # Stripes are symmetric in a pulse and its exposure: only half a period counts.
-    shortest = chips_as_one(found.chips) if one_pulse else min(runs_of(found.chips))
+        reasons.append(
+            f"Only {shown} periods of {chips} chips are in view; at least {limit} are needed."
+        )
+    shortest = min(runs_of(found.chips))
     exposure = found.fit.timing.exposure / shortest
     if exposure > _LONGEST_EXPOSURE:
         what = "a chip" if shortest == 1 else f"the shortest pulse of {shortest} chips"
-        what = "half a period" if one_pulse else what
         shown, limit = distinct_texts(exposure, _LONGEST_EXPOSURE)
         reasons.append(
             f"The exposure is {shown} times as long as {what}; above {limit} different "
-            f"{'duties' if one_pulse else 'codes'} give nearly the same stripes."
-        )
-    if found.was_read and found.rate == 1.0 and one_pulse:
-        reasons.append(
-            "The stripes are one pulse repeated, as those of any regular object are: that they are "
-            "a lamp's is not known from the photo."
+            "codes give nearly the same stripes."
         )
     return reasons
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.chip_runs import canonical, chips_as_one, is_single_pulse
+from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 
 CLIPPED_FRACTION = 0.02
@@ -24,7 +24,6 @@ class Hypothesis:
     fit: StripeFit
     bits: float  # bits that had to be chosen to state it: 0 where it was given beforehand
     was_read: bool
-    rate: float = 1.0  # its chips in the time of one of the scene's chips
     # Whether they were read by trying many sequences, as what was read first explained little.
     read_again: bool = False
 
@@ -42,36 +41,20 @@ class Hypothesis:
         return self.chips_in_view / len(self.chips)
 
     @property
-    def counted_chips(self) -> float:
-        """Number of chips in view that count: of a pulse two a period, however fine its chips."""
-        return self.chips_in_view / chips_as_one(self.chips)
-
-    @property
     def information(self) -> float:
         """Bits by which the fit is better than one by chance.
 
         A profile of N independent Gaussian values reaches the correlation r with a given one with a
         probability of about (1 - r^2)^(N/2). An exposure of several chips leaves fewer values.
         """
-        exposed = self.fit.timing.exposure / chips_as_one(self.chips)
-        independent = self.counted_chips / max(1.0, exposed)
+        independent = self.chips_in_view / max(1.0, self.fit.timing.exposure)
         unexplained = max(1.0 - max(self.fit.correlation, 0.0) ** 2, 1e-12)
         return -0.5 * independent * math.log2(unexplained) - self.bits
 
     @property
     def freedom(self) -> int:
         """Number of parameters of the fit: its levels, step, exposure and phase."""
-        return 3 + 2 * level_freedom(self.counted_chips)
-
-    def shares_timing_with(self, other: "Hypothesis", *, is_given: bool) -> bool:
-        """Whether other chips take the same time, so that they change no timing if they are right.
-
-        That of what is given is known; so is that of a pulse whose frequency is given, whatever
-        its duty.
-        """
-        same = math.isclose(len(self.chips) / self.rate, len(other.chips) / other.rate)
-        known = not self.was_read or self.rate != 1.0
-        return same and (is_given or (known and is_single_pulse(self.chips)))
+        return 3 + 2 * level_freedom(self.chips_in_view)
 
     def residual(self, profile: FloatArray) -> FloatArray:
         return profile - self.fit.profile

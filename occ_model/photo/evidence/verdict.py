@@ -81,7 +81,7 @@ class Judge:
             f"beside {found.fit.correlation:.3f}."
             for other, more in beside
             if more > -_DECISIVE_LOG_LIKELIHOOD
-            and not found.shares_timing_with(other, is_given=is_given)
+            and not (is_given and len(other.chips) == len(found.chips))
         ]
         if own - self._of_curve(found, independent) < _DECISIVE_LOG_LIKELIHOOD:
             reasons.append("Light that varies slowly, without any code, is nearly as likely.")
@@ -100,7 +100,7 @@ class Judge:
                 f"at least {limit} is needed."
             ]
         reasons = []
-        if found.was_read and not self._blinks and is_single_pulse(found.chips):
+        if is_single_pulse(found.chips):
             fraction = 100.0 * float(found.chips.mean())
             columns = len(found.chips) / found.fit.timing.step
             reasons += [
@@ -166,7 +166,7 @@ class Judge:
         from scipy.fft import dct
 
         profile, columns = self._stripes.profile, len(self._stripes.profile)
-        most = min(int(_COSINES_PER_CHIP * found.counted_chips), columns // 2)
+        most = min(int(_COSINES_PER_CHIP * found.chips_in_view), columns // 2)
         about = profile - profile.mean()
         whole = float(about @ about)
         explained = np.cumsum(dct(about, norm="ortho") ** 2)[: max(2, most)]

@@ -1,4 +1,4 @@
-"""Sequences of chips by their runs of equal chips: pulses, and how many of their chips count."""
+"""Sequences of chips by their runs of equal chips."""
 
 import math
 from itertools import groupby
@@ -29,23 +29,6 @@ def canonical(chips: ByteArray) -> ByteArray:
 def is_single_pulse(chips: ByteArray) -> bool:
     """Whether a period has one pulse only, as any regular pattern has."""
     return len(runs_of(canonical(chips))) <= 2
-
-
-def pulse(on: int, count: int) -> ByteArray:
-    """Return the fewest chips of a pulse that is on for some of a number of parts of its period."""
-    shared = math.gcd(on, count)
-    chips = np.zeros(count // shared, dtype=np.uint8)
-    chips[: on // shared] = 1
-    return chips
-
-
-def chips_as_one(chips: ByteArray) -> float:
-    """Return how many chips count as one: of a pulse half a period, however fine its chips are.
-
-    A pulse has two edges a period: it samples the brightness of a lamp no more often than a square
-    wave of two chips does.
-    """
-    return 0.5 * len(chips) if len(runs_of(chips)) == 2 else 1.0
 
 
 def chips_if_longer(chips: ByteArray) -> tuple[int, int]:

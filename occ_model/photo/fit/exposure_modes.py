@@ -5,7 +5,7 @@ Edges show the width of an exposure and of blur together, so that one may be mis
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
@@ -20,11 +20,6 @@ _MOST_EXCESS_MISFIT = 60.0  # excess of the misfit above which an exposure is no
 _MOST_EXCESS, _MOST_RATIO = 9.0, 1.3
 """Excess of the misfit (three standard deviations), and its ratio, up to which another exposure is
 as likely."""
-
-_MOST_SQUARE_WAVE_RATIO = 3.0
-"""The same ratio for a square wave, whose stripes at such exposures differ by blur and saturation
-only: an exposure of 2.2 chips had 1.5 to 2.4 times the misfit of 0.23, where 2.15 was right (seed
-730036)."""
 
 _MOST_COLUMNS = 12.0  # exposure in columns below which blur may be taken for it
 _BLURS = (0.2, 0.7, 1.1, 1.5)  # standard deviations of blur, in columns, that are tried
@@ -128,11 +123,8 @@ def _with_blur(values: FloatArray, blur: float) -> FloatArray:
 
 def exposure_modes(
     models: Sequence[JointModel], explanation: Explanation, is_possible: Callable[[Timing], bool]
-) -> tuple[list[JointFit], list[JointFit]]:
-    """Find the exposures that are about as likely as the most likely one, that one first.
-
-    Besides, for a square wave, those that are less likely, but not surely distinguishable.
-    """
+) -> list[JointFit]:
+    """Find the exposures that are about as likely as the most likely one, that one first."""
     first = models[0]
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
     first.estimate_noise(first.start(best))
@@ -141,79 +133,28 @@ def exposure_modes(
     for model in models[1:]:
         model.take_noise(first)
     groups = [possible_near(models, usual.values)]
-    is_square, alike = len(explanation.chips) == 2, list[JointFit]()
     # By the model that explains this exposure best: another one may explain none of them.
     found = min(groups[0], key=lambda one: one.fit.misfit)
     least = found.fit.misfit
-    for start in _other_starts(found, explanation, is_possible):
+    for start in scanned_starts(found.model, found.fit.values, is_possible):
         other = found.model.fit(start)
         exposures = [one.fit.exposure for group in groups for one in group]
-        exposures += [fit.exposure for fit in alike]
         if any(abs(other.exposure - exposure) <= SAME_EXPOSURE for exposure in exposures):
             continue
         if other.misfit < least + _MOST_EXCESS_MISFIT:
             groups.append([Possible(found.model, other)])
-        elif is_square and other.misfit < _MOST_SQUARE_WAVE_RATIO * least:
-            alike.append(other)
     likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
     likely.model.estimate_noise(likely.fit.values)
     for model in models:
         model.take_noise(likely.model)
-    means, tried = [], list[JointFit]()
+    means = []
     for group in groups:
         most = min(one.fit.misfit for one in group) + _MOST_EXCESS_MISFIT
         fits = [fit for one in group if one.fit.misfit <= most for fit in one.again()]
         means.append(averaged([fit.unbiased for fit in fits]))
-        tried += fits
     least = min(fit.misfit for fit in means)
     most = _MOST_RATIO * least + _MOST_EXCESS
-    # A square wave's first one stays: its stripes are those of the others, to the last column.
-    stays = means[0] if is_square else None
-    kept = [fit for fit in means if fit.misfit < most or fit is stays]
-    if is_square:
-        alike += alike_among(
-            tried,
-            [*kept, *alike],
-            _MOST_SQUARE_WAVE_RATIO * least,
-            lambda fit: is_possible(first.timing(fit.values)),
-        )
-    return distinct(kept), alike
-
-
-def _other_starts(
-    found: Possible, explanation: Explanation, is_possible: Callable[[Timing], bool]
-) -> list[FloatArray]:
-    """Return the first parameters of fits, for other exposures than the one found."""
-    model = found.model
-    if len(explanation.chips) != 2:
-        return scanned_starts(model, found.fit.values, is_possible)
-    best = min(explanation.fits, key=lambda fit: fit.residual).timing
-    starts = [model.start(one) for one in alike_starts(best) if is_possible(one)]
-    # What looks the same does so by the exposure without blur, which the first fits include.
-    _, exposure, middle = found.fit.values[:3].tolist()
-    for one in alike_starts(replace(best, exposure=exposure, middle=middle)):
-        if is_possible(one):
-            values = model.adapted(found.fit.values)
-            values[1:3] = one.exposure, one.middle
-            starts.append(values)
-    return starts
-
-
-def alike_starts(best: Timing) -> list[Timing]:
-    """Return the timings of other exposures by which a square wave's stripes look the same."""
-    t = best.exposure
-    width = abs(math.remainder(t, 2.0))  # of an edge, in chips
-    alike = [2.0 * turns + sign * width for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
-    # From one such exposure to the next the stripes are turned about: shifted by a chip.
-    return [
-        replace(
-            best,
-            exposure=other,
-            middle=best.middle + (math.floor(t / 2.0) + math.floor(other / 2.0)) % 2,
-        )
-        for other in alike
-        if 0.0 < other < _LONGEST_EXPOSURE and abs(other - t) > SAME_EXPOSURE
-    ]
+    return distinct([fit for fit in means if fit.misfit < most])
 
 
 def scanned_starts(
@@ -241,34 +182,3 @@ def scanned_starts(
         if misfit < most and apart and is_possible(model.timing(values)):
             kept.append(values)
     return kept[:_MOST_SCANNED]
-
-
-def alike_among(
-    tried: Sequence[JointFit],
-    kept: Sequence[JointFit],
-    most: float,
-    is_possible: Callable[[JointFit], bool],
-) -> list[JointFit]:
-    """Return the fits of a square wave by other exposures that look like one of those kept.
-
-    A search that begins near one exposure may end at another, where blur of a wrong shape fits
-    better: one ended at 1.61 chips where 2.38 were right, and 2.39 among those tried (seed
-    4480060).
-    """
-    found: list[JointFit] = []
-    for fit in sorted(tried, key=lambda one: one.misfit):
-        known = [one.exposure for one in (*kept, *found)]
-        if (
-            fit.misfit < most
-            and all(abs(fit.exposure - other) > SAME_EXPOSURE for other in known)
-            and any(_look_alike(fit.exposure, one.exposure) for one in kept)
-            and is_possible(fit)
-        ):
-            found.append(fit)
-    return found
-
-
-def _look_alike(one: float, other: float) -> bool:
-    """Whether a square wave's stripes look the same by two exposures in chips, blur left aside."""
-    turns = [math.remainder(sum_, 2.0) for sum_ in (one - other, one + other)]
-    return min(map(abs, turns)) <= SAME_EXPOSURE

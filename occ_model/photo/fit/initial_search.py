@@ -12,11 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.timing import Timing
 
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
-"""Exposures that are tried, in chips; of a pulse in half periods."""
+"""Exposures that are tried, in chips."""
 
 _ROUGH_EXPOSURES = (0.3, 1.4, 2.4, 3.5, 5.4)  # exposures with which all steps are compared
 _MOST_STEP = 0.95  # maximum number of chips per column
@@ -43,7 +42,6 @@ class Search:
     def __init__(self, flattened: FloatArray, chips: ByteArray) -> None:
         about = flattened - flattened.mean()
         self._columns, self._period = len(flattened), len(chips)
-        self._as_one = chips_as_one(chips)
         size = _PADDING * self._columns
         # Phases refer to the middle of the profile, where a step's error changes them least. For an
         # even number of columns it lies between two of them, and the phase factor repeats after two
@@ -75,14 +73,14 @@ class Search:
         for first in range(0, len(steps), together):
             part = slice(first, first + together)
             seen = self._sampled(steps[part], slow)
-            for exposure in self._as_one * np.array(_ROUGH_EXPOSURES):
+            for exposure in _ROUGH_EXPOSURES:
                 check()
                 scores = self._scores(seen, exposure, _ROUGH_PHASES_A_CHIP)[0]
                 rough[part] = np.maximum(rough[part], scores)
         best = steps[np.argsort(rough)[-_BEST_STEPS:]]
         seen = self._sampled(best, self._harmonics)
         found = []
-        for exposure in (self._as_one * np.array(EXPOSURES)).tolist():
+        for exposure in EXPOSURES:
             check()
             scores, phases = self._scores(seen, exposure, _PHASES_A_CHIP)
             top = int(scores.argmax())

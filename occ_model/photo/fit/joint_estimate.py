@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.exposure_modes import exposure_modes
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.joint_model import PRIORS, JointModel
@@ -23,8 +22,7 @@ from occ_model.photo.stripes.evenly_lit import Cells, EvenProfile
 from occ_model.results.match import Stripes
 
 _CHIPS_LIT = 8
-"""Number of chips within which an LED is on at least once; a period where that is shorter, or where
-it is on once only."""
+"""Number of chips within which an LED is on at least once; a period where that is shorter."""
 
 _UNKNOWN_RAMP = 0.002  # relative deviation of an exposure by its ramps' shape
 
@@ -79,7 +77,7 @@ def refined(
     step = explanation.fits[0].timing.step
     chips = explanation.chips
     period = len(chips) / step
-    width = max(1, round(period if len(runs_of(chips)) == 2 else min(period, _CHIPS_LIT / step)))
+    width = max(1, round(min(period, _CHIPS_LIT / step)))
     profiles = cells.profiles(width)
     if explanation.camera.enhancement == "equalization" or not profiles:
         return Refined(explanation.fits)
@@ -100,7 +98,7 @@ def refined(
         stripes.profile, chips, explanation.camera.tone, step,
         explanation.camera.rank_resolution,
     )  # fmt: skip
-    found, alike = exposure_modes(models, explanation, model.is_possible)
+    found = exposure_modes(models, explanation, model.is_possible)
     seen, unusual = (of(found[0].values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:
         found = [_with_step_of(mode, explanation) for mode in found]
@@ -110,11 +108,11 @@ def refined(
     ]
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fits[0].correlation < explanation.correlation - _MOST_CORRELATION_LOSS:
-        first = tuple(replace(fit, longer=fits[0].longer) for fit in explanation.fits)
-        return Refined(first, _doubts(unusual), (_CONTRADICTION, *_exposure_doubts(seen, alike)))
+        doubts = (_CONTRADICTION, *_exposure_doubts(seen))
+        return Refined(explanation.fits, _doubts(unusual), doubts)
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
-    return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen, alike))
+    return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen))
 
 
 def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:
@@ -166,8 +164,7 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
         gamma *= math.exp(float(values[3]))
         covariance[3, :3] = covariance[:3, 3] = gamma * mode.covariance[3, :3]
         covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
-    fit = _described(model, replace(timing, gamma=gamma), mode, covariance)
-    return replace(fit, longer=(float(values[8]), math.sqrt(float(mode.covariance[8, 8]))))
+    return _described(model, replace(timing, gamma=gamma), mode, covariance)
 
 
 def _with_width(timing: Timing, mode: JointFit) -> Timing:
@@ -211,23 +208,14 @@ def _doubts(unusual: float) -> tuple[str, ...]:
     )
 
 
-def _exposure_doubts(seen: float, alike: Sequence[JointFit]) -> tuple[str, ...]:
-    doubts = []
-    if seen < _LEAST_EDGES:
-        doubts.append(
-            f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
-            f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed for the "
-            "exposure time. Expose less."
-        )
-    if alike:
-        times = sorted(0.5 * fit.exposure for fit in alike)  # two chips are a period
-        *others, last = [f"{one:.2f}" for one in times]
-        periods = f"{', '.join(others)} or {last}" if others else last
-        doubts.append(
-            "A lamp that is lit for half of each period looks nearly the same at an exposure of "
-            f"{periods} periods, where the surroundings are bright."
-        )
-    return tuple(doubts)
+def _exposure_doubts(seen: float) -> tuple[str, ...]:
+    if seen >= _LEAST_EDGES:
+        return ()
+    return (
+        f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
+        f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed for the exposure "
+        "time. Expose less.",
+    )
 
 
 def without_rims(

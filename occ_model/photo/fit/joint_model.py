@@ -13,7 +13,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.joint_fit import CORRELATED_COLUMNS, JointFit, covariance_of
 from occ_model.photo.fit.least_squares import level_freedom
@@ -74,20 +73,20 @@ class JointModel:
         check: Callable[[], object] = lambda: None,
     ) -> None:
         self._check = check
-        columns, as_one = len(profiles[0].values), chips_as_one(chips)
+        columns = len(profiles[0].values)
         self._columns, self._step, self.gamma = columns, step, gamma
         self._values_blurred = values_blurred
-        counted = step * columns / as_one
-        freedom = level_freedom(counted)
-        slow = int(np.clip(counted / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
+        in_view = step * columns
+        freedom = level_freedom(in_view)
+        slow = int(np.clip(in_view / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
         self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
-        width = max(_LEAST_BLOCK, round(_CHIPS_PER_BLOCK * as_one / step))
+        width = max(_LEAST_BLOCK, round(_CHIPS_PER_BLOCK / step))
         self._block = np.concatenate([part.kept // width for part in self._parts])
         self._noise = [np.ones(part.data.size) for part in self._parts]
         self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
         usual = np.array(list(PRIORS.values()))
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
-        self._deviation[5] = math.hypot(as_one * self._deviation[5], _EDGE_SHIFT * step)
+        self._deviation[5] = math.hypot(self._deviation[5], _EDGE_SHIFT * step)
         if wide:
             self._deviation[0] = _ANY_GAMMA
         allowed = quantity("gamma")

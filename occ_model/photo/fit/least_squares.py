@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.light.waveform import Waveform
-from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
@@ -61,9 +60,6 @@ class StripeFit:
     residual: float  # sum of the squared differences of data and model
     # Whether the levels can be a picture's: lit above dark, and dark not negative.
     is_possible: bool
-    # By how many chips the LED is on longer than the chips say, with its standard deviation; (0, 0)
-    # where that was not fitted.
-    longer: tuple[float, float] = (0.0, 0.0)
 
 
 class StripeModel:
@@ -88,7 +84,7 @@ class StripeModel:
         self._tone = tone
         self._scale = max(1.0, rank_resolution / DIFFERENCE) * step
         # The same number for both levels, or else the mean would fit better than the swing.
-        freedom = level_freedom(step * len(profile) / chips_as_one(chips))
+        freedom = level_freedom(step * len(profile))
         kept: NDArray[np.bool_] = profile < _SATURATED_LEVEL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
         shapes = smooth_shapes(len(profile), 2 * freedom - 1)
@@ -192,7 +188,7 @@ def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
 
 
 def level_freedom(counted: float) -> int:
-    """Return the number of parameters of either level, for the chips in view that count."""
+    """Return the number of parameters of either level, for the chips in view."""
     return int(np.clip(counted / _CHIPS_PER_SHAPE, 1, _MOST_SHAPES))
 
 

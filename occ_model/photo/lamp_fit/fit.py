@@ -65,6 +65,11 @@ class LampFit:
         return math.exp(self.values[GAMMA])
 
     @property
+    def gamma_error(self) -> float:
+        """The standard deviation of gamma."""
+        return self.gamma * math.sqrt(max(float(self.covariance[GAMMA, GAMMA]), 0.0))
+
+    @property
     def levels(self) -> FloatArray:
         return self.model.levels(self.values)
 

@@ -1,7 +1,6 @@
 """Match the stripes of a lamp in a photo: its frequency or the readout time, duty and exposure."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -22,16 +21,27 @@ from occ_model.photo.photo_scene import fit_to_photo, with_explanation, with_lev
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import SATURATED_LEVEL
 from occ_model.results.decoding import Region
-from occ_model.results.match import Match, Stripes
+from occ_model.results.match import NEVER_CHANGES, Match, Stripes
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT, SECOND
 
 _CHIPS = "10"  # those of a cycle, which counts as two
+_MOST_DEVIATIONS, _DUTY_ERROR = 3.0, 0.02
+"""Deviations between a known duty and that of the stripes above which it is doubtful, and what tone
+curves outside the model add to them."""
+
+_LEAST_RAMP, _LEAST_PERIOD = 1.0, 10.0  # columns from which duty and exposure are sure
 
 
 def match_lamp(
-    photo: Photo, scene: Scene, region: Region, *, estimate: str, is_duty_known: bool
+    photo: Photo,
+    scene: Scene,
+    region: Region,
+    *,
+    estimate: str,
+    is_duty_known: bool,
+    fit_gamma: bool = False,
 ) -> Match:
     """Match the brightest lamp within a region of a photo.
 
@@ -43,37 +53,46 @@ def match_lamp(
         ``"readout_time"`` or ``"switching_frequency"``, which stands for the lamp's frequency.
     is_duty_known
         Whether the scene's duty is the lamp's; else it is read from the stripes.
+    fit_gamma
+        Whether gamma is estimated, too, unless samples are in proportion to the light.
 
     Raises
     ------
     MatchError
         There are no stripes, or none of a lamp.
     """
+    lamp = blinking_lamp(scene.transmitter)
+    if lamp is None:
+        raise MatchError("The scene sends no lamp's light.")
+    if lamp.depth == 0.0 or (is_duty_known and not 0.0 < lamp.duty < 1.0):
+        raise MatchError(NEVER_CHANGES)
     place = find_place(photo, region)
     if place is None:
         raise MatchError("No lamp is found: nothing in the photo is brighter than the rest.")
     reading = read_lamp(place, is_linear=photo.is_linear)
-    lamp = blinking_lamp(scene.transmitter)
-    if lamp is None:
-        raise MatchError("The scene sends no lamp's light.")
     period = reading.period
     readout = scene.camera.readout_time
     if estimate == "readout_time":
         readout, frequency = 1.0 / (lamp.frequency * period), lamp.frequency
     else:
         frequency = 1.0 / (readout * period)
-    chosen, others = _choose(
-        reading, lamp.duty if is_duty_known else None, photo.exposure_time, frequency
-    )
+    known_duty = lamp.duty if is_duty_known else None
+    chosen, others = _choose(reading, known_duty, photo.exposure_time, frequency)
+    duty = chosen.duty if known_duty is None else known_duty
     first = reading.column + place.region.first_column
-    start = (0.5 * chosen.duty - 0.5 * chosen.exposure - first / period) % 1.0 / frequency
+    start = (0.5 * duty - 0.5 * chosen.exposure - first / period) % 1.0 / frequency
     errors = _uncertainties(reading, chosen, estimate, readout, frequency, is_duty_known)
     low, high = (WHITE * each for each in reading.ends)
     scene = with_explanation(
-        with_notes(scene, photo), light="lamp", lamp_frequency=frequency, duty=chosen.duty,
+        with_notes(scene, photo), light="lamp", lamp_frequency=frequency, duty=duty,
         depth=1.0, readout_time=readout, exposure_time=chosen.exposure / frequency,
         start_time=start, averaging="light", enhancement="none",
     )  # fmt: skip
+    if photo.is_linear:
+        scene = scene.replace(gamma=1.0)
+    elif fit_gamma:
+        scene = with_explanation(scene, gamma=reading.fit.gamma)
+        errors["gamma"] = reading.fit.gamma_error
     scene = fit_to_photo(scene, photo, place.region)
     scene = with_levels(scene, float(np.median(low)), float(np.median(high)))
     name = "readout_time" if estimate == "readout_time" else "lamp_frequency"
@@ -102,10 +121,16 @@ def match_lamp(
         profile=model,
         correlation=float(np.corrcoef(stripes.flattened, flat)[0, 1]),
         other_exposures=tuple(sorted(each.exposure / frequency for each in others)),
-        reasons=(*reading.reasons(has_note=photo.exposure_time is not None), *unsure),
+        reasons=(
+            *reading.reasons(has_note=photo.exposure_time is not None),
+            *unsure,
+            *_doubts_by_duty(reading, chosen, known_duty),
+        ),
+        lines_at_once=reading.lines_at_once,
         exposure_reasons=(
             *doubts_by_fraction("exposure_time", unknown, DOUBTFUL_EXPOSURE_DEVIATION),
             *doubts_by_enhancement(photo),
+            *_doubts_by_columns(reading),
             *_doubts_by_readings(chosen, others, frequency),
         ),
     )  # fmt: skip
@@ -114,7 +139,7 @@ def match_lamp(
 def _choose(
     reading: LampReading, duty: float | None, noted: float | None, frequency: float
 ) -> tuple[StripeReading, tuple[StripeReading, ...]]:
-    """Return the duty and exposure that the floor, and what is known, leave, and the others.
+    """Return the reading that the floor, and what is known, leave, and the other ones.
 
     Where a duty is known or an exposure is noted there are no others.
     """
@@ -122,13 +147,37 @@ def _choose(
     every = readings_of(reading.width, reading.ramp)
     possible = [each for each in every if abs(each.floor - floor) <= most] or list(every[:2])
     if duty is not None:
-        nearest = min(possible, key=lambda each: abs(each.duty - duty))
-        return replace(nearest, duty=duty), ()
+        return min(possible, key=lambda each: abs(each.duty - duty)), ()
     if noted is not None:
         wanted = noted * frequency
         return min(possible, key=lambda each: abs(math.log(each.exposure / wanted))), ()
     first, *others = possible
     return first, tuple(others)
+
+
+def _doubts_by_duty(reading: LampReading, chosen: StripeReading, known: float | None) -> list[str]:
+    """Doubt a known duty that is not that of the stripes."""
+    error = reading.width_error if chosen.is_width_of_pulses else reading.ramp_error
+    if known is None or abs(chosen.duty - known) <= _MOST_DEVIATIONS * math.hypot(
+        error, _DUTY_ERROR
+    ):
+        return []
+    return [
+        f"The stripes have a duty of {PERCENT.format_estimate(chosen.duty, error)}; the scene "
+        f"sends {PERCENT.format(known, 3)}."
+    ]
+
+
+def _doubts_by_columns(reading: LampReading) -> list[str]:
+    """Doubt duty and exposure where compression and blur make most of the stripes' shape."""
+    ramp, period = reading.cues.ramp, reading.cues.period
+    if ramp >= _LEAST_RAMP and period >= _LEAST_PERIOD:
+        return []
+    return [
+        f"The stripes' edges last {ramp:.2g} of the {period:.3g} columns of a period, so that blur "
+        f"and compression hide duty and exposure; at least {_LEAST_RAMP:.0f} of "
+        f"{_LEAST_PERIOD:.0f} are needed."
+    ]
 
 
 def _doubts_by_readings(

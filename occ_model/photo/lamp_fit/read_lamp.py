@@ -44,6 +44,7 @@ class LampReading:
 
     place: LampPlace
     profile: LampProfile
+    lines_at_once: int  # that the sensor reads together
     step: int  # columns of the photo for each of the fit
     first: int  # the first of them, in the place's region
     fit: LampFit
@@ -130,6 +131,7 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
     return LampReading(
         place=place,
         profile=whole,
+        lines_at_once=together,
         step=step,
         first=first,
         fit=fit,

@@ -99,17 +99,6 @@ def test_chips_are_named_by_their_code_or_as_one(changes: dict[str, Any], name: 
     assert max(found, key=lambda one: one.fit.correlation).sent == f"{name} read from the photo"
 
 
-def test_other_chips_are_as_many_a_second_as_those_they_replace() -> None:
-    """A dimmed lamp's 5 chips take the time of two: their readout time is 2.5 times smaller."""
-    case = Case(NEAR.replace(pattern="1000"), told=NEAR.replace(pattern="10"))
-    dimmed = case.candidates.dimmed(None)
-    assert dimmed is not None
-    assert dimmed.rate == 2.5
-    other = case.candidates.nearest_other(dimmed)
-    assert other is not None
-    assert other.rate == dimmed.rate
-
-
 TIMING = Timing(0.08, 1.3, 4.2, 2.2)
 COLUMNS = 400
 

@@ -22,7 +22,7 @@ def explained(
     known = {"periods": 9.0, "exposure": 0.5, "correlation": 0.99, "information": 900.0, **other}
     timing = Timing(0.1, known["exposure"], 0.0, 2.2)
     found: Any = SimpleNamespace(
-        chips=np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 0], dtype=np.uint8), rate=1.0,
+        chips=np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 0], dtype=np.uint8),
         was_read=was_read, read_again=False, periods=known["periods"],
         information=known["information"], residual=lambda profile: profile - HEIGHT,
         fit=SimpleNamespace(swing=HEIGHT, timing=timing, correlation=known["correlation"]),

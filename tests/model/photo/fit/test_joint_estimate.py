@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from occ_model.light.waveform import Waveform
-from occ_model.photo.fit import exposure_modes, joint_estimate
+from occ_model.photo.fit import joint_estimate
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.camera_response import CameraTone
-from occ_model.photo.fit.exposure_modes import _other_starts
 from occ_model.photo.fit.joint_estimate import (
     _doubts,
     _exposure_doubts,
@@ -105,39 +104,13 @@ def test_only_what_is_odd_is_doubted_with_its_figure() -> None:
     assert _doubts(3.5) == ()
     (sentence,) = _doubts(4.25)
     assert "4.2 standard deviations" in sentence
-    assert _exposure_doubts(0.1, ()) == ()
-    (sentence,) = _exposure_doubts(0.04, ())
+    assert _exposure_doubts(0.1) == ()
+    (sentence,) = _exposure_doubts(0.04)
     assert "only 4 % of their columns" in sentence
     assert "at least 10 %" in sentence
 
 
-def test_other_exposures_of_a_square_wave_start_from_the_best_fit(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    near: list[Timing] = []
-
-    def others(best: Timing) -> list[Timing]:
-        near.append(best)
-        return [replace(best, exposure=2.0 - best.exposure), replace(best, exposure=9.0)]
-
-    monkeypatch.setattr(exposure_modes, "alike_starts", others)
-    model: Any = SimpleNamespace(
-        start=lambda timing: np.array([timing.step, timing.exposure, timing.middle, *[0.0] * 6]),
-        adapted=np.copy,
-    )
-    best, worse = stripe_fit(0.11, 2.0), stripe_fit(0.2, 5.0)
-    explanation: Any = SimpleNamespace(chips=np.array([1, 0]), fits=[worse, best])
-    found: Any = SimpleNamespace(fit=FIT, model=model)
-    starts = _other_starts(found, explanation, lambda timing: timing.exposure < 5.0)
-    # From the first fit, and from that without blur, the camera being as found.
-    assert [one.exposure for one in near] == [0.8, 0.8]
-    assert near[0].step == near[1].step == 0.11
-    assert starts[0][:3] == pytest.approx([0.11, 1.2, 3.0])
-    assert starts[1] == pytest.approx([0.1, 1.2, *FIT.values[2:]])
-    assert len(starts) == 2
-
-
-@pytest.mark.parametrize(("chips", "columns"), [(2, 20), (6, 60), (8, 80), (30, 80)])
+@pytest.mark.parametrize(("chips", "columns"), [(6, 60), (8, 80), (30, 80)])
 def test_a_lamps_brightness_is_looked_for_within_a_period_or_a_few_chips(
     chips: int, columns: int
 ) -> None:
@@ -218,7 +191,7 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(
     cells: Any = SimpleNamespace(profiles=lambda _: [EvenProfile(profile, every, 20.0)])
     values = np.array([first.step, exposure, first.middle, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     mode = JointFit(values, np.eye(9) * 1e-8, 1.0)
-    monkeypatch.setattr(joint_estimate, "exposure_modes", lambda *_: ([mode], ()))
+    monkeypatch.setattr(joint_estimate, "exposure_modes", lambda *_: [mode])
     stripes: Any = SimpleNamespace(profile=profile)
     found = refined(stripes, cells, explanation, 2.2)
     (fit,) = found.fits

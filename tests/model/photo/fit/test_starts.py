@@ -1,4 +1,4 @@
-"""From where a fit of the timing starts, and what looks the same as what was found."""
+"""From where a fit of the timing starts."""
 
 import math
 from types import SimpleNamespace
@@ -12,27 +12,12 @@ import occ_model as occ
 from occ_model.light.waveform import Waveform
 from occ_model.photo.fit import best_timing
 from occ_model.photo.fit.camera_response import CameraTone, camera_tones
-from occ_model.photo.fit.exposure_modes import alike_among, alike_starts, scanned_starts
+from occ_model.photo.fit.exposure_modes import scanned_starts
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.timing import Timing
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
 TIMING = Timing(0.07, 1.3, 0.3, 2.2)
-
-
-@pytest.mark.parametrize("exposure", [0.3, 0.9, 1.3, 1.9, 2.6, 4.73])
-def test_other_exposures_of_a_square_wave_show_the_same_stripes(exposure: float) -> None:
-    """Not turned about: bright where the first ones are bright."""
-    wave = np.array([1, 0], dtype=np.uint8)
-    best = Timing(0.07, exposure, 0.3, 2.2)
-    stripes = best.lit_fraction(Waveform(wave), 400)
-    others = alike_starts(best)
-    assert len(others) >= 3
-    for one in others:
-        lit = one.lit_fraction(Waveform(wave), 400)
-        assert np.corrcoef(lit, stripes)[0, 1] == pytest.approx(1.0, abs=1e-9)
-        assert one.exposure > 0.0
-        assert abs(one.exposure - exposure) > 0.04
 
 
 class Scanned:
@@ -170,26 +155,3 @@ def test_of_an_equalized_picture_the_exposure_is_that_of_its_ranks() -> None:
     match = occ.match_photo(photo_of(image), scene, sent="scene")
     assert match.scene.model.enhancement == "equalization"
     assert abs(match.exposure_time - 136e-6) < 2.0 * match.uncertainties["exposure_time"] < 2e-6
-
-
-@pytest.mark.parametrize(
-    ("exposures", "misfits", "possible", "expected"),
-    [
-        ([1.393, 0.622], [129.0, 203.0], 3.0, [0.622]),  # 2 - t
-        ([0.4, 2.38], [100.0, 290.0], 3.0, [2.38]),  # 2 + t
-        ([0.4, 2.38], [100.0, 310.0], 3.0, []),  # surely worse
-        ([0.4, 2.38], [100.0, 290.0], 2.0, []),  # darker than black
-        ([0.4, 0.43], [100.0, 110.0], 3.0, []),  # the same exposure
-        ([0.4, 0.7], [100.0, 110.0], 3.0, []),  # looks otherwise
-        ([0.4, 1.62, 1.59, 2.41], [100.0, 150.0, 120.0, 130.0], 3.0, [1.59, 2.41]),
-    ],
-)
-def test_exposures_that_look_like_a_kept_one_are_found_among_all_that_were_tried(
-    exposures: list[float], misfits: list[float], possible: float, expected: list[float]
-) -> None:
-    fits: list[Any] = [
-        SimpleNamespace(exposure=exposure, misfit=misfit)
-        for exposure, misfit in zip(exposures, misfits, strict=True)
-    ]
-    found = alike_among(fits, fits[:1], 3.0 * misfits[0], lambda fit: fit.exposure < possible)
-    assert [fit.exposure for fit in found] == expected

@@ -22,6 +22,7 @@ import occ_model as occ
 from occ_model.photo.lamp_fit.match import match_lamp
 from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.readings import readings_of
+from occ_model.photo.match_facts import format_facts, match_facts
 from occ_model.photo.reading.load import region_within
 
 SCENE = occ.load_preset("phone-136us").replace(light="lamp", lamp_frequency=FREQUENCY)
@@ -121,8 +122,8 @@ def test_other_regular_things_are_never_sure(
     assert verdict in ("refused", "doubtful")
 
 
-@pytest.mark.parametrize("together", [2, 4])
-def test_lines_that_a_sensor_reads_together_are_averaged(together: int) -> None:
+@pytest.mark.parametrize(("together", "said"), [(2, "two"), (4, "four")])
+def test_lines_that_a_sensor_reads_together_are_averaged_and_told(together: int, said: str) -> None:
     random = np.random.default_rng(7)
     groups = np.repeat(np.arange(480 // together) * together, together).astype(np.float64)
     even = np.tile(lit(groups / 23.7, 0.45, 0.2), (24, 1))
@@ -135,6 +136,37 @@ def test_lines_that_a_sensor_reads_together_are_averaged(together: int) -> None:
     found = occ.match_photo(photo, SCENE)
     assert found.verdict == "sure"
     assert found.readout_time == pytest.approx(readout_of(23.7), rel=2e-3)
+    assert found.lines_at_once == together
+    told = "\n".join(format_facts(match_facts(found)))
+    assert f"lines read together   this camera reads {said} lines at a time" in told
+    one = occ.match_photo(stripes(), SCENE)
+    assert one.lines_at_once == 1
+    assert "lines" not in [fact.key for fact in match_facts(one)]
+
+
+def test_a_known_duty_that_is_not_the_stripes_own_is_doubted() -> None:
+    photo = stripes()
+    own, other = (
+        occ.match_photo(photo, SCENE.replace(duty=duty), sent="scene") for duty in (0.39, 0.55)
+    )
+    assert (own.verdict, own.duty) == ("sure", 0.39)
+    assert other.verdict == "doubtful"
+    assert "; the scene sends 55 %." in other.reasons[-1]
+
+
+@pytest.mark.parametrize("gamma", [1.9, 2.4])
+def test_gamma_is_estimated_on_request(gamma: float) -> None:
+    columns = np.arange(400.0)
+    even = np.tile(lit(columns / 31.3, 0.45, 0.6), (40, 1))
+    light = np.clip(0.7 * even / even.max(), 0.0, 1.0) ** (1.0 / gamma)
+    noise = np.random.default_rng(4).normal(0.0, 0.004, light.shape)
+    photo = photo_of(np.clip(np.rint(255.0 * (light + noise)), 0.0, 255.0).astype(np.uint8))
+    found = occ.match_photo(photo, SCENE, fit_gamma=True)
+    assert abs(found.gamma - gamma) < 2.0 * found.uncertainties["gamma"] < 0.5
+    assert found.scene.camera.gamma == found.gamma
+    given = occ.match_photo(photo, SCENE)
+    assert given.gamma == SCENE.camera.gamma
+    assert "gamma" not in given.uncertainties
 
 
 def test_readings_make_the_same_stripes() -> None:

@@ -1,4 +1,4 @@
-"""A lamp is fitted as chips of one pulse, and is a lamp again in every result."""
+"""A lamp is told in its own words in every result, and other lights are refused."""
 
 import csv
 import math
@@ -10,81 +10,53 @@ from matches import match_of_lamp, match_with
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.lamp_chips import in_chips, with_lamp
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.photo.match_facts import format_facts, match_facts
-from occ_model.results.match import Alternative, Match, known_value
+from occ_model.results.match import NEVER_CHANGES, PLAIN_STRIPES, Alternative, known_value
 from occ_model.results.photo_table import PhotoRow, csv_text
 
 BASE = occ.load_preset("phone-68us").replace(rows=40, columns=500, exposure_time=3e-4)
-BLURRED = {"edge_time": 2e-5, "point_spread": 1.0}
 
 
-def chips_as_lamp(pattern: str, frequency: float, **more: float) -> tuple[occ.Scene, Match]:
-    """Return a scene of chips, and a match with it whose chips are made a lamp."""
-    scene = BASE.replace(pattern=pattern, switching_frequency=len(pattern) * frequency, **more)
-    errors = {"switching_frequency": 5.0, "start_time": 1e-6}
-    found = match_with(
-        scene=scene, pattern=pattern, switching_frequency=scene.transmitter.switching_frequency,
-        start_time=scene.model.start_time, uncertainties=errors,
-    )  # fmt: skip
-    return scene, with_lamp(found, BASE)
+def bars() -> occ.Photo:
+    return photo_of(np.tile(np.repeat([30, 210], 20).astype(np.uint8), (80, 20)))
 
 
-@pytest.mark.parametrize("pattern", ["10", "01", "1110000000", "0011111110", "1" * 49 + "0"])
-@pytest.mark.parametrize("more", [{"start_time": 1.234e-3}, BLURRED], ids=["sharp", "blurred"])
-def test_the_lamps_picture_is_that_of_its_chips(pattern: str, more: dict[str, float]) -> None:
-    chips, match = chips_as_lamp(pattern, 239.0, **more)
-    lamp = match.scene
-    assert (lamp.transmitter.light, match.lamp_frequency) == ("lamp", 239.0)
-    assert match.duty == pattern.count("1") / len(pattern)
-    assert match.start_time == lamp.model.start_time
-    assert match.uncertainties["lamp_frequency"] == 5.0 / len(pattern)
-    picture, of_lamp = (occ.render(each, tolerance=0.0, seed=3).image for each in (chips, lamp))
-    np.testing.assert_array_equal(of_lamp, picture)
-    profile, profile_of_lamp = (occ.column_profile(each) for each in (chips, lamp))
-    # The duty of most pulses is no binary fraction.
-    most = 0.0 if pattern == "10" else 1e-11
-    np.testing.assert_allclose(profile_of_lamp, profile, rtol=0.0, atol=most)
-
-
-def test_a_lamp_keeps_the_code_that_its_scene_would_send() -> None:
-    given = BASE.replace(code=345, switching_frequency=6e3)
-    pulse = given.replace(pattern="1100", switching_frequency=4e3)
-    found = match_with(scene=pulse, pattern="1100", switching_frequency=4e3)
-    scene = with_lamp(found, given).scene
-    assert scene.replace(light="code", start_time=0.0).transmitter == given.transmitter.replaced(
-        {"lamp_frequency": 1e3}
-    )
-    code = match_with(scene=given.replace(pattern="11010"), pattern="11010")
-    assert with_lamp(code, given) is code
-    assert (code.lamp, code.lamp_frequency, code.duty) == (None, None, None)
+@pytest.mark.parametrize("light", ["mains", "waveform"])
+def test_a_light_that_is_no_lamp_is_refused_unless_chips_are_read(light: str) -> None:
+    scene = BASE.replace(light=light)
+    with pytest.raises(occ.ParameterError, match="code, lamp or pulses; or let what is sent"):
+        occ.match_photo(bars(), scene)
+    with pytest.raises(occ.MatchError) as refused:
+        occ.match_photo(bars(), scene, sent="read")
+    assert refused.value.reasons[0] == PLAIN_STRIPES
 
 
 @pytest.mark.parametrize(
-    ("duty", "parts"),
-    [(0.5, "10"), (0.3, "1110000000"), (0.94, "1" * 47 + "000"), (0.004, "1" + "0" * 249),
-     (0.0, "0"), (1.0, "1"), (1e-9, "1" + "0" * 999)],
-)  # fmt: skip
-def test_a_lamp_is_a_pulse_of_few_chips(duty: float, parts: str) -> None:
-    sent = in_chips(BASE.replace(light="lamp", lamp_frequency=1e3, duty=duty), is_read=False)
-    assert sent.transmitter.pattern == parts
-    assert sent.transmitter.switching_frequency == 1e3 * len(parts)
-    flashes = BASE.replace(light="pulses", pulse_frequency=1e3, pulse_length=1e-3 * max(duty, 1e-6))
-    if duty > 1e-6:
-        assert in_chips(flashes, is_read=False).transmitter.pattern == parts
+    ("changes", "sent"),
+    [({"duty": 1.0}, "scene"), ({"duty": 0.0}, "scene"), ({"depth": 0.0}, "auto")],
+)
+def test_a_lamp_that_never_changes_makes_no_stripes(changes: dict[str, float], sent: str) -> None:
+    scene = BASE.replace(light="lamp", lamp_frequency=1e3)
+    with pytest.raises(occ.MatchError) as refused:
+        occ.match_photo(bars(), scene.replace(**changes), sent=sent)
+    assert refused.value.reasons == (NEVER_CHANGES,)
 
 
-def test_a_light_that_is_no_lamp_is_refused_unless_it_is_read() -> None:
-    photo = photo_of(np.tile(np.repeat([30, 210], 20).astype(np.uint8), (80, 20)))
-    for light in ("mains", "waveform"):
-        scene = BASE.replace(light=light)
-        with pytest.raises(occ.ParameterError, match="code, lamp or pulses; or let what is sent"):
-            occ.match_photo(photo, scene)
-        assert occ.match_photo(photo, scene, sent="read").duty == 0.5
-    with pytest.raises(occ.ParameterError, match=r"Lamp frequency is 0\.1 Hz; allowed where"):
-        occ.match_photo(photo, BASE.replace(light="lamp", lamp_frequency=0.1))
+@pytest.mark.parametrize("sent", ["auto", "read"])
+def test_flashes_and_one_pulse_of_chips_are_lamps(sent: str) -> None:
+    flashes = BASE.replace(light="pulses", pulse_frequency=1e3, pulse_length=5e-4)
+    chips = BASE.replace(pattern="1000", switching_frequency=4e3)
+    match = occ.match_photo(bars(), flashes, sent=sent)
+    assert (match.scene.transmitter.light, match.lamp_frequency) == ("lamp", 1e3)
+    assert match.readout_time == pytest.approx(1.0 / (1e3 * 40.0), rel=2e-3)
+    if sent == "auto":
+        assert occ.match_photo(bars(), chips).readout_time == match.readout_time
+        return
+    with pytest.raises(occ.MatchError) as refused:
+        occ.match_photo(bars(), chips, sent=sent)
+    assert refused.value.reasons[0] == PLAIN_STRIPES
 
 
 DUTY, CYCLES, READOUT = 0.3, 850.0, 11e-6

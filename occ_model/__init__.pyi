@@ -19,6 +19,7 @@ from .errors import (
     SceneFileError as SceneFileError,
     VideoError as VideoError,
 )
+from .photo.camera.measure import measure_camera as measure_camera
 from .photo.chips.read import read_chips as read_chips
 from .photo.comparison import compare as compare
 from .photo.lamps.find import find_lamps as find_lamps
@@ -39,6 +40,7 @@ from .results.bands import (
 )
 from .results.bars_answer import BarsAnswer as BarsAnswer, UnlitRows as UnlitRows
 from .results.bit_errors import BitErrors as BitErrors, MostBits as MostBits
+from .results.camera import CameraMeasurement as CameraMeasurement
 from .results.decoding import (
     DecodeResult as DecodeResult,
     Region as Region,

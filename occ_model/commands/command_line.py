@@ -16,8 +16,8 @@ _MODULES = {  # the module of each command
     "render": "render", "plan": "render", "film": "film", "animate": "film",
     "film-study": "film_study", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits",
     "most-bits": "limits", "bench": "bench", "bands": "bands", "decode": "decode", "match": "match",
-    "figures": "figures", "room": "room", "transmit": "transmit", "codes": "listing",
-    "presets": "listing", "parameters": "listing",
+    "camera": "camera", "figures": "figures", "room": "room", "transmit": "transmit",
+    "codes": "listing", "presets": "listing", "parameters": "listing",
 }  # fmt: skip
 
 

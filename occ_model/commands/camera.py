@@ -1,0 +1,63 @@
+"""The command ``occ-model camera``: measure a camera by bars of lamps on the mains."""
+
+import argparse
+import json
+from pathlib import Path
+
+from occ_model.commands.options import Commands, add_option, progress_bar
+from occ_model.errors import ParameterError
+from occ_model.photo.camera.measure import MOST_PICTURES, measure_camera
+from occ_model.photo.reading.choices import SCAN_AXES
+from occ_model.results.camera import CameraMeasurement
+from occ_model.scene.parameters import quantity
+
+
+def add_to(commands: Commands) -> None:
+    parser = commands.add_parser(
+        "camera", help="measure a camera's readout time by lamps on the mains, without equipment"
+    )
+    parser.add_argument(
+        "files",
+        type=Path,
+        nargs="+",
+        metavar="PICTURE",
+        help="two pictures of a room at 1/1000 s, or a short and a long exposure; or one of an "
+        "even wall; not cropped, without lens correction",
+    )
+    add_option(parser, "--mains", "50Hz", "frequency of the mains", metavar="FREQUENCY")
+    add_option(parser, "--scan-axis", SCAN_AXES[0], choices=SCAN_AXES)
+    parser.add_argument("--json", action="store_true", help="print the result as JSON, in SI units")
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    if len(options.files) > MOST_PICTURES:
+        raise ParameterError.of(
+            "PICTURE",
+            f"{len(options.files)} times",
+            "two pictures of a room, or one",
+            verb="is given",
+        )
+    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
+        measured = measure_camera(
+            options.files,
+            quantity("mains_frequency").parse(options.mains),
+            scan_axis=options.scan_axis,
+            progress=lambda fraction: bar.update(fraction - bar.n),
+        )
+    if options.json:
+        print(json.dumps(measured.to_dict(), indent=2))
+    else:
+        print("\n".join(report_lines(measured)))
+    return 0
+
+
+def report_lines(measured: CameraMeasurement) -> list[str]:
+    """Describe a measurement in lines, the answer first."""
+    facts = [f"  {fact.label:22}{fact}" for fact in measured.facts]
+    return [
+        measured.sentence,
+        *(f"  doubtful: {reason}" for reason in measured.reasons),
+        *facts,
+        f"  {measured.assumption}",
+    ]

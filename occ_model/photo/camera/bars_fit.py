@@ -1,0 +1,279 @@
+"""Find the number of bars a frame, with its error and the likelihood of other numbers."""
+
+import math
+from dataclasses import astuple, dataclass, replace
+
+import numpy as np
+from scipy.optimize import minimize, minimize_scalar
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.camera.bars_model import COARSE, FINE, BarsModel, Lines, Scales, Shape
+from occ_model.photo.camera.quotient import LineValues
+
+FEWEST_BARS, MOST_BARS = 1.0, 16.0
+_STEPS_A_BAR = 8  # steps of the search in which the phase at the frame's end changes by a cycle
+_LEAST_LINES = 5.0  # lines a bar
+_LEAST_DEVIATION = 2e-3  # of a line's value: 8 bits quantize light by 2 %, over several cells
+_CANDIDATES = 4
+_LARGEST = 0.999  # value of a quotient whose second picture is dark
+_DEGREES = 4.0  # of freedom of Student's t, by which lines of a moved edge lose their weight
+_ROUNDS = 4
+_REACH = 20  # part of the lines up to which residuals are taken to correlate (Newey and West, 1987)
+_LEAST_SHARE = 0.2  # of a wave's energy in harmonics that those of twice or thrice the bars lack
+# What is believed of the logarithms of the scales before: deviations, and the farthest.
+_SPREAD, _FARTHEST = np.array([1.5, 0.4, 0.7, 2.0, 0.5]), np.array([3.0, 0.7, 1.4, 3.0, 1.0])
+_APART = 0.04  # difference of numbers of bars, relative, that makes two of them other answers
+_MODULATIONS = (0.03, 0.06, 0.12, 0.25, 0.5)
+_BENDS = np.linspace(-0.06, 0.06, 7)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BarsFit:
+    """The bars that explain a quotient's lines best.
+
+    Parameters
+    ----------
+    bars, deviation
+        Bars a frame and its standard deviation.
+    gap
+        Natural logarithm of its likelihood over that of the next other number of bars.
+    gap_to_none
+        The same over that of no bars at all.
+    other
+        That next number.
+    bend, bend_gap
+        Most likely displacement by a lens correction in the corners, relative to their distance
+        from the middle, and the logarithm of its likelihood over that of none.
+    fitted, waves : ndarray of float64, shape (tiles, lines)
+        The fit, and its periodic part.
+    residual
+        Root mean square of what is not explained, weighted.
+    """
+
+    bars: float
+    deviation: float
+    gap: float
+    gap_to_none: float
+    other: float
+    bend: float
+    bend_gap: float
+    fitted: FloatArray
+    waves: FloatArray
+    residual: float
+    scales: Scales
+
+    @property
+    def clipped_waves(self) -> FloatArray:
+        """The periodic part, within what a quotient (A - B) / (A + B) of light can be."""
+        return np.clip(self.waves, -_LARGEST, _LARGEST)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Search:
+    """Lines weighted by what the best number of bars leaves, and that number.
+
+    Parameters
+    ----------
+    gap_to_none
+        Natural logarithm of its likelihood over that of no bars.
+    """
+
+    given: LineValues
+    lines: Lines
+    scales: Scales
+    bars: float
+    gap_to_none: float
+
+    def weighted_anew(self, shape: Shape) -> "Search":
+        """Fit the scales, and weight the lines by what this number of bars does not explain."""
+        model = BarsModel(self.lines, self.bars, shape)
+        scales = _fit_scales(model, _first_scales(self.given))
+        fitted = model.fitted(scales)
+        away = (self.given.values - fitted)[np.isfinite(self.given.deviations)]
+        floor = max(_LEAST_DEVIATION, 1.4826 * float(np.median(np.abs(away))))
+        lines = Lines.of(self.given, floor)
+        factors, inflation = _weights(lines, fitted)
+        if shape is COARSE:  # what it does not explain is mostly the wave's higher harmonics
+            inflation = 1.0
+        return replace(self, lines=lines.weighted(factors / inflation), scales=scales)
+
+
+def search_bars(given: LineValues) -> Search:
+    """Find the number of bars a frame that explains a quotient's lines best, coarsely."""
+    start = _first_scales(given)
+    search = Search(given, Lines.of(given, start.slow), start, math.nan, 0.0)
+    grid = _grid(given.values.shape[1])
+    for _ in range(_ROUNDS):
+        logs = _evidences(search, grid)
+        bars, _ = _refine(search, float(grid[int(np.argmax(logs))]), COARSE)
+        search = replace(search, bars=bars).weighted_anew(COARSE)
+    gap = BarsModel(search.lines, bars, COARSE).log_evidence(search.scales) - _fit_none(search)
+    return replace(search, gap_to_none=gap)
+
+
+def _first_scales(given: LineValues) -> Scales:
+    seen = given.values[np.isfinite(given.deviations)]
+    spread = max(float(np.std(seen)), _LEAST_DEVIATION) if seen.size else _LEAST_DEVIATION
+    return Scales(spread, 1.5, 0.15, 0.5 * spread, 1.0)
+
+
+def _evidences(search: Search, grid: FloatArray) -> FloatArray:
+    return np.array([
+        BarsModel(search.lines, bars, COARSE).log_evidence(search.scales) for bars in grid
+    ])  # fmt: skip
+
+
+def fit_bars(search: Search) -> BarsFit:
+    """Fit the bars of a search, and compare them with other numbers of bars, none and bent ones."""
+    search = search.weighted_anew(FINE)
+    search = replace(search, bars=_refine(search, search.bars, FINE)[0]).weighted_anew(FINE)
+    grid = _grid(search.given.values.shape[1])
+    tops = [search.bars, *_maxima(grid, _evidences(search, grid))]
+    tried = {*tops, *(search.bars * factor for factor in (1 / 3, 0.5, 2.0, 3.0))}
+    found = [_refine(search, bars, FINE) for bars in tried if FEWEST_BARS <= bars <= grid[-1]]
+    bars, evidence = max(found, key=lambda each: each[1])
+    for factor in (2, 3):
+        if factor * bars <= grid[-1] and _share_of_others(search, bars, factor) < _LEAST_SHARE:
+            bars, evidence = _refine(search, factor * bars, FINE)
+    others = [each for each in found if abs(each[0] / bars - 1.0) > _APART]
+    other, next_best = max(others, key=lambda each: each[1], default=(math.nan, -math.inf))
+    search = replace(search, bars=bars)
+    none = _fit_none(search)
+    bars, deviation = _posterior(search)
+    search = replace(search, bars=bars)
+    bend, bend_gap = _bend(search)
+    lines, model = search.lines, BarsModel(search.lines, bars, FINE)
+    fitted = model.fitted(search.scales)
+    square = float((lines.weights * (lines.values - fitted) ** 2).sum() / lines.weights.sum())
+    return BarsFit(
+        bars, deviation, evidence - next_best, evidence - none, other, bend, bend_gap,
+        fitted, model.waves(search.scales), math.sqrt(square), search.scales,
+    )  # fmt: skip
+
+
+def _grid(lines: int) -> FloatArray:
+    most = min(MOST_BARS, lines / _LEAST_LINES)
+    count = int((most - FEWEST_BARS) * _STEPS_A_BAR) + 1
+    return np.linspace(FEWEST_BARS, most, count)
+
+
+def _fit_scales(model: BarsModel, start: Scales) -> Scales:
+    """Find the most likely scales, each within a factor that keeps it sane."""
+    middle = np.log(astuple(start))
+
+    def cost(logs: FloatArray) -> float:
+        if (np.abs(logs - middle) > _FARTHEST).any():
+            return math.inf
+        penalty = 0.5 * (((logs - middle) / _SPREAD) ** 2).sum()
+        return float(penalty - model.log_evidence(Scales(*np.exp(logs))))
+
+    found = minimize(cost, middle, method="Nelder-Mead", options={"maxfev": 150, "xatol": 0.02})
+    return Scales(*(float(each) for each in np.exp(found.x)))
+
+
+def _weights(lines: Lines, fitted: FloatArray) -> tuple[FloatArray, float]:
+    """Return factors on the weights by Student's t, and how far correlation inflates variances."""
+    is_seen = lines.weights > 0.0
+    away = np.where(is_seen, (lines.values - fitted) * np.sqrt(lines.weights), 0.0)
+    factors = (_DEGREES + 1.0) / (_DEGREES + away**2)
+    robust = away * np.sqrt(factors)
+    energy = max(float((robust**2).sum()), 1e-12)
+    reach = robust.shape[1] // _REACH
+    along = 1.0 + 2.0 * sum(
+        (1.0 - lag / (reach + 1)) * float((robust[:, lag:] * robust[:, :-lag]).sum()) / energy
+        for lag in range(1, reach + 1)
+    )
+    across = float((robust.sum(axis=0) ** 2).sum()) / energy  # 1 for independent tiles
+    return factors, max(along, 1.0) * max(across, 1.0)
+
+
+def _maxima(grid: FloatArray, values: FloatArray) -> list[float]:
+    padded = np.concatenate([[-np.inf], values, [-np.inf]])
+    is_top = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:])
+    tops = np.flatnonzero(is_top)
+    tops = tops[np.argsort(values[tops])[::-1][:_CANDIDATES]]
+    return [float(each) for each in grid[tops]]
+
+
+def _refine(search: Search, bars: float, shape: Shape) -> tuple[float, float]:
+    """Find the most likely number of bars near one; return it with its log-likelihood."""
+
+    def cost(bars: float) -> float:
+        return -BarsModel(search.lines, bars, shape).log_evidence(search.scales)
+
+    step = 1.0 / _STEPS_A_BAR
+    found = minimize_scalar(
+        cost, bounds=(max(bars - step, FEWEST_BARS), bars + step), options={"xatol": 2e-3}
+    )
+    return float(found.x), -float(found.fun)
+
+
+def _share_of_others(search: Search, bars: float, factor: int) -> float:
+    """Return the share of a wave's energy in harmonics that are no multiples of a factor."""
+    energies = BarsModel(search.lines, bars, FINE).harmonic_energies(search.scales)
+    return 1.0 - float(energies[factor - 1 :: factor].sum() / max(energies.sum(), 1e-12))
+
+
+def _fit_none(search: Search) -> float:
+    """Return the log-likelihood without bars, with the slow change that suits it best."""
+    model, scales = BarsModel(search.lines, search.bars, COARSE), search.scales
+    slow = [scales.slow * factor for factor in (0.3, 1.0, 3.0, 10.0)]
+    return max(model.log_evidence(replace(scales, wave=1e-9, slow=each)) for each in slow)
+
+
+def _posterior(search: Search) -> tuple[float, float]:
+    """Return mean and deviation of the number of bars, over it and the modulation."""
+    scales, width = search.scales, _width(search)
+    near = search.bars + width * np.linspace(-4.0, 4.0, 25)
+    near = near[near > 0.5 * FEWEST_BARS]
+    models = [BarsModel(search.lines, each, FINE) for each in near]
+    logs = np.array([
+        [model.log_evidence(replace(scales, modulation=each))
+         - 0.5 * (math.log(each / 0.15) / 0.7) ** 2 for each in _MODULATIONS]
+        for model in models
+    ])  # fmt: skip
+    weights = np.exp(logs - logs.max()).sum(axis=1)
+    weights /= weights.sum()
+    mean = float((weights * near).sum())
+    variance = float((weights * (near - mean) ** 2).sum())
+    return mean, math.sqrt(variance * max(1.0, _scatter(search, mean, math.sqrt(variance))))
+
+
+def _scatter(search: Search, bars: float, deviation: float) -> float:
+    """Return the variance of the tiles' slopes of likelihood over that which the errors imply."""
+    step = 0.5 * deviation
+    above, at, below = (
+        BarsModel(search.lines, each, FINE).log_evidences(search.scales)
+        for each in (bars + step, bars, bars - step)
+    )
+    slopes = (above - below) / (2.0 * step)
+    curvature = -float((above - 2.0 * at + below).sum()) / step**2
+    tiles = len(slopes)
+    return float(((slopes - slopes.mean()) ** 2).sum()) * tiles / (tiles - 1) / max(curvature, 1e-9)
+
+
+def _width(search: Search) -> float:
+    """Return about the standard deviation of the number of bars, by the curvature at its best."""
+
+    def evidence(bars: float) -> float:
+        return BarsModel(search.lines, bars, FINE).log_evidence(search.scales)
+
+    step, top = 2e-3, evidence(search.bars)
+    while True:
+        drop = top - 0.5 * (evidence(search.bars + step) + evidence(search.bars - step))
+        if drop > 0.5 or step > 0.1:
+            return step / math.sqrt(2.0 * max(drop, 0.1)) * 1.3
+        step *= 2.0
+
+
+def _bend(search: Search) -> tuple[float, float]:
+    """Return the most likely bend, and the logarithm of its likelihood over that of none."""
+
+    def best(bend: float) -> float:
+        near = search.bars * (1.0 - np.array([-0.1, 0.1, 0.3, 0.5]) * bend)
+        models = (BarsModel(search.lines, each, FINE, bend) for each in near)
+        return max(model.log_evidence(search.scales) for model in models)
+
+    values = [best(float(bend)) for bend in _BENDS]
+    top = int(np.argmax(values))
+    return float(_BENDS[top]), values[top] - values[len(_BENDS) // 2]

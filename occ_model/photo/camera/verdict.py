@@ -1,0 +1,141 @@
+"""Whether bars in pictures are those of lamps on the mains: refused, doubtful or sure."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.errors import MatchError
+from occ_model.photo.camera.bars_fit import MOST_BARS, BarsFit, fit_bars, search_bars
+from occ_model.photo.camera.quotient import LineValues, quotient_of_lines
+from occ_model.photo.reading.load import Photo
+from occ_model.scene.units import PERCENT
+
+# Limits in natural logarithms of likelihoods, and others, set on simulated pairs of the seeds
+# below 100 and half of the real pictures.
+_LEAST_SEEN = 0.15  # fraction of the lines of tiles that have usable pixels
+LEAST_FOR_ANY = 60.0  # bars over no bars, for a doubtful answer
+_LEAST_FOR_SURE = 300.0  # the same for a sure one
+_LEAST_GAP = 40.0  # over other numbers of bars
+_FEWEST_SURE_BARS = 1.9  # fewer do not show that they repeat
+_LARGEST_ERROR = 0.03  # relative
+_BENT, _PERHAPS_BENT = 15.0, 6.0  # a lens correction over none
+_MOST_MODULATION = 0.5
+
+# Of one picture, in which the room's own pattern does not cancel:
+_MOST_TEXTURE = 0.1  # scatter along a line, and misfit, over the swing of the bars
+_MOST_TILT = 5e-4  # bars over lines, in radians: what people hang is level to about 1e-2
+
+
+@dataclass(frozen=True, slots=True)
+class _Tilt:
+    """Slope of the bars over the lines in radians, and its standard deviation."""
+
+    slope: float
+    deviation: float
+
+    @property
+    def is_level(self) -> bool:
+        return abs(self.slope) + 2.0 * self.deviation < _MOST_TILT
+
+
+def refuse(photos: list[Photo], axes: list[str], lines: LineValues, fit: BarsFit) -> None:
+    """Raise MatchError with the reason if the pictures show no bars that can be measured."""
+    if lines.seen < _LEAST_SEEN:
+        raise MatchError(
+            f"Only {PERCENT.format(lines.seen, 2)} of the picture can be used; the rest is too "
+            "dark or too bright. Take it with another exposure."
+        )
+    if fit.gap_to_none < LEAST_FOR_ANY:
+        raise MatchError(*_why_none(photos, axes))
+    if fit.bend_gap > _BENT and abs(fit.bend) > 0.0:
+        raise MatchError(
+            f"The bars are bent, by {PERCENT.format(abs(fit.bend), 1)} in the corners: the camera "
+            "or a program has corrected the lens's distortion, which moved the lines. Switch the "
+            "correction off, or take the RAW file."
+        )
+
+
+def _why_none(photos: list[Photo], axes: list[str]) -> list[str]:
+    if len(photos) == 1:
+        return [
+            "The picture shows no bars. Take it at 1/1000 s, under lamps on the mains without "
+            "daylight."
+        ]
+    reason = (
+        "The two pictures do not differ by bars. Take them at 1/1000 s, one after the other, under "
+        "lamps on the mains without daylight."
+    )
+    for axis in axes:
+        stand = [bars for photo in photos if (bars := _alone(photo, axis)) is not None]
+        if len(stand) < len(photos) or abs(stand[0] / stand[1] - 1.0) > _LARGEST_ERROR:
+            continue
+        return [
+            f"Each picture shows {stand[0]:.1f} bars, at the same place in both: bars that stand "
+            "still between two pictures cannot be told from the room. Take the second picture at "
+            "another moment, not in a film or burst."
+        ]
+    return [reason]
+
+
+def _alone(photo: Photo, axis: str) -> float | None:
+    """Return the number of bars in one picture by itself, None if they may be the room's."""
+    lines = quotient_of_lines([photo], axis)
+    fit = fit_bars(search_bars(lines))
+    is_strong = fit.gap_to_none > _LEAST_FOR_SURE
+    return fit.bars if is_strong and tilt_of(lines, fit).is_level else None
+
+
+def doubts(lines: LineValues, fit: BarsFit, *, is_single: bool) -> list[str]:
+    """Return sentences on why bars may be others, or their number wrong; none if it is sure."""
+    reasons = []
+    if fit.bars < _FEWEST_SURE_BARS:
+        reasons.append(
+            f"{fit.bars:.2f} bars are in the picture; at least {_FEWEST_SURE_BARS} are needed to "
+            "see that they repeat."
+        )
+    if fit.bars > MOST_BARS - 1.0:
+        reasons.append(f"{fit.bars:.1f} bars or more; at most {MOST_BARS:.0f} are searched for.")
+    if fit.gap < _LEAST_GAP:
+        reasons.append(f"{fit.other:.2f} bars explain the pictures nearly as well.")
+    if fit.deviation > _LARGEST_ERROR * fit.bars:
+        error = PERCENT.format(fit.deviation / fit.bars, 2)
+        reasons.append(f"The error is {error}; at most {PERCENT.format(_LARGEST_ERROR)} is sure.")
+    if fit.gap_to_none < _LEAST_FOR_SURE:
+        reasons.append("The bars are weak beside what else differs.")
+    if fit.scales.modulation > _MOST_MODULATION:
+        reasons.append("The bars change much from one place of the picture to another.")
+    if fit.bend_gap > _PERHAPS_BENT:
+        reasons.append("The bars seem bent, as by a correction of the lens's distortion.")
+    return [*reasons, *(_doubts_about_one(lines, fit) if is_single else [])]
+
+
+def _doubts_about_one(lines: LineValues, fit: BarsFit) -> list[str]:
+    swing = float(np.median(np.ptp(fit.waves, axis=1)))
+    rough = max(lines.texture, fit.residual)
+    another = "Take a second picture a moment later, and give both."
+    if rough > _MOST_TEXTURE * swing:
+        return [f"One picture does not tell bars of light from the room's own pattern. {another}"]
+    if not tilt_of(lines, fit).is_level:
+        return [f"The bars are not exactly along the lines, as blinds or slats would be. {another}"]
+    return []
+
+
+def tilt_of(lines: LineValues, fit: BarsFit) -> _Tilt:
+    """Return the slope of the bars by the phases of their first harmonic in the tiles."""
+    count = fit.waves.shape[1]
+    turn = np.exp(-2j * math.pi * fit.bars * (np.arange(count) + 0.5) / count)
+    waves = (fit.waves * turn).sum(axis=1)
+    middle = np.sum(waves)
+    phases = np.angle(waves / middle) if middle else np.zeros(len(waves))
+    # A cycle is as long as a bar; lines of a bar over the columns between tiles give an angle.
+    heights = phases / (2.0 * math.pi) * lines.lines / fit.bars
+    across = lines.places * lines.columns
+    strength = np.abs(waves) ** 2
+    strength = strength / max(float(strength.sum()), 1e-12)
+    across = across - float((strength * across).sum())
+    spread = max(float((strength * across**2).sum()), 1e-9)
+    slope = float((strength * across * heights).sum()) / spread
+    left = heights - float((strength * heights).sum()) - slope * across
+    scatter = float((strength * left**2).sum()) / max(len(waves) - 2, 1)
+    return _Tilt(slope, math.sqrt(scatter / spread))

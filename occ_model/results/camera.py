@@ -1,0 +1,127 @@
+"""A camera's readout time, measured by the bars that lamps on the mains make in its pictures."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from occ_model.arrays import FloatArray
+from occ_model.results.fact import Fact
+from occ_model.scene.units import HERTZ, NONE, PERCENT, SECOND
+
+HARMONIC = 2  # cycles of a mains lamp's light in one cycle of the mains
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CameraMeasurement:
+    """How fast a camera reads its lines, by bars of lamps on the mains.
+
+    Parameters
+    ----------
+    mains_frequency
+        Frequency of the mains in Hz, as given; the light swings at twice that.
+    bars
+        Cycles of the light while a frame is read.
+    readout_time, frame_readout_time
+        Time from one line to the next, and of all lines, in seconds.
+    uncertainties
+        Standard deviations of these three, by name. They include that of the mains' frequency.
+    scan_axis
+        ``"lines"`` or ``"columns"`` of the upright picture: what the camera reads one by one.
+    lines
+        Number of them.
+    pictures
+        Number of pictures: 1 or 2.
+    depth
+        Depth of the bars where they are deepest, (brightest - darkest) / (brightest + darkest): of
+        one picture, or of the quotient of two.
+    longest_exposure
+        Exposure time in seconds above which no light makes bars of this depth; None for two
+        pictures.
+    waves : ndarray of float64, shape (tiles, points)
+        The fitted bars in equal tiles across the lines, from the first line to the last: the
+        natural logarithm of the light, or of the quotient, about its mean.
+    reasons
+        Sentences on why the measurement is doubtful; empty if it is sure.
+    other_bars
+        Number of bars that explains the pictures second best; None if there is none.
+    """
+
+    mains_frequency: float
+    bars: float
+    readout_time: float
+    frame_readout_time: float
+    uncertainties: Mapping[str, float]
+    scan_axis: str
+    lines: int
+    pictures: int
+    depth: float
+    longest_exposure: float | None
+    waves: FloatArray
+    reasons: tuple[str, ...] = ()
+    other_bars: float | None = None
+
+    @property
+    def verdict(self) -> str:
+        """``"sure"``, or ``"doubtful"`` if there is a reason to doubt the measurement."""
+        return "doubtful" if self.reasons else "sure"
+
+    @property
+    def light_frequency(self) -> float:
+        """Cycles of the light a second: twice those of the mains."""
+        return HARMONIC * self.mains_frequency
+
+    def _estimate(self, name: str) -> str:
+        unit = NONE if name == "bars" else SECOND
+        return unit.format_estimate(getattr(self, name), self.uncertainties[name])
+
+    @property
+    def sentence(self) -> str:
+        """The answer in one sentence."""
+        return (
+            f"Your camera reads {'a line' if self.scan_axis == 'lines' else 'a column'} in "
+            f"{self._estimate('readout_time')}, and a frame of {self.lines:,} in "
+            f"{self._estimate('frame_readout_time')}: {self.verdict}."
+        )
+
+    @property
+    def assumption(self) -> str:
+        """What the result rests on, in one sentence."""
+        return (
+            f"Assumed: the mains have {HERTZ.format(self.mains_frequency, 4)}, and the picture is "
+            f"not cropped. If it was made smaller, the time from line to line is that of its "
+            f"{self.lines:,} {self.scan_axis}, not of the sensor's; the frame's is right."
+        )
+
+    @property
+    def facts(self) -> tuple[Fact, ...]:
+        """The rows of the result."""
+        light = HERTZ.format(self.light_frequency, 4)
+        of_what = "one picture" if self.pictures == 1 else "the quotient of two pictures"
+        rows = [
+            Fact("readout_time", "Readout time", self._estimate("readout_time")),
+            Fact("frame_readout_time", "Frame's readout", self._estimate("frame_readout_time")),
+            Fact("bars", "Bars a frame", f"{self._estimate('bars')}, of light at {light}"),
+            Fact("scan_axis", "Read one by one", f"{self.lines:,} {self.scan_axis}"),
+            Fact("depth", "Depth of the bars", f"{PERCENT.format(self.depth, 2)} in {of_what}"),
+        ]
+        if self.longest_exposure is not None:
+            text = f"at most {SECOND.format(self.longest_exposure, 3)}"
+            rows.append(Fact("exposure_time", "Exposure time", text))
+        return tuple(rows)
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the result as numbers and texts in SI units, such as JSON takes."""
+        return {
+            "verdict": self.verdict,
+            "reasons": list(self.reasons),
+            "mains_frequency": self.mains_frequency,
+            "bars": self.bars,
+            "readout_time": self.readout_time,
+            "frame_readout_time": self.frame_readout_time,
+            "uncertainties": dict(self.uncertainties),
+            "scan_axis": self.scan_axis,
+            "lines": self.lines,
+            "pictures": self.pictures,
+            "depth": self.depth,
+            "longest_exposure": self.longest_exposure,
+            "other_bars": self.other_bars,
+        }

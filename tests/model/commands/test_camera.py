@@ -1,0 +1,50 @@
+"""The command ``camera``: a camera is measured by pictures of a lit room."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from occ_model.cli import main
+
+
+@pytest.fixture(scope="module")
+def wall(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """An even wall under light of 120 Hz, whose 320 lines are read in 28 ms."""
+    light = 0.3 * (1.0 + 0.3 * np.cos(2.0 * math.pi * 120.0 * 28e-3 * np.arange(320) / 320))
+    values = 255.0 * (1.055 * light ** (1.0 / 2.4) - 0.055)
+    path = tmp_path_factory.mktemp("wall") / "wall.png"
+    Image.fromarray(np.repeat(np.rint(values)[:, None], 60, axis=1).astype(np.uint8)).save(path)
+    return str(path)
+
+
+def test_the_answer_comes_first(wall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["camera", "--mains", "60Hz", wall]) == 0
+    first, *others = capsys.readouterr().out.splitlines()
+    assert first.startswith("Your camera reads a line in 87.")
+    assert first.endswith(": sure.")
+    assert any("320 lines" in line for line in others)
+
+
+def test_json_holds_si_units(wall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["camera", "--mains", "60Hz", wall, "--json"]) == 0
+    kept = json.loads(capsys.readouterr().out)
+    error = kept["uncertainties"]["readout_time"]
+    assert kept["readout_time"] == pytest.approx(28e-3 / 320, abs=3.0 * error)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--mains", "0"], "mains_frequency is 0 Hz"),
+        (["more.png", "again.png"], "PICTURE is given 3 times"),
+        (["missing.png"], "missing.png"),
+    ],
+)
+def test_wrong_command_lines_are_refused(
+    wall: str, words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["camera", wall, *words]) == 2
+    assert said in capsys.readouterr().err

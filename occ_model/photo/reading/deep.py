@@ -101,9 +101,9 @@ def _decode_heif(picture: "ImageFile", bits: int, content: bytes | bytearray) ->
     from pillow_heif import HeifFile
 
     open_heif: Callable[..., Any] = HeifFile  # which declares no types
-    file = open_heif(io.BytesIO(content), convert_hdr_to_8bit=False, hdr_to_16bit=False)
+    file = open_heif(io.BytesIO(content), convert_hdr_to_8bit=False)
     image = file[file.primary_index]
-    values = np.asarray(image)
+    values = np.asarray(image) >> (16 - bits)  # which pillow-heif has filled up with zeros
     if values.ndim == 2:
         return Stored(values, grey_levels(picture, values, bits) or full_range(bits))
     # Colours that are multiplied with their opacity are already those on black.

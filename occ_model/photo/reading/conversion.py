@@ -1,6 +1,5 @@
 """Convert parts of a decoded picture to samples of 8 or 16 bits on black."""
 
-import sys
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,18 +12,6 @@ if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
 
 _WHITE = 65535
-
-_NATIVE_ENDING, _OTHER_ENDING = ("16L", "16B") if sys.byteorder == "little" else ("16B", "16L")
-_ENDINGS = {"16B": "16L", "16L": "16B", "16N": _OTHER_ENDING}
-
-
-def swap_bytes(raw_mode: str) -> str:
-    """Return the raw mode of the other byte order.
-
-    Pillow keeps the upper bytes of 16-bit colours; in the other order these are the lower bytes.
-    """
-    colours, ending = raw_mode.split(";")
-    return f"{colours};{_ENDINGS[ending]}"
 
 
 def palette_of(picture: "PillowImage") -> Samples:
@@ -71,18 +58,7 @@ def convert_floats(values: NDArray[Any], white: float, is_inverted: bool) -> Sam
     return round_to_16_bits(white - values if is_inverted else values, white)
 
 
-def combine_bytes(upper: "PillowImage", lower: "PillowImage") -> Samples:
-    """Combine colours of 16 bits from their upper and their lower bytes, on black."""
-    pixels = np.asarray(upper).astype(np.uint16)
-    pixels <<= 8
-    pixels |= np.asarray(lower)
-    transparent = upper.info.get("transparency")
-    if isinstance(transparent, tuple) and pixels.shape[2] == 3:
-        pixels[(pixels == np.array(transparent)).all(axis=2)] = 0
-    return put_on_black(pixels)
-
-
-def put_on_black(pixels: NDArray[np.uint16]) -> Samples:
+def put_on_black(pixels: NDArray[Any]) -> Samples:
     """Put pixels of 16 bits on black, shape (rows, columns) or (rows, columns, channels).
 
     Of two or four channels the last is the opacity, which is left out. The result has one channel,

@@ -1,8 +1,8 @@
-"""Decode colours of more than 8 bits in formats of which Pillow keeps 8 bits.
+"""Decode what Pillow would reduce to 8 bits: colours, and grey with opacity, of more than 8 bits.
 
-Pillow has no pictures of several channels of more than 8 bits. It reduces HEIC, AVIF, JPEG 2000 and
-PPM to 8 bits, by which the white of JPEG 2000 becomes black. Here they are decoded by libheif,
-OpenCV and NumPy as they are stored.
+Pillow has no pictures of several channels of more than 8 bits, and by its reduction the white of a
+JPEG 2000 becomes black. OpenCV, libheif and NumPy decode them here as they are stored. OpenCV's
+decoding cannot be cancelled.
 """
 
 import io
@@ -20,6 +20,7 @@ from occ_model.photo.reading.levels import (
     full_range,
     grey_levels,
     limited_range,
+    raw_modes_of,
     white_of_ppm,
 )
 from occ_model.photo.reading.stderr import no_stderr
@@ -38,29 +39,36 @@ class Opened(NamedTuple):
 
     name: str  # the file's path as text
     picture: "ImageFile"
-    bits: int  # of the samples of JPEG 2000, AVIF, HEIC and PPM
-    content: bytes | bytearray  # all of the file if it needs a decoder of its own, else nothing
+    bits: int  # of a sample; 8 for pictures that Pillow keeps in their full depth
+    content: bytes | bytearray  # all of the file if Pillow would reduce it, else nothing
 
 
 class Stored(NamedTuple):
     """Samples as they are stored.
 
     The shape of ``values`` is (rows, columns), or (rows, columns, channels) with 2 channels for
-    grey and opacity, 3 for red, green and blue, and 4 for these and opacity.
+    grey and opacity, 3 for colours, and 4 for colours and opacity.
     """
 
     values: NDArray[np.uint8 | np.uint16]
     levels: Levels
+    starts_with_blue: bool = False  # The order of the colours, else from red to blue
+    is_upright: bool = False  # Whether the orientation that the file notes has been applied
+
+    def part(self, rows: slice, columns: slice) -> NDArray[np.uint8 | np.uint16]:
+        """Cut out a rectangle, with colours from red to blue."""
+        part = self.values[rows, columns]
+        return part[..., [2, 1, 0, 3][: part.shape[2]]] if self.starts_with_blue else part
 
 
-def needs_own_decoder(picture: "ImageFile", bits: int) -> bool:
+def is_reduced(picture: "ImageFile", bits: int) -> bool:
     """Return whether Pillow would reduce a picture of so many bits to 8."""
     is_grey_jpeg_2000 = picture.format == "JPEG2000" and picture.mode == "I;16"
     return bits > 8 and not is_grey_jpeg_2000
 
 
 def decode_deep(opened: Opened) -> Stored:
-    """Decode a file as it is stored; of AVIF without colours its picture is decoded, too."""
+    """Decode a file as it is stored."""
     name, picture, bits, content = opened
     if picture.format == "HEIF":
         return _decode_heif(picture, bits, content)
@@ -70,25 +78,33 @@ def decode_deep(opened: Opened) -> Stored:
     if picture.format != "JPEG2000" or _LUMA_AND_CHROMA.search(content) is None:
         with no_stderr():
             values = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
-    if values is None or values.shape[:2] != (picture.height, picture.width):
+    if picture.format == "AVIF" and (values is None or values.ndim == 2):
+        return _decode_grey_avif(picture, bits, None if values is None else np.asarray(values))
+    if values is None or values.shape[0] * values.shape[1] != picture.width * picture.height:
         raise PhotoError(
             f"{name} cannot be read: it is damaged, or its {bits} bits are stored in an unusual "
             "way; allowed above 8 bits: grey, or red, green and blue, as positive numbers."
         )
-    return _stored_by_opencv(picture, bits, np.asarray(values))
+    has_no_opacity = picture.mode == "RGB" and "transparency" not in picture.info
+    is_on_black = any(mode.startswith("RGBa") for mode in raw_modes_of(picture))
+    stored: NDArray[Any] = np.asarray(values)
+    levels = full_range(bits if stored.dtype == np.uint16 else 8)
+    if has_no_opacity or is_on_black:
+        stored = stored[..., :3]
+    # OpenCV turns TIFF, and TIFF only.
+    return Stored(stored, levels, True, picture.format == "TIFF")
 
 
-def _stored_by_opencv(
-    picture: "ImageFile", bits: int, values: NDArray[np.uint8 | np.uint16]
+def _decode_grey_avif(
+    picture: "ImageFile", bits: int, values: NDArray[np.uint8 | np.uint16] | None
 ) -> Stored:
-    bits = 8 if values.dtype == np.uint8 else bits
-    if values.ndim == 3:  # blue, green, red
-        values = values[..., ::-1] if values.shape[2] == 3 else values[..., [2, 1, 0, 3]]
-        return Stored(values, full_range(bits))
-    if picture.format != "AVIF":
-        return Stored(values, full_range(bits))
-    # OpenCV keeps the luma as it is stored, and Pillow converts its range.
+    """Find the range of the luma, which OpenCV keeps as it is stored, and Pillow converts.
+
+    OpenCV does not decode grey with opacity, of which Pillow's 8 bits are taken.
+    """
     picture.load()
+    if values is None:
+        return Stored(np.asarray(picture.convert("RGBA")), full_range(8))
     seen = np.asarray(picture.convert("L"))
 
     def error(levels: Levels) -> float:
@@ -103,7 +119,9 @@ def _decode_heif(picture: "ImageFile", bits: int, content: bytes | bytearray) ->
     open_heif: Callable[..., Any] = HeifFile  # which declares no types
     file = open_heif(io.BytesIO(content), convert_hdr_to_8bit=False)
     image = file[file.primary_index]
-    values = np.asarray(image) >> (16 - bits)  # which pillow-heif has filled up with zeros
+    values = np.asarray(image, np.uint16) >> np.uint16(
+        16 - bits
+    )  # which pillow-heif has filled up with zeros
     if values.ndim == 2:
         return Stored(values, grey_levels(picture, values, bits) or full_range(bits))
     # Colours that are multiplied with their opacity are already those on black.

@@ -15,7 +15,7 @@ from typing import IO, TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, SceneFileError, one_line
 from occ_model.files.reading import HEIC_BRANDS, HEIF_BRANDS, kind_of_film
-from occ_model.photo.reading.deep import Opened, needs_own_decoder
+from occ_model.photo.reading.deep import Opened, is_reduced
 from occ_model.photo.reading.levels import bits_of
 from occ_model.photo.reading.limits import (
     allowed_pixels,
@@ -71,17 +71,6 @@ def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[Watched
         if report.ended_by is not None:
             raise report.ended_by from None
         raise _make_refusal(path, error, max_pixels) from None
-
-
-def picture_opener(
-    path: Path, file: WatchedFile, max_pixels: int
-) -> Callable[[float, float], Opened]:
-    """Return a function that opens a file's first picture at each call, without decoding it.
-
-    Its arguments are the fractions of the work between which the picture will be decoded. It raises
-    PhotoError if the file is not an image, or is damaged or too large.
-    """
-    return lambda first, last: _first_picture(path, file, max_pixels, (first, last))
 
 
 def _make_refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
@@ -143,17 +132,19 @@ def _check_file(path: Path, max_pixels: int) -> None:
         )
 
 
-def _first_picture(
-    path: Path, file: WatchedFile, max_pixels: int, fractions: tuple[float, float]
-) -> Opened:
-    """Open the file's first picture, and check its size before decoding."""
+def open_picture(path: Path, file: WatchedFile, max_pixels: int, last: float) -> Opened:
+    """Open a file's first picture, and check its size before decoding.
+
+    ``last``: the fraction of the work that is done when it is decoded. PhotoError is raised if the
+    file is not an image, or is damaged or too large.
+    """
     path_text, size = one_line(str(path)), os.fstat(file.fileno()).st_size
     name, factory = format_and_factory(path, file)
     check_file_size(path, name, size)
     if name == "TIFF" and not has_short_tags(file):
         raise PhotoError(f"{path_text} cannot be read: one of its tags has too many numbers.")
     file.seek(0, os.SEEK_SET)
-    file.watch(size, *fractions)
+    file.watch(size, 0.0, last)
     try:
         picture = factory(file)
     except SyntaxError as error:  # Pillow's error for an invalid header
@@ -172,13 +163,13 @@ def _first_picture(
     scan_header = file.last
     content = _read_content(file, size) if picture.format in ("AVIF", "JPEG2000") else bytearray()
     bits = bits_of(picture, content)
-    is_deep = needs_own_decoder(picture, bits)
+    is_deep = is_reduced(picture, bits)
+    check_decoder(path, picture, size, is_deep)
+    check_memory(path, picture, file.total + (size if is_deep else 0), scan_header, is_deep)
+    check_transparency(path, picture, is_deep)
+    check_scans(path, picture, scan_header, lambda: _read_content(file, size))
     if is_deep and not content:
         content = _read_content(file, size)
-    check_decoder(path, picture, size, is_deep)
-    check_memory(path, picture, file.total, scan_header, is_deep)
-    check_transparency(path, picture)
-    check_scans(path, picture, scan_header, lambda: _read_content(file, size))
     return Opened(path_text, picture, bits, content if is_deep else b"")
 
 

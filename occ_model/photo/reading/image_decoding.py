@@ -11,16 +11,14 @@ from occ_model.camera.pixel_arrays import Samples, find_white, white_of
 from occ_model.errors import DecodeInputError, PhotoError
 from occ_model.photo.reading.conversion import (
     colours_of,
-    combine_bytes,
     convert_floats,
     convert_integers,
     palette_of,
     put_on_black,
-    swap_bytes,
 )
-from occ_model.photo.reading.deep import Opened, decode_deep, needs_own_decoder
-from occ_model.photo.reading.levels import is_white_zero, levels_of
-from occ_model.photo.reading.limits import is_deep_in_colours, raw_modes_of
+from occ_model.photo.reading.deep import Opened, Stored, decode_deep, is_reduced
+from occ_model.photo.reading.exif import orientation_of
+from occ_model.photo.reading.levels import full_range, is_white_zero, levels_of, raw_modes_of
 from occ_model.photo.reading.stderr import no_stderr
 from occ_model.photo.reading.watched_file import Progress
 
@@ -34,8 +32,6 @@ DECODED_FRACTION = 0.8  # fraction of the work that is done when a picture is de
 
 _PART = 1 << 20  # number of pixels that are converted at once, which take some megabytes
 
-_GREY_AND_OPACITY = {"LA;16B"}  # the raw mode of a PNG of 16 bits
-
 _Take: TypeAlias = Callable[[Samples], Samples]  # extracts a channel from some pixels
 _Convert: TypeAlias = Callable[[Box], Samples]  # converts a part of a picture
 
@@ -46,38 +42,25 @@ _NEAR_TIE = 0.5  # difference of the channels' means, in grey levels, that lossy
 
 
 class DecodedPicture:
-    """A decoded picture, whose colours are converted part by part to limit the memory.
+    """A decoded picture, whose colours are converted part by part to limit the memory."""
 
-    ``open_picture`` opens the file's picture without decoding it; its arguments are the fractions
-    of the work between which it will be decoded.
-    """
+    def __init__(self, opened: Opened) -> None:
+        self.picture = opened.picture
+        raw_modes = raw_modes_of(opened.picture)
+        if is_reduced(opened.picture, opened.bits):
+            stored = decode_deep(opened)
+            self.shape = stored.values.shape[:2]
+            self.orientation = 1 if stored.is_upright else orientation_of(opened.picture)
+            self._convert = _converter_of(stored)
+        else:
+            _load(opened.picture)
+            self.shape = opened.picture.height, opened.picture.width
+            self.orientation = orientation_of(opened.picture)
+            self._convert = self._convert_pillows(raw_modes, opened.bits)
 
-    def __init__(self, open_picture: Callable[[float, float], Opened]) -> None:
-        opened = open_picture(0.0, DECODED_FRACTION / 2)
-        self.picture, raw_modes = opened.picture, raw_modes_of(opened.picture)
-        self._lower: ImageFile | None = None
-        if needs_own_decoder(self.picture, opened.bits):
-            self._convert = _convert_stored(opened)
-            return
-        if raw_modes == _GREY_AND_OPACITY:
-            # In the file these are four bytes, as a pixel of four channels has in memory.
-            _change_raw_modes(self.picture, lambda _: "RGBA")
-        _load(self.picture)
-        if is_deep_in_colours(raw_modes):
-            # Pillow reads such files twice. OpenCV would read them once, but prints errors on
-            # stderr, reports no progress and cannot be cancelled.
-            self._lower = open_picture(DECODED_FRACTION / 2, DECODED_FRACTION).picture
-            _change_raw_modes(self._lower, swap_bytes)
-            _load(self._lower)
-        self._convert = self._converter(raw_modes, opened.bits)
-
-    def _converter(self, raw_modes: set[str], bits: int) -> _Convert:
+    def _convert_pillows(self, raw_modes: set[str], bits: int) -> _Convert:
         """Return the function that converts a part of what Pillow has decoded."""
-        picture, lower = self.picture, self._lower
-        if lower is not None:
-            return lambda box: combine_bytes(picture.crop(box), lower.crop(box))
-        if raw_modes == _GREY_AND_OPACITY:
-            return lambda box: put_on_black(np.asarray(picture.crop(box)).view(">u2"))
+        picture = self.picture
         if picture.mode == "P":
             palette = palette_of(picture)
             return lambda box: np.asarray(palette[np.asarray(picture.crop(box))])
@@ -92,10 +75,6 @@ class DecodedPicture:
         if picture.mode.startswith("I"):
             return lambda box: convert_integers(picture.crop(box), levels)
         return lambda box: colours_of(picture.crop(box), levels)
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        return self.picture.height, self.picture.width
 
     def boxes(self) -> Iterator[Box]:
         """Yield rectangles that cover the picture, from top to bottom."""
@@ -131,28 +110,19 @@ class DecodedPicture:
     def close(self) -> None:
         """Free the decoded picture, even while this object is referenced."""
         self.picture.close()
-        if self._lower is not None:
-            self._lower.close()
         del self._convert
 
 
-def _convert_stored(opened: Opened) -> _Convert:
-    """Decode what Pillow would reduce to 8 bits, and return the function that converts a part."""
-    values, levels = decode_deep(opened)
-    table = levels.tabulate(65535)
+def _converter_of(stored: Stored) -> _Convert:
+    """Return the function that converts a part of samples as they are stored."""
+    table = None if stored.levels == full_range(16) else stored.levels.tabulate(65535)
 
     def convert(box: Box) -> Samples:
         left, top, right, bottom = box
-        return put_on_black(table[values[top:bottom, left:right]])
+        part = stored.part(slice(top, bottom), slice(left, right))
+        return put_on_black(part if table is None else table[part])
 
     return convert
-
-
-def _change_raw_modes(picture: "ImageFile", change: Callable[[str], str]) -> None:
-    for place, tile in enumerate(picture.tile):
-        raw, *others = tile[3] if isinstance(tile[3], tuple) else (tile[3],)
-        arguments = (change(raw), *others) if isinstance(tile[3], tuple) else change(raw)
-        picture.tile[place] = tile._replace(args=arguments)
 
 
 def _load(picture: "ImageFile") -> None:

@@ -1,5 +1,6 @@
 """Find the numbers that mean black and white in a file's samples."""
 
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,6 +13,8 @@ _PHOTOMETRIC, _WHITE_IS_ZERO = 262, 0  # a tag of TIFF, and its value if white i
 
 _START_OF_JPEG_2000 = b"\xff\x4f\xff\x51"  # the markers of its code stream and of its size
 _COMPONENTS = 42  # bytes from there to the first component's description, of three bytes
+
+_DEEP_COLOURS = re.compile("(LA|RGB|RGBA|RGBa|RGBX);16")  # raw modes
 
 _MOST_BEYOND_RANGE = 0.01  # fraction of pixels that a codec may put outside a limited range
 
@@ -38,9 +41,9 @@ def limited_range(bits: int) -> Levels:
 
 
 def bits_of(picture: "ImageFile", content: bytes | bytearray) -> int:
-    """Return the largest number of bits of a sample of JPEG 2000, AVIF, HEIC or PPM; 8 for others.
+    """Return the bits of a sample of JPEG 2000, AVIF or HEIC, or of colours of 16 bits; else 8.
 
-    ``content``: that of the file.
+    ``content``: that of a JPEG 2000 or AVIF.
     """
     if picture.format == "HEIF":
         return int(picture.info["bit_depth"])
@@ -51,7 +54,18 @@ def bits_of(picture: "ImageFile", content: bytes | bytearray) -> int:
         first = content.find(_START_OF_JPEG_2000) + _COMPONENTS
         components = content[first : first + 3 * len(picture.getbands()) : 3]
         return max(((component & 0x7F) + 1 for component in components), default=8)
-    return 16 if white_of_ppm(picture) > 255 else 8
+    is_deep = any(_DEEP_COLOURS.match(mode) for mode in raw_modes_of(picture))
+    return 16 if is_deep or white_of_ppm(picture) > 255 else 8
+
+
+def raw_modes_of(picture: "ImageFile") -> set[str]:
+    """Return a picture's raw modes, Pillow's names for the layout of samples in a file."""
+    arguments = [tile[3] for tile in picture.tile]
+    firsts = [
+        argument[0] if isinstance(argument, tuple) and argument else argument
+        for argument in arguments
+    ]
+    return {first for first in firsts if isinstance(first, str)}
 
 
 def white_of_ppm(picture: "ImageFile") -> int:

@@ -51,8 +51,6 @@ MOST_BYTES = {
 
 MOST_BYTES_OF_TIFF = 150_000_000  # largest compressed TIFF in bytes
 MOST_BYTES_IN_PYTHON = 3_500_000  # largest file that Pillow decodes in Python: QOI, some BMP, PPM
-_DEEP_COLOURS = 2  # pictures of 16-bit colours in memory at once: the upper and the lower bytes
-
 _MOST_DEEP_AND_TRANSPARENT = 50_000_000
 """Largest number of pixels of 16-bit colours with transparency, which take at least twice the time
 of others."""
@@ -61,7 +59,9 @@ _DEEP_BYTES = {
     "AVIF": (26.0, 44.0),
     "JPEG2000": (20.0, 26.0),
     "HEIF": (13.0, 20.0),
-    "PPM": (12.0, 12.0),
+    "PPM": (6.0, 6.0),
+    "PNG": (9.0, 11.0),
+    "TIFF": (9.0, 11.0),
 }
 """Peak bytes of a pixel of more than 8 bits, by format, without and with opacity."""
 
@@ -153,11 +153,11 @@ def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
         )
 
 
-def check_transparency(path: Path, picture: "ImageFile") -> None:
+def check_transparency(path: Path, picture: "ImageFile", is_deep: bool) -> None:
     """Refuse a large picture of 16-bit colours with transparency, before decoding."""
     transparent = "A" in picture.mode or "transparency" in picture.info
     large = picture.width * picture.height > _MOST_DEEP_AND_TRANSPARENT
-    if large and transparent and is_deep_in_colours(raw_modes_of(picture)):
+    if large and transparent and is_deep:
         raise PhotoError(
             f"{one_line(str(path))} has {picture.width:,} x {picture.height:,} pixels of 16-bit "
             f"colours with transparency; allowed: at most "
@@ -196,30 +196,10 @@ def check_scans(
         )
 
 
-def is_deep_in_colours(raw_modes: set[str]) -> bool:
-    """Return whether a file's samples, by their raw modes in Pillow, are colours of 16 bits."""
-    return len(raw_modes) == 1 and all(
-        mode.startswith(("RGB;16", "RGBA;16", "RGBX;16")) for mode in raw_modes
-    )
-
-
-def raw_modes_of(picture: "ImageFile") -> set[str]:
-    """Return a picture's raw modes, Pillow's names for the layout of samples in a file."""
-    arguments = [tile[3] for tile in picture.tile]
-    firsts = [
-        argument[0] if isinstance(argument, tuple) and argument else argument
-        for argument in arguments
-    ]
-    return {first for first in firsts if isinstance(first, str)}
-
-
 def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
     """Return the peak number of bytes a pixel, from decoding to the extracted channel."""
-    deep_colours = is_deep_in_colours(raw_modes_of(picture))
     decoded = _bytes_decoded(picture.mode)
-    if deep_colours:
-        decoded *= _DEEP_COLOURS
-    channel = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
+    channel = 2 if picture.mode.startswith(("I", "F")) else 1
     # Finally the channel is transposed and copied in whole grey levels.
     transposing = 5 if channel == 2 else 2
     return max(

@@ -15,8 +15,8 @@ from occ_model.camera.pixel_arrays import Samples, samples_of, white_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, quote
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
-from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
-from occ_model.photo.reading.file import open_file, picture_opener
+from occ_model.photo.reading.exif import CameraNotes, camera_notes, turns_of
+from occ_model.photo.reading.file import open_file, open_picture
 from occ_model.photo.reading.image_decoding import (
     DECODED_FRACTION,
     DecodedPicture,
@@ -119,8 +119,8 @@ def load_photo(
         Largest number of pixels. Some formats allow fewer, as the memory is limited, too.
     progress
         Called with the fraction of the work that is done, from 0 to 1. An exception from it cancels
-        the reading; that of JPEG 2000, WebP, AVIF, HEIC, RAW and compressed TIFF only after
-        decoding.
+        the reading; that of JPEG 2000, WebP, AVIF, HEIC, RAW, compressed TIFF and colours of 16
+        bits only after decoding.
 
     Raises
     ------
@@ -199,9 +199,9 @@ def _turn(samples: Samples, orientation: int, turned: bool) -> Samples:
 def _decode_channel(
     path: Path, file: WatchedFile, channel: str, max_pixels: int, report: Reporter
 ) -> tuple[Samples, str, CameraNotes, int]:
-    decoded = DecodedPicture(picture_opener(path, file, max_pixels))
+    decoded = DecodedPicture(open_picture(path, file, max_pixels, DECODED_FRACTION))
     try:
-        notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
+        notes = camera_notes(decoded.picture)
         samples, channel_name = take_channel(
             decoded,
             channel,
@@ -209,7 +209,7 @@ def _decode_channel(
         )
     finally:
         decoded.close()
-    return samples, channel_name, notes, orientation
+    return samples, channel_name, notes, decoded.orientation
 
 
 def _in_grey_levels(samples: Samples) -> ByteArray:

@@ -1,5 +1,7 @@
 """What is taken of a photo's colours, in the full depth of its file."""
 
+import struct
+import zlib
 from pathlib import Path
 from typing import Any, Literal
 
@@ -8,14 +10,13 @@ import numpy as np
 import pytest
 import tifffile
 from numpy.typing import NDArray
-from photo_files import PICTURE, STRIPES, saved
+from photo_files import PICTURE, STRIPES, png, png_chunk, saved
 from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import PhotoError
 from occ_model.photo.reading.choices import CHANNELS
-from occ_model.photo.reading.conversion import combine_bytes
 from occ_model.photo.reading.load import column_means, load_photo
 
 
@@ -242,21 +243,35 @@ def test_the_decoder_reads_the_channel_asked_for(
     assert ("code" in capsys.readouterr().out) is (code == 0)
 
 
-RANDOM = np.random.default_rng(5)
-
-
-def halves(deep: np.ndarray) -> tuple[Image.Image, Image.Image]:
-    """Split colours into pictures of their upper and of their lower bytes."""
-    upper, lower = (deep >> 8).astype(np.uint8), (deep & 255).astype(np.uint8)
-    return Image.fromarray(upper), Image.fromarray(lower)
-
-
-def test_the_colour_that_is_called_transparent_is_black_and_no_other() -> None:
-    deep = RANDOM.integers(1, 65536, (5, 7, 3)).astype(np.uint16)
+def test_the_colour_that_is_called_transparent_is_black_and_no_other(tmp_path: Path) -> None:
+    deep = np.random.default_rng(5).integers(1, 65536, (5, 7, 3)).astype(">u2")
     deep[2, 3] = deep[4, 4] = (700, 800, 900)
     deep[0, 0] = (700, 800, 901)
-    upper, lower = halves(deep)
-    upper.info["transparency"] = (700, 800, 900)
-    expected = deep.copy()
+    lines = b"".join(b"\0" + line.tobytes() for line in deep)
+    key = png_chunk(b"tRNS", struct.pack(">HHH", 700, 800, 900))
+    content = png(7, 5, bits=16, colours=2, more=key, data=zlib.compress(lines))
+    (tmp_path / "x.png").write_bytes(content)
+    samples = load_photo(tmp_path / "x.png", "columns", channel="blue").samples
+    expected = deep[..., 2].copy()
     expected[2, 3] = expected[4, 4] = 0
-    assert combine_bytes(upper, lower).tolist() == expected.tolist()
+    assert samples.tolist() == expected.tolist()
+
+
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_deep_colours_of_a_tiff_are_turned_once(tmp_path: Path, orientation: int) -> None:
+    grey = deep_stripes()[..., 0]
+    for name, picture in (("grey", grey), ("colours", np.dstack([grey] * 3))):
+        path, tags = tmp_path / f"{name}.tif", [(274, 3, 1, orientation, True)]
+        photometric = "rgb" if picture.ndim == 3 else "minisblack"
+        tifffile.imwrite(path, picture, photometric=photometric, extratags=tags)
+    turned = [load_photo(tmp_path / f"{name}.tif", "columns") for name in ("grey", "colours")]
+    assert turned[0].samples.tolist() == turned[1].samples.tolist()
+
+
+@pytest.mark.parametrize("kind", ["unassalpha", "assocalpha", "unspecified"])
+def test_a_fourth_channel_of_a_deep_tiff_is_what_the_file_says(tmp_path: Path, kind: Any) -> None:
+    deep = np.dstack([deep_stripes(), np.full((9, 14), 32768, np.uint16)])
+    tifffile.imwrite(tmp_path / "x.tif", deep, photometric="rgb", extrasamples=[kind])
+    samples = load_photo(tmp_path / "x.tif", "columns", channel="red").samples
+    factor = 32768 / 65535 if kind == "unassalpha" else 1.0
+    np.testing.assert_array_equal(samples, np.rint(deep[..., 0] * factor))

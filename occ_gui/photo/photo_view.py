@@ -84,7 +84,7 @@ class PhotoFacts(QWidget):
         facts = [photo.camera] if photo.camera else []
         facts += [f"{width} x {height} px", channel]
         facts += ["turned"] if photo.turned else []
-        facts += ["RAW: gamma 1"] if photo.is_linear else []
+        facts += ["linear: gamma 1"] if photo.is_linear else []
         self.size_line.set_full_text(", ".join(facts))
         recorded = [
             prefix + quantity(name).format(value)

@@ -27,7 +27,7 @@ from occ_model.photo.reading.limits import (
     check_transparency,
     count_of_pixels,
 )
-from occ_model.photo.reading.tiff import has_short_tags
+from occ_model.photo.reading.tiff import describe_samples, has_short_tags
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -44,6 +44,8 @@ _PIXELS_A_BYTE = {"JPEG": 512, "PNG": 8 * 1032, "GIF": 8 * 4096 // 12}
 JPEG needs at least a bit of Huffman code for a block of 8 x 8 pixels. Deflate compresses to 1/1032
 at best, and a pixel of PNG has at least a bit. A code of LZW has 12 bits for at most 4096 pixels.
 """
+
+_JPEG_XL = (b"\xff\x0a", b"\0\0\0\x0cJXL ")  # first bytes of its code stream, and of its file
 
 _pillow_lock = threading.Lock()
 
@@ -149,6 +151,8 @@ def open_picture(path: Path, file: WatchedFile, max_pixels: int, last: float) ->
         picture = factory(file)
     except SyntaxError as error:  # Pillow's error for an invalid header
         problem = _describe_damage(error, "the file is damaged or of an unusual kind")
+        if name == "TIFF":
+            problem = f"{problem}; {describe_samples(file)}"
         raise PhotoError(f"{path_text} cannot be read: {problem}.") from None
     width, height = picture.size
     check_size(path, width, height, max_pixels)
@@ -230,6 +234,8 @@ def format_and_factory(path: Path, file: IO[bytes]) -> "tuple[str, Factory]":
     name = one_line(str(path))
     if kind_of_film(start) is not None:
         raise PhotoError(f"{name} is a film, not a photo; decode it as a film.")
+    if start.startswith(_JPEG_XL):
+        raise PhotoError(f"{name} is a JPEG XL picture, which cannot be read; save it as PNG.")
     raise PhotoError(f"{name} is not an image that can be read.")
 
 

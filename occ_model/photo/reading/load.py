@@ -15,7 +15,7 @@ from occ_model.camera.pixel_arrays import Samples, samples_of, white_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, quote
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
-from occ_model.photo.reading.exif import CameraNotes, camera_notes, turns_of
+from occ_model.photo.reading.exif import camera_notes, turns_of
 from occ_model.photo.reading.file import open_file, open_picture
 from occ_model.photo.reading.image_decoding import (
     DECODED_FRACTION,
@@ -23,7 +23,8 @@ from occ_model.photo.reading.image_decoding import (
     take_channel,
 )
 from occ_model.photo.reading.raw import is_raw, read_mosaic
-from occ_model.photo.reading.watched_file import Progress, Reporter, WatchedFile
+from occ_model.photo.reading.transfer import is_linear_picture
+from occ_model.photo.reading.watched_file import Progress, Reporter
 from occ_model.results.decoding import Region
 from occ_model.scene.argument_checks import check_choice, check_count
 
@@ -62,8 +63,8 @@ class Photo:
     camera
         The camera's maker and model; None if both are missing.
     is_linear
-        Whether the samples are in proportion to the light, as in a RAW file, to which the camera
-        has not applied its gamma.
+        Whether the samples are in proportion to the light: those of a RAW file, and of a picture
+        whose colour profile or gamma says so.
     equivalent_focal_length, focal_length_step
         From the EXIF data in metres, None if missing, and its rounding step in metres.
     enhancement
@@ -136,16 +137,17 @@ def load_photo(
     report = Reporter(progress)
     report(0.0)
     with open_file(file, largest, report) as opened:
-        is_linear = is_raw(opened)
-        if is_linear:
+        if is_raw(opened):
+            is_linear = True
             mosaic = read_mosaic(file, opened, channel, largest, report)
             notes, orientation, channel_name = mosaic.notes, mosaic.orientation, mosaic.channel
             turned = _is_turned(mosaic.one_plane(), orientation, scan_axis)
             samples = mosaic.samples(along_lines=turned != turns_of(orientation)[0])
         else:
-            samples, channel_name, notes, orientation = _decode_channel(
-                file, opened, channel, largest, report
-            )
+            decoded = DecodedPicture(open_picture(file, opened, largest, DECODED_FRACTION))
+            notes, orientation = camera_notes(decoded.picture), decoded.orientation
+            is_linear = is_linear_picture(decoded.picture)
+            samples, channel_name = _take_channel(decoded, channel, report)
             turned = _is_turned(samples, orientation, scan_axis)
     samples = _turn(samples, orientation, turned)
     white = int(white_of(samples))
@@ -196,20 +198,16 @@ def _turn(samples: Samples, orientation: int, turned: bool) -> Samples:
     return samples
 
 
-def _decode_channel(
-    path: Path, file: WatchedFile, channel: str, max_pixels: int, report: Reporter
-) -> tuple[Samples, str, CameraNotes, int]:
-    decoded = DecodedPicture(open_picture(path, file, max_pixels, DECODED_FRACTION))
+def _take_channel(decoded: DecodedPicture, channel: str, report: Reporter) -> tuple[Samples, str]:
+    """Take a channel, and free the picture, also while an error refers to it."""
     try:
-        notes = camera_notes(decoded.picture)
-        samples, channel_name = take_channel(
+        return take_channel(
             decoded,
             channel,
             lambda fraction: report(DECODED_FRACTION + (1.0 - DECODED_FRACTION) * fraction),
         )
     finally:
         decoded.close()
-    return samples, channel_name, notes, decoded.orientation
 
 
 def _in_grey_levels(samples: Samples) -> ByteArray:

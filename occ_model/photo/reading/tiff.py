@@ -25,6 +25,10 @@ _NUMBERS = {1: "B", 3: "H", 4: "L", 5: "2L", 8: "h", 9: "l", 10: "2l", 11: "f", 
 _FRACTIONS = (5, 10)
 
 
+_SAMPLES = (258, 339)  # tags of the bits of each sample, and of their format
+_KINDS = {1: "whole numbers", 2: "whole numbers with a sign", 3: "floating point"}
+
+
 class Entry(NamedTuple):
     tag: int
     kind: int
@@ -104,3 +108,15 @@ def has_short_tags(file: IO[bytes]) -> bool:
         for entries in directories(file)
         for entry in entries
     )
+
+
+def describe_samples(file: IO[bytes]) -> str:
+    """Describe the samples of a TIFF's first picture, and those that are read, for a sentence."""
+    with suppress(ValueError):
+        entries = {entry.tag: entry for entry in next(directories(file))}
+        tags = {tag: numbers_of(file, entries[tag]) for tag in _SAMPLES if tag in entries}
+        bits, kinds = (tags.get(tag) or [1.0] for tag in _SAMPLES)
+        kind = _KINDS.get(round(kinds[0]), "another format")
+        samples = f"a pixel has {len(bits)} x {bits[0]:g} bits of {kind}"
+        return f"{samples}; allowed: whole numbers up to 16 bits, floating point of 32"
+    return "its tags are incomplete"

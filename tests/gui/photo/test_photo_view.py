@@ -46,7 +46,7 @@ def test_facts_about_a_photo_are_shown_with_their_units(
     assert facts.size_line.toolTip() == "100 x 60 px, grey"
     assert not facts.use_settings.isEnabled()
     view.open(replace(photo, is_linear=True))
-    assert facts.size_line.toolTip() == "100 x 60 px, grey, RAW: gamma 1"
+    assert facts.size_line.toolTip() == "100 x 60 px, grey, linear: gamma 1"
     noted = replace(photo, exposure_time=1 / 8000, iso=12800.0, f_number=1.8)
     view.open(replace(noted, camera="Maker Model 5", turned=True))
     assert facts.name.toolTip().endswith("stripes.png")

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import tifffile
 from films import film_bytes
 from photo_files import PICTURE, png, png_chunk, saved
 from PIL import Image, PngImagePlugin
@@ -86,6 +87,20 @@ def test_devices_pipes_and_sockets_are_refused_at_once(tmp_path: Path) -> None:
 def test_formats_that_need_other_programs_are_no_photos(tmp_path: Path) -> None:
     PICTURE.convert("RGB").save(tmp_path / "x.eps")
     assert refusal(tmp_path / "x.eps").endswith("x.eps is not an image that can be read.")
+
+
+@pytest.mark.parametrize("start", [b"\xff\x0a", b"\0\0\0\x0cJXL \r\n\x87\n"])
+def test_jpeg_xl_is_named(tmp_path: Path, start: bytes) -> None:
+    (tmp_path / "x.jxl").write_bytes(start + bytes(90))
+    assert refusal(tmp_path / "x.jxl").endswith(
+        "is a JPEG XL picture, which cannot be read; save it as PNG."
+    )
+
+
+def test_samples_that_no_photo_has_are_described(tmp_path: Path) -> None:
+    tifffile.imwrite(tmp_path / "x.tif", np.zeros((4, 5)))
+    sentence = refusal(tmp_path / "x.tif")
+    assert "a pixel has 1 x 64 bits of floating point; allowed: whole numbers up to 16" in sentence
 
 
 @pytest.mark.parametrize("ending", ["mp4", "mkv"])

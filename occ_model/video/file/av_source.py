@@ -2,6 +2,7 @@
 
 from bisect import bisect_left
 from collections import deque
+from heapq import heappop, heappush
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -29,8 +30,9 @@ _THREADS = 2
 """Threads of FFmpeg. Each keeps frames: for 4K films, one for each of many processors would take
 more memory than the process may use."""
 
-_INTERLACED, _LOWER_FIRST = (2, 3, 4, 5), (3, 4)
-"""Values of FFmpeg's ``AVFieldOrder``: of fields, and of those whose lower one is shown first."""
+_UPPER_FIRST, _LOWER_FIRST = (2, 4), (3, 5)
+"""Values of FFmpeg's ``AVFieldOrder`` as its decoders set them, which is not how it explains them:
+4 is that of fields whose upper one is both stored and shown first, as Matroska's 9."""
 
 
 class AvSource(FrameSource):
@@ -57,6 +59,7 @@ class AvSource(FrameSource):
         self._field: tuple[VideoFrame, int] | None = None  # The second one of a frame
         self._timestamps: list[int] | None = None
         self._counts_damage = True
+        self._is_numbered, self._numbers = demuxer == "avi", list[int]()
         self._examine_first_frame()
 
     def _examine_first_frame(self) -> None:
@@ -71,7 +74,9 @@ class AvSource(FrameSource):
         if matrix is not None:
             self._orientation = Orientation.of_matrix(bytes(matrix))
         order = self._stream.codec_context.field_order
-        self._has_fields = first.interlaced_frame or order in _INTERLACED
+        self._has_fields = order in (*_UPPER_FIRST, *_LOWER_FIRST)
+        if first.interlaced_frame and not self._has_fields:
+            raise VideoError("it is interlaced, and does not say which of two fields is the first.")
         self._first_field = int(order in _LOWER_FIRST)
         self.facts = describe_film(self._container, self._stream)
         if self._has_fields:
@@ -100,6 +105,8 @@ class AvSource(FrameSource):
         fields = 1 + self._has_fields
         timestamps = self._list_timestamps()
         number = index // fields
+        if self._is_numbered and self._stream.codec_context.has_b_frames:
+            return None
         if not 0 <= number < len(timestamps):
             return None
         self._go_to(timestamps[number])
@@ -154,21 +161,34 @@ class AvSource(FrameSource):
 
     def _decode_packet(self, packet: "Packet[VideoStream]") -> None:
         try:
-            self._frames.extend(packet.decode())
+            frames = packet.decode()
         except MemoryError:
             raise
         except av.FFmpegError:
             self.damaged += self._counts_damage
+            return
+        if self._is_numbered:
+            self._number(packet, frames)
+        self._frames.extend(frames)
+
+    def _number(self, packet: "Packet[VideoStream]", frames: list[VideoFrame]) -> None:
+        """Number frames as they are shown; an AVI file numbers them as they are stored."""
+        if packet.size and packet.dts is not None:
+            heappush(self._numbers, packet.dts)
+        for frame in frames:
+            if self._numbers:
+                frame.pts = heappop(self._numbers)
 
     def _list_timestamps(self) -> list[int]:
         """List the times of all frames that are shown, in order."""
         if self._timestamps is None:
             with self._path.open("rb") as file, _open(file, self._demuxer)[0] as container:
-                self._timestamps = sorted(
-                    packet.pts
+                packets = [
+                    packet.dts if self._is_numbered else packet.pts
                     for packet in container.demux(container.streams[self._stream.index])
-                    if packet.size and packet.pts is not None and not packet.is_discard
-                )
+                    if packet.size and not packet.is_discard
+                ]
+            self._timestamps = sorted(time for time in packets if time is not None)
         return self._timestamps
 
     def _go_to(self, timestamp: int) -> None:
@@ -176,6 +196,7 @@ class AvSource(FrameSource):
         self._container.seek(timestamp, stream=self._stream)
         self._packets = self._container.demux(self._stream)
         self._frames.clear()
+        self._numbers.clear()
         self._field, self._counts_damage = None, False
 
 

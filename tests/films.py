@@ -67,6 +67,7 @@ def write_film(
             stream.codec_context.time_base = Fraction(1, 1000)
         if codec == "XVID":
             stream.codec_context.codec_tag = codec
+        container.start_encoding()  # also where there are no pictures
         for number, picture in enumerate(pictures):
             frame = av.VideoFrame.from_ndarray(picture, "gray").reformat(format=form, threads=1)
             frame.pts = number if milliseconds is None else milliseconds[number]

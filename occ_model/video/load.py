@@ -150,7 +150,11 @@ class VideoFile(Video):
                     self._read_next(decoder, index) if decoder.skip(skipped) == skipped else None
                 ), decoder
             if decoder.seek(index):
-                return self._read_next(decoder, index), decoder
+                frame = self._read_next(decoder, index)
+                known = self._times[index : index + 1]
+                # A file does not tell which frames cannot be decoded and so have no number.
+                if frame is None or not known or frame.time == known[0]:
+                    return frame, decoder
             self._open(decoder)
             skipped = decoder.skip(index)
             return (self._read_next(decoder, index) if skipped == index else None), decoder

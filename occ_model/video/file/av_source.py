@@ -109,7 +109,10 @@ class AvSource(FrameSource):
             return None
         if not 0 <= number < len(timestamps):
             return None
-        self._go_to(timestamps[number])
+        try:
+            self._go_to(timestamps[number])
+        except av.FFmpegError:  # a damaged index
+            return None
         frame = self._peek()
         if frame is None or frame.pts is None:
             return None
@@ -172,7 +175,7 @@ class AvSource(FrameSource):
         self._frames.extend(frames)
 
     def _number(self, packet: "Packet[VideoStream]", frames: list[VideoFrame]) -> None:
-        """Number frames as they are shown; an AVI file numbers them as they are stored."""
+        """Give frames their numbers as shown, which an AVI file has in the order of storage."""
         if packet.size and packet.dts is not None:
             heappush(self._numbers, packet.dts)
         for frame in frames:

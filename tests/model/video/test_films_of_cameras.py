@@ -39,7 +39,7 @@ def write(path: Path, encoder: Encoder, lumas: Iterable[NDArray[Any]], *times: i
     options = {"movflags": "use_metadata_tags"} if encoder.tags else {}
     with av.open(path, "w", options=options) as container:
         container.metadata.update(encoder.tags or {})
-        stream: Any = container.add_stream(encoder.name, encoder.rate, encoder.options or {})
+        stream: Any = container.add_stream(encoder.name, encoder.rate, dict(encoder.options or {}))
         stream.pix_fmt, stream.codec_context.color_range = encoder.form, encoder.extent
         if encoder.matrix is not None:
             stream.set_display_matrix(list(encoder.matrix))

@@ -44,6 +44,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.export(window, shell, parts.present, preferences, current_pane, store),
         panes.animation(window, scenes, preferences, window.filming),
         panes.transmitter(window, scenes, preferences),
+        panes.camera(window, scenes, preferences),
         panes.manual(window, shell, current_pane),
         panes.welcome(window, shell, preferences, parts.files),
         _entries(parts),

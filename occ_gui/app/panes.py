@@ -334,6 +334,16 @@ def transmitter(window: QWidget, scenes: SceneStore, preferences: Preferences) -
     )
 
 
+def camera(window: QWidget, scenes: SceneStore, preferences: Preferences) -> Feature[Any]:
+    return Feature(
+        name="camera",
+        make=defer(
+            "occ_gui.camera.camera_controller:CameraController", window, scenes, preferences
+        ),
+        commands={"measure_camera": lambda controller: controller.show()},
+    )
+
+
 def manual(window: QMainWindow, shell: Shell, current_pane: Callable[[], str]) -> Feature[Any]:
     return Feature(
         name="help",

@@ -28,6 +28,7 @@ _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
 _FILMS = "*.mp4 *.mov *.m4v *.avi *.mkv *.webm *.gif *.png *.apng"
 _RAW = "*.dng *.nef *.cr2 *.cr3 *.arw *.raf *.rw2 *.orf *.pef"
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2 {_RAW}"
+PHOTO_KINDS = f"Photos ({_PHOTOS});;All files (*)"
 
 
 def _has_scene(path: Path) -> bool:
@@ -87,9 +88,8 @@ class FileController(QObject):
 
     def ask_for_photo(self) -> None:
         """Ask for photos; open a single one, and list several as a table."""
-        kinds = f"Photos ({_PHOTOS});;All files (*)"
         names, _ = QFileDialog.getOpenFileNames(
-            self._window, "Open photos", self._preferences.folder, kinds
+            self._window, "Open photos", self._preferences.folder, PHOTO_KINDS
         )
         if len(names) > 1:
             self.open_dropped([Path(name) for name in names])

@@ -81,6 +81,13 @@ _PHOTO = (
     _Entry("save_match", "Save match as &preset…"),
     _Entry("delete_preset", "D&elete preset…"),
     _Entry("use_settings", "&Use this photo's settings"),
+    _Entry(
+        "measure_camera",
+        "Measure m&y camera…",
+        "",
+        "By two pictures of a lit wall, without equipment.",
+        "readout rolling shutter mains bars",
+    ),
     _SEPARATOR,
 )
 _OVERLAYS = {

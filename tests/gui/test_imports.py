@@ -10,6 +10,7 @@ PHYSICS = (
     "commands",
     "effects",
     "figures",
+    "photo.camera",
     "photo.comparison",
     "photo.fit",
     "photo.match",

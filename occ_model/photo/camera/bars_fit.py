@@ -24,6 +24,7 @@ _LEAST_SHARE = 0.2  # of a wave's energy in harmonics that those of twice or thr
 _SPREAD, _FARTHEST = np.array([1.5, 0.4, 0.7, 2.0, 0.5]), np.array([3.0, 0.7, 1.4, 3.0, 1.0])
 _APART = 0.04  # difference of numbers of bars, relative, that makes two of them other answers
 _MODULATIONS = (0.03, 0.06, 0.12, 0.25, 0.5)
+_NO_MODULATION = 1e-3
 _BENDS = np.linspace(-0.06, 0.06, 7)
 
 
@@ -236,20 +237,31 @@ def _posterior(search: Search) -> tuple[float, float]:
     weights /= weights.sum()
     mean = float((weights * near).sum())
     variance = float((weights * (near - mean) ** 2).sum())
-    return mean, math.sqrt(variance * max(1.0, _scatter(search, mean, math.sqrt(variance))))
+    return mean, math.sqrt(_widened(search, mean, variance))
 
 
-def _scatter(search: Search, bars: float, deviation: float) -> float:
-    """Return the variance of the tiles' slopes of likelihood over that which the errors imply."""
-    step = 0.5 * deviation
-    above, at, below = (
-        BarsModel(search.lines, each, FINE).log_evidences(search.scales)
-        for each in (bars + step, bars, bars - step)
-    )
-    slopes = (above - below) / (2.0 * step)
-    curvature = -float((above - 2.0 * at + below).sum()) / step**2
+def _widened(search: Search, bars: float, variance: float) -> float:
+    """Widen a variance by what tiles have in common, and by how far they disagree.
+
+    Modulations are independent in the model's tiles, but the same lamps light all of them: their
+    part of the variance is taken as that of one tile.
+    """
+    step = 0.5 * math.sqrt(variance)
+    places = (bars + step, bars, bars - step)
+    models = [BarsModel(search.lines, each, FINE) for each in places]
+    even = replace(search.scales, modulation=_NO_MODULATION)
+    least = 1.0 / _curvature([model.log_evidences(even) for model in models], step)
+    logs = [model.log_evidences(search.scales) for model in models]
+    slopes = (logs[0] - logs[2]) / (2.0 * step)
     tiles = len(slopes)
-    return float(((slopes - slopes.mean()) ** 2).sum()) * tiles / (tiles - 1) / max(curvature, 1e-9)
+    scatter = float(((slopes - slopes.mean()) ** 2).sum()) * tiles / (tiles - 1)
+    common = least + tiles * max(variance - least, 0.0)
+    return common * max(1.0, scatter / _curvature(logs, step))
+
+
+def _curvature(logs: list[FloatArray], step: float) -> float:
+    above, at, below = (float(each.sum()) for each in logs)
+    return max((2.0 * at - above - below) / step**2, 1e-9)
 
 
 def _width(search: Search) -> float:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from accuracy_points import EACH_WAY
+from camera_measurements import measurement
 from gui.kinds import SnapshotOf
 from gui.snapshots.gallery import Gallery
 from matches import match_with
@@ -22,6 +23,8 @@ from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.jobs import answer_question, compute_bars
 from occ_gui.bench.bench_view import PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.pane import request_of
+from occ_gui.camera.camera_dialog import CameraDialog
+from occ_gui.camera.jobs import CameraAnswer, CameraQuestion
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, make_lattice
@@ -155,6 +158,17 @@ def test_the_bars_look_as_stored(gallery: Gallery, small_scene: Scene) -> None:
     view.lamp.show_answer(answer_question(view.lamp.form.question))
     view.lamp.answer.more.click()
     gallery.compare(view, "bands")
+
+
+def test_the_dialog_of_the_camera_looks_as_stored(gallery: Gallery) -> None:
+    dialog = gallery.show(CameraDialog(), 640, 560)
+    light = np.clip(measurement().waves.T[:, 2:5].repeat(40, axis=1) * 150.0 + 120.0, 0, 255)
+    question = CameraQuestion((Path("one.jpg"), Path("two.jpg")), 50.0)
+    pictures = tuple(each.astype(np.uint8) for each in (light, light[::-1]))
+    dialog.show_pictures([path.name for path in question.paths])
+    dialog.show_answer(CameraAnswer(question, pictures, measurement()))
+    dialog.answer.more.click()
+    gallery.compare(dialog, "camera")
 
 
 PAGE = """\

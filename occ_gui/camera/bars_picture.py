@@ -1,0 +1,79 @@
+"""A picture, with the fitted bars drawn over it."""
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QPalette, QPen, QPolygonF
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.widgets.colours import SIMULATION
+from occ_gui.widgets.guarded_paint import guarded
+from occ_model.arrays import ByteArray, FloatArray
+
+_SIZE = QSize(280, 200)
+_REACH = 0.4  # of a tile's width to which the deepest bar reaches
+
+
+class BarsPicture(QWidget):
+    """Shows a picture; in each tile across its lines a curve that goes right where it is bright."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.setAccessibleName(name)
+        self.setMinimumSize(_SIZE)
+        self._image: QImage | None = None
+        self._waves: FloatArray | None = None
+        self._is_along_columns = False
+
+    def show_picture(self, picture: ByteArray | None) -> None:
+        self._image = None
+        if picture is not None:
+            pixels = np.ascontiguousarray(picture)
+            rows, columns = pixels.shape
+            kind = QImage.Format.Format_Grayscale8
+            self._image = QImage(pixels.tobytes(), columns, rows, columns, kind).copy()
+        self.show_bars(None)
+
+    def show_bars(self, waves: FloatArray | None, *, is_along_columns: bool = False) -> None:
+        """Show bars of shape (tiles, points); they are along lines, or along columns."""
+        self._waves, self._is_along_columns = waves, is_along_columns
+        self.update()
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+        if self._image is None:
+            painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+            painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+            painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, self.accessibleName())
+            return
+        place = self._place(self._image)
+        painter.drawImage(place, self._image)
+        if self._waves is not None:
+            curves = self._curves(self._waves, place)
+            for colour, width in ((QColor("white"), 4.0), (SIMULATION, 2.0)):
+                painter.setPen(QPen(colour, width))
+                for curve in curves:
+                    painter.drawPolyline(curve)
+
+    def _place(self, image: QImage) -> QRectF:
+        size = image.size().scaled(self.size(), Qt.AspectRatioMode.KeepAspectRatio)
+        left, top = (self.width() - size.width()) / 2, (self.height() - size.height()) / 2
+        return QRectF(left, top, size.width(), size.height())
+
+    def _curves(self, waves: FloatArray, place: QRectF) -> list[QPolygonF]:
+        tiles, count = waves.shape
+        reach = _REACH / tiles / max(float(np.abs(waves).max()), 1e-9)
+        along = (np.arange(count) + 0.5) / count
+        curves = []
+        for tile, wave in enumerate(waves):
+            across = (tile + 0.5) / tiles + reach * wave
+            right, down = (along, across) if self._is_along_columns else (across, along)
+            points = zip(
+                place.left() + right * place.width(), place.top() + down * place.height(),
+                strict=True,
+            )  # fmt: skip
+            curves.append(QPolygonF([QPointF(float(x), float(y)) for x, y in points]))
+        return curves

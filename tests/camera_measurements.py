@@ -1,0 +1,27 @@
+"""A measurement of a camera, as if pictures had been measured."""
+
+import math
+
+import numpy as np
+
+from occ_model.results.camera import CameraMeasurement
+
+
+def measurement(mains: float = 50.0, reasons: tuple[str, ...] = ()) -> CameraMeasurement:
+    """Return one of 27.5 us a line, and 2.97 bars in each of six tiles."""
+    bars = 27.5e-6 * 1080 * 2.0 * mains
+    along = np.arange(120) / 120
+    return CameraMeasurement(
+        mains_frequency=mains,
+        bars=bars,
+        readout_time=27.5e-6,
+        frame_readout_time=27.5e-6 * 1080,
+        uncertainties={"bars": 0.01, "readout_time": 1e-7, "frame_readout_time": 1e-4},
+        scan_axis="lines",
+        lines=1080,
+        pictures=2,
+        depth=0.4,
+        longest_exposure=None,
+        waves=np.array([0.4 * np.cos(2.0 * math.pi * bars * along + tile) for tile in range(6)]),
+        reasons=reasons,
+    )

@@ -23,6 +23,7 @@ _TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies too small for coherence by
 
 _MIN_RELATIVE_COHERENCE = 0.8  # fraction of the best coherence from which an alias is fitted
 _MIN_COHERENCE = 0.5  # minimum coherence of phases with the frame times
+_MAX_NOISE = 1 / 6  # scatter of phases, in periods, from which whole periods are miscounted
 _PART_GROWTH = 1.3  # factor by which the fitted part of the film grows, once its frequency is known
 
 _MAX_CHI_SQUARED_EXCESS = 9.0  # above this, three standard deviations, an alias is excluded
@@ -36,7 +37,10 @@ def fit_clock(phases: FramePhases, low: float, high: float) -> tuple[ClockFit, .
         _follow_phase(phases, reduced_phases, alias)
         for alias in _find_aliases(phases, reduced_phases, low, high)
     ]
-    fits = _drop_repeated([fit for fit in all_fits if low <= fit.frequency <= high])
+    max_noise = _MAX_NOISE * phases.period
+    fits = _drop_repeated(
+        [fit for fit in all_fits if low <= fit.frequency <= high and fit.noise <= max_noise]
+    )
     if not fits:
         return ()
     return tuple(fit for fit in fits if is_as_good(fit, fits[0]))
@@ -47,7 +51,9 @@ def is_as_good(fit: ClockFit, best: ClockFit) -> bool:
     freedom = max(1, int(best.kept.sum()) - 3)
     # The scatter includes the jitter of the frame times, which the best fit shows.
     scale = max(1.0, best.chi_squared / freedom)
-    is_close = fit.chi_squared - best.chi_squared <= _MAX_CHI_SQUARED_EXCESS * scale
+    # Errors of the times turn the phase in proportion to the frequency, and favour low ones.
+    chi_squared = fit.chi_squared * min(1.0, (best.frequency / fit.frequency) ** 2)
+    is_close = chi_squared - best.chi_squared <= _MAX_CHI_SQUARED_EXCESS * scale
     return is_close and len(fit.jumps) <= len(best.jumps)
 
 

@@ -28,6 +28,7 @@ _PHASE_ERRORS = 4.0  # standard errors of the phases by which the searched range
 _MIN_EXTENT = 1e-12
 _MAX_HIDDEN = 0.5  # periods within the times' resolution from which it hides the clock
 _EQUAL_STEPS = 1e-9  # periods up to which times that deviate from equal steps are the same
+_ROUNDED = 2.0  # steps of rounding up to which the scatter of times says nothing of the frames
 _MAX_OUTLIER_FRACTION = 0.1  # fraction of the phases above which outliers are reported
 _MAX_NAMED_SOLUTIONS = 5  # maximum number of alternative solutions in a sentence
 _MIN_WANDER_RATIO = 3.0  # of all phases' scatter to that between frames, for a wandering clock
@@ -71,7 +72,8 @@ class FilmPhases:
         if len(self.phases.times) < _MIN_FRAMES:
             return FilmClock(reason="fewer than three frames show the phase of the stripes.")
         found = by_number = self._fit(is_by_number=True)
-        if not by_number or self.times.scatter > _EQUAL_STEPS * self.times.period.value:
+        unequal = max(_EQUAL_STEPS * self.times.period.value, _ROUNDED * self.times.resolution)
+        if self.times.scatter > unequal:
             by_time = self._fit(is_by_number=False)
             if by_time and (not by_number or _noise(by_time[0]) < _noise(by_number[0])):
                 found = by_time
@@ -115,6 +117,8 @@ class FilmPhases:
         film_error = math.hypot(by_phase, period_error) if is_by_number else by_phase
         frequency, error = self.known.join(by_film, film_error)
         scale = period_error if self.known.frequency_tolerance is None else error
+        if not is_by_number:  # the mean of uneven steps has an error of its own
+            scale = math.hypot(period_error, error)
         frame_period = period.value * by_film / frequency
         readout, by_step = fit.step / frequency, fit.step_error / fit.step
         read = self.columns * readout

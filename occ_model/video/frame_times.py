@@ -12,7 +12,7 @@ import numpy as np
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.units import SECOND
-from occ_model.video.frame_period import fit_rounded_period
+from occ_model.video.frame_period import fit_line, fit_rounded_period
 
 _MAX_INTERVAL_DEVIATION = 0.25  # maximum deviation of an interval from whole periods, in periods
 _MAX_TIME_DEVIATION = 0.02  # scatter of frame times in periods from which it is reported
@@ -25,6 +25,7 @@ camera or a damaged file have no relation to the frames before."""
 _MIN_FRAMES_PER_PART = 4.0  # mean number of frames per part from which the times are meaningful
 _MIN_INTERVAL = 1e-9  # seconds below which two frames have the same time
 _COUNTED = 0.9  # periods from which a resolution is that of counted frames
+_STEADY_SCATTER = 0.35  # resolutions up to which times from equal steps are only rounded
 _ROUNDED_INTERVAL = 1.01  # resolutions by which rounding alone changes an interval
 
 
@@ -90,6 +91,8 @@ def fit_frame_times(times: FloatArray, resolution: float = 0.0) -> FrameTimes | 
         resolution, rounding = 0.0, _MIN_INTERVAL
     jumps = (intervals > LEAST_BREAK * usual) | (intervals < -_MIN_INTERVAL)
     is_usual = (np.abs(intervals - usual) <= rounding) & (intervals > _MIN_INTERVAL)
+    if fit_line(np.arange(float(len(times))), times)[2] < _STEADY_SCATTER * resolution:
+        is_usual |= True
     counts = np.where(is_usual, 1, np.rint(np.where(jumps, 0.0, intervals) / usual))
     counts = counts.astype(np.int64)
     firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])

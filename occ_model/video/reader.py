@@ -171,6 +171,11 @@ def _known_timing(
     return KnownTiming(frequency, readout, frequency_tolerance, readout_tolerance)
 
 
+def _half_cycles_as_chips(scene: Scene, known: KnownTiming) -> Scene:
+    """Return a lamp as alternating chips, in which a few of its cycles are recognized as well."""
+    return scene.replace(light="code", pattern="10", switching_frequency=known.frequency)
+
+
 class VideoReader:
     """Reads a film as its frames arrive.
 
@@ -199,8 +204,10 @@ class VideoReader:
             check_code(scene.transmitter)
         decoder_named(decoder)
         known = _known_timing(scene, readout_tolerance, frequency_tolerance)
+        if self._is_lamp:
+            scene = _half_cycles_as_chips(scene, known)
         self._scene, self._frame_reader = scene, FrameReader(scene, decoder)
-        self._period = SentPeriod(replace(scene.transmitter, light="code"))
+        self._period = SentPeriod(scene.transmitter)
         self._placed = PlacedFrames(self._period, known, times.resolution)
         self._joined = self._placed.joined
         self._without_packets = WithoutPackets(known if self._is_lamp else known.without_frequency)
@@ -232,7 +239,7 @@ class VideoReader:
         self._white = white
         if self._placed.add(timed):
             self._chips_in_view = -1
-        if self._placed.placed == 0:
+        if self._is_lamp or self._placed.placed == 0:
             self._without_packets.add(frame.time, frame.image, timed.reading.region)
         self._update_payload()
         frames = len(self._placed.frames)
@@ -258,10 +265,12 @@ class VideoReader:
             failure += self._describe_overexposure()
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
         times, clock, no_clock = placed.times(), placed.clock, placed.no_clock
-        if placed.placed == 0 and placed.columns:
-            clock, no_clock = self._without_packets.fit_clock(times, placed.columns)
-            if self._is_lamp and clock is not None:
-                failure = None
+        if placed.columns and (self._is_lamp or placed.placed == 0):
+            lamp_clock, no_lamp_clock = self._without_packets.fit_clock(times, placed.columns)
+            if lamp_clock is not None or clock is None:
+                clock, no_clock = lamp_clock, no_lamp_clock or no_clock
+        if self._is_lamp and clock is not None:
+            failure = None
         number = self._completing_frame if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),
@@ -346,12 +355,13 @@ class VideoReader:
         return read_soft_frame(self._joined.ratios, scheme, self._period.header)
 
     def _explain_failure(self, soft: SoftFrame | None) -> str | None:
+        if self._is_lamp:
+            description = self._without_packets.describe(self._scene.camera.readout_time)
+            return description or "No frame shows stripes that repeat, as those of a lamp do."
         if self._placed.placed == 0:
             description = self._without_packets.describe(self._scene.camera.readout_time)
             if not description:
                 return explain_unplaced(self._placed.frames)
-            if self._is_lamp:
-                return description
             if self._without_packets.may_be_packets:
                 return f"{description} {explain_unplaced(self._placed.frames)}"
             return f"{description} No frame contains packets as the scene sends them."

@@ -1,0 +1,33 @@
+"""Do the stated errors of films' clocks hold? For each container, and for what is known.
+
+``python -m benchmarks.film_clocks 600`` in the folder ``tests``.
+"""
+
+import sys
+
+import numpy as np
+from film_clocks import KNOWN, RESOLUTIONS, judged_clocks
+
+NAMES = ("switching_frequency", "readout_time", "gap")
+
+
+def main(count: int) -> None:
+    for container in RESOLUTIONS:
+        for known in KNOWN:
+            judged = list(judged_clocks(container, known, count))
+            found = [one for one in judged if one.clock.fits]
+            sure = [one for one in found if one.is_sure]
+            listed = sum(one.is_listed for one in found)
+            parts = [
+                f"{container:9}{known:8} {len(found)} of {count} clocks, {listed} hold the true"
+            ]
+            parts.append(f"one, {len(sure)} sure;")
+            for name in NAMES:
+                off = np.abs([one.off(name) for one in sure])
+                shares = [f"{100.0 * np.mean(off < bound):.1f}" for bound in (1.0, 2.0, 4.0)]
+                parts.append(f"{name} {' / '.join(shares)} %, at most {off.max():.1f};")
+            print(" ".join(parts), flush=True)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -36,6 +36,7 @@ from occ_model.video.placed_frames import PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import FrameReader
 from occ_model.video.without_packets import HALF_CYCLES, WithoutPackets
 
+_MIN_PLACED_FRACTION = 0.9  # of a lamp's frames, in which its edges give a more exact clock
 _INTERLACED = (
     "The film is interlaced: each of its fields is read as a frame, whose columns are every other "
     "line of the camera, so that its readout time is that of two lines."
@@ -265,7 +266,8 @@ class VideoReader:
             failure += self._describe_overexposure()
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
         times, clock, no_clock = placed.times(), placed.clock, placed.no_clock
-        if placed.columns and (self._is_lamp or placed.placed == 0):
+        is_followed = placed.placed >= _MIN_PLACED_FRACTION * len(placed.frames)
+        if placed.columns and (placed.placed == 0 or (self._is_lamp and not is_followed)):
             lamp_clock, no_lamp_clock = self._without_packets.fit_clock(times, placed.columns)
             if lamp_clock is not None or clock is None:
                 clock, no_clock = lamp_clock, no_lamp_clock or no_clock

@@ -1,6 +1,6 @@
 """Do the stated errors of films' clocks hold? For each container, and for what is known.
 
-``python -m benchmarks.film_clocks 600`` in the folder ``tests``.
+``python -m benchmarks.clock_coverage 600`` in the folder ``tests``.
 """
 
 import sys

@@ -102,6 +102,9 @@ class Clock(ClockSolution):
     spacing
         How far apart in Hz the switching frequencies are that fit the frames equally well,
         whatever is known; None if the frames do not come in equal steps.
+    chips_a_frame
+        Chips sent in a frame period, up to the whole periods that ``spacing`` leaves open; None if
+        the frames do not come in equal steps.
     alternatives
         Other clocks that fit equally well and that what is known does not exclude.
     problems
@@ -114,6 +117,7 @@ class Clock(ClockSolution):
     timing_noise: float | None
     frames: int
     spacing: float | None = None
+    chips_a_frame: MeasuredValue | None = None
     alternatives: tuple[ClockSolution, ...] = ()
     problems: tuple[str, ...] = ()
     chips_of_cycle: int = 0
@@ -127,6 +131,19 @@ class Clock(ClockSolution):
     def lamp_drift(self) -> MeasuredValue | None:
         """The change of the lamp's frequency in Hz a second; None for a code, or if unknown."""
         return None if self.drift is None else self._divide_by_cycle(self.drift)
+
+    @property
+    def beat(self) -> MeasuredValue | None:
+        """How often in Hz a lamp's stripes pass through the frames, positive if the lamp is fast.
+
+        None for a code, or if the frames do not come in equal steps.
+        """
+        if not self.chips_of_cycle or self.chips_a_frame is None:
+            return None
+        cycles = self.chips_a_frame.value / self.chips_of_cycle
+        period = self.frame_period.value
+        beat = (cycles - round(cycles)) / period
+        return MeasuredValue(beat, self.chips_a_frame.error / self.chips_of_cycle / period)
 
     def _divide_by_cycle(self, chip_rate: MeasuredValue) -> MeasuredValue | None:
         chips = self.chips_of_cycle

@@ -123,6 +123,13 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
     ):  # fmt: skip
         text = unit.format_estimate(measured.value, measured.error) + suffix
         yield Fact(key, label, text, note, meaning)
+    if clock.beat is not None:
+        text = HERTZ.format_estimate(clock.beat.value, clock.beat.error)
+        meaning = (
+            "How often the stripes pass through the frames: the lamp's frequency less the nearest "
+            "whole multiple of the frame rate."
+        )
+        yield Fact("beat", "Beat", text, meaning=meaning)
     if drift is not None:
         text = _RATE.format_estimate(drift.value, drift.error)
         meaning = f"Change of the {name} during the film."

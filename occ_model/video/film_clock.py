@@ -190,6 +190,9 @@ def describe_clock(clock: FilmClock, film: FilmPhases, part: Part, chips_of_cycl
         timing_noise=noise,
         frames=int(fit.kept.sum()),
         spacing=film.phases.period / values.frame_period.value if best.is_by_number else None,
+        chips_a_frame=MeasuredValue(fit.frequency, fit.frequency_error)
+        if best.is_by_number
+        else None,
         alternatives=tuple(other.values for other in clock.fits[1:]),
         problems=(
             *times.problems,

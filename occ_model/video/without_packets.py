@@ -14,6 +14,7 @@ from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
 from occ_model.results.video_reading import Clock, MeasuredValue
 from occ_model.scene.units import HERTZ, SECOND, Unit
+from occ_model.video.blinking import fit_blinking
 from occ_model.video.film_clock import FilmPhases, clock_of_lamp, describe_clock
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.known_timing import KnownTiming
@@ -24,6 +25,7 @@ HALF_CYCLES = 2  # a lamp's phase is counted in half cycles, for which limits in
 _MIN_PERIODS = 3.0  # minimum in a frame, because two may be equal by chance
 _MAX_UNREPEATED = 0.1  # of the stripes' variance that a repeated wave may leave unexplained
 _MIN_CHANGE = 0.2  # fraction of the brightest frames' light by which dark frames must differ
+_MAX_UNEQUAL = 0.5  # frame periods by which steps may differ for a frequency of the levels
 _MIN_SAME_FRACTION = 0.9  # fraction of equal frames from which all count as equal
 
 
@@ -124,12 +126,29 @@ class WithoutPackets:
             return ""
         bright = levels > 0.5 * (low + high)
         changes = int(np.count_nonzero(bright[1:] != bright[:-1]))
-        seconds = self._frames[-1].time - self._frames[0].time
+        times = np.array([frame.time for frame in self._frames])
+        seconds = float(np.ptp(times))
         return (
             f"Whole frames are bright or dark: {int(bright.sum())} of {len(levels)} are bright, "
-            f"and that changes {inflect(changes, 'time')} in {SECOND.format(seconds, 3)}. No frame "
-            "shows stripes that repeat."
+            f"and that changes {inflect(changes, 'time')} in {SECOND.format(seconds, 3)}."
+            f"{_describe_blinking(times, levels)} No frame shows stripes that repeat."
         )
+
+
+def _describe_blinking(times: FloatArray, levels: FloatArray) -> str:
+    """State the frequency of light that changes from frame to frame; empty if it is irregular."""
+    steps = np.diff(times)
+    if np.ptp(steps) > _MAX_UNEQUAL * float(np.median(steps)):
+        return ""
+    blinking = fit_blinking(times, levels)
+    if blinking is None:
+        return ""
+    rate = 1.0 / float(np.median(steps))
+    frequency = HERTZ.format_estimate(blinking.value, blinking.error)
+    return (
+        f" They blink at {frequency}, or at that much above or below a whole multiple of the "
+        f"{HERTZ.format(rate, 4)} of the frames."
+    )
 
 
 def _half_cycle_phases(frames: Sequence[_FrameStripes]) -> FramePhases:

@@ -77,6 +77,26 @@ def test_all_lamps_that_an_inexact_oscillator_may_be_are_listed(
     assert re.search(r": (1 kHz|1000|999\.9).* and (970|969\.9)", problems)
 
 
+def test_the_mains_are_measured_by_the_light_of_a_wall(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = LAMP.replace(
+        light="mains",
+        mains_frequency=50.03,
+        mains_depth=0.3,
+        exposure_time=1e-3,
+        iso=50.0,
+        distance=0.5,
+    )
+    film = str(tmp_path / "wall.png")
+    occ.write_video(occ.render_video(scene, 60, Recording(frame_rate=29.97)), film)
+    known = ["--set", "light=mains", "--set", "readout_time=25.5us"]
+    assert main(["match", film, "--estimate", "switching_frequency", *known]) == 0
+    value, error = measured(capsys.readouterr().out.splitlines()[0][18:])
+    assert abs(value - 100.06) < 4.0 * error
+    assert error < 0.001
+
+
 @pytest.mark.parametrize("option", ["--lamps", "--chips", "--region=0:9,0:9", "--fit-gamma"])
 def test_what_only_a_photo_has_is_refused_for_a_film(
     option: str, folder: Path, capsys: pytest.CaptureFixture[str]

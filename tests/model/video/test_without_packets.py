@@ -92,6 +92,18 @@ def test_whole_frames_that_blink_are_described() -> None:
     assert "slow" not in found.failure
 
 
+def test_frames_that_blink_regularly_give_their_frequency() -> None:
+    found = read([np.full(COLUMNS, 200.0 if number // 3 % 2 else 30.0) for number in range(36)])
+    assert re.search(r"They blink at 5\.0+ ± 0\.\d+ Hz, or at that much above", found.failure)
+
+
+def test_the_beat_is_how_fast_stripes_pass_through_the_frames() -> None:
+    found = read([stripes(number, "10", 2400.0 - 3.4) for number in range(12)])
+    beat = found.clock.beat
+    assert abs(beat.value + 1.7) < 4.0 * beat.error
+    assert beat.error < 0.01
+
+
 def test_a_repeated_pattern_is_not_a_lamp() -> None:
     found = read([stripes(number, "1101000", 5000.0) for number in range(6)])
     assert found.failure.startswith("The stripes repeat after 56.")

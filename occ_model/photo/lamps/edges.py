@@ -38,6 +38,16 @@ class Edges:
     def where(self, chosen: slice | np.ndarray) -> "Edges":
         return Edges(self.place[chosen], self.rises[chosen], self.low[chosen], self.high[chosen])
 
+    def with_others(self, others: "Edges") -> "Edges":
+        places = np.concatenate([self.place, others.place])
+        order = np.argsort(places, kind="stable")
+        return Edges(
+            places,
+            np.concatenate([self.rises, others.rises]),
+            np.concatenate([self.low, others.low]),
+            np.concatenate([self.high, others.high]),
+        ).where(order)
+
 
 def edges_of(profile: FloatArray) -> Edges:
     """Find the edges of a profile that stand out of its noise."""

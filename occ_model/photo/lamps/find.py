@@ -1,5 +1,6 @@
 """Find the lamps in a photo: where each is, of what shape, and how it blinks."""
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -7,9 +8,10 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.photo.lamps.blinking import Blinking, with_codes_joined
+from occ_model.photo.lamps.blinking import Blinking, with_parts_joined
 from occ_model.photo.lamps.edges import Edges, edges_of, matches
 from occ_model.photo.lamps.segments import (
+    LEAST_EDGES_OF_STRIP,
     LEAST_EQUAL_FRACTION,
     LEAST_STRIPS,
     Segment,
@@ -17,7 +19,7 @@ from occ_model.photo.lamps.segments import (
     groups_of,
     segments_of,
 )
-from occ_model.photo.lamps.shape import around, spans_of, without_halo
+from occ_model.photo.lamps.shape import around, spans_of
 from occ_model.photo.lamps.strips import steady_lamps, strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
@@ -30,13 +32,18 @@ _REFLECTED_BRIGHTNESS = 0.45  # of a lamp's reflection that blinks in time, over
 _FAINT_BRIGHTNESS = 0.25
 """Brightness relative to the brightest lamp below which a lamp may be a reflection."""
 _FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported
+_BRIGHT_QUANTILE, _SCATTERED_SWING = 0.8, 0.25
+"""Quantile of the height of a lamp's edges, and part of it below which they are of its halo."""
+
 _GAMMA = 2.2  # exponent that converts grey levels to light for comparison
 _MOST_DUTY = 0.65  # maximum duty of two stripes; two panes of a window have a larger one
 _FEW_EDGES = 4  # number of edges of two bright objects side by side
 _LEAST_SPACING = 3.0  # minimum number of columns of a period or a chip
 _LEAST_COLUMNS, _LEAST_PERIODS = 16, 2.0  # minimum width of a lamp in columns, and in periods
 _LEAST_STRIP_FRACTION = 0.3  # minimum fraction of strips that show the period by themselves
-_CHIP_TOLERANCE = 0.02  # maximum relative difference of a chip between a lamp and its segments
+_CHIP_TOLERANCE, _CHIP_COLUMNS = 0.02, 2.0
+"""Maximum relative difference of a chip between a lamp and its segments, and columns, besides, over
+a segment's edges."""
 
 _BLURRED_RATIO, _HARDLY_STRIPED_RATIO = 0.15, 0.3
 """Light between the stripes relative to that of the stripes above which the exposure may be longer
@@ -44,6 +51,7 @@ than a chip, and above which it is."""
 
 _PERIOD_TOLERANCE = 0.03  # maximum relative difference of periods by edges and autocorrelation
 _MOST_COMMON_FRACTION = 0.5  # of a lamp inside another one, above which it is a part of that
+_OWN_EDGES = 8  # of a lamp in the light that another one scatters around it
 _GLOW_BRIGHTNESS, _GLOW_STRIPS = 0.5, 4  # relative brightness, and strips, of a lamp's glow
 
 
@@ -80,7 +88,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     for group in groups_of(segments):
         blinking += _blinking(group, segments, strips, bounds, means)
         report(0.85)
-    blinking = with_codes_joined(_without_parts(_without_glow(blinking)), means, bounds)
+    blinking = _without_parts(_without_glow(with_parts_joined(blinking, means, bounds)))
     lamps = _without_reflections(blinking)
     report(0.9)
     lamps += steady_lamps(means, bounds, [one.lamp for one in blinking])
@@ -95,6 +103,12 @@ def _blinking(
     bounds: IndexArray,
     means: FloatArray,
 ) -> list[Blinking]:
+    swings = [one.edges.high - one.edges.low for one in group]
+    least = _SCATTERED_SWING * float(np.quantile(np.concatenate(swings), _BRIGHT_QUANTILE))
+    bright = [float(np.median(swing)) >= least for swing in swings]
+    if not any(bright):
+        return []
+    group = list(itertools.compress(group, bright))
     edges, weights = common_edges(group)
     found = []
     pulses = sum(len(one.edges) for one in group if one.period is not None)
@@ -107,16 +121,16 @@ def _blinking(
         ]
         if not inner:
             continue
-        spans = spans_of(strips, inner, timing, bounds, means.shape[1])
-        if len(spans) < LEAST_STRIPS:
+        spans = spans_of(strips, inner, timing, least, bounds, means.shape[1])
+        few = len(timing.edges) < LEAST_EDGES_OF_STRIP
+        if len(spans) < (LEAST_STRIPS if few else 1):
             continue
-        spans = without_halo(spans, timing, means, bounds)
-        columns = int(spans[:, 3].max() - spans[:, 2].min()) if len(spans) else 0
+        columns = int(spans[:, 3].max() - spans[:, 2].min())
         # If a period is to be seen repeating, some of them are in view.
         least = 0.0 if timing.is_code else _LEAST_PERIODS * timing.spacing
         if columns < max(_LEAST_COLUMNS, least):
             continue
-        if len(spans) >= LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
+        if _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
             one = _described(timing, spans, [strips[strip] for strip in shown])
             if counts_some(one, means[shown[0] : shown[-1] + 1]):
@@ -147,7 +161,8 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
     """
     if (segment.period is None) != timing.is_code:
         return False
-    if abs(segment.chip - timing.chip) > _CHIP_TOLERANCE * timing.chip:
+    off = _CHIP_TOLERANCE * timing.chip + _CHIP_COLUMNS / len(segment.edges)
+    if abs(segment.chip - timing.chip) > off:
         return False
     near = np.count_nonzero(matches(segment.edges, timing.edges, timing.chip))
     return bool(near > 2 and near >= LEAST_EQUAL_FRACTION * len(segment.edges))
@@ -225,13 +240,16 @@ def _lies_at(low: Lamp, lamp: Lamp) -> bool:
 def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Leave out what lies within a lamp of more edges: noise has split some of its strips."""
     # A group that reaches into the glow around a lamp covers more of it, with less light.
-    ordered = sorted(
-        blinking, key=lambda one: -len(one.timing.edges) * one.lamp.area * max(one.light, 0.0)
-    )
+    ordered = sorted(blinking, key=lambda one: one.evidence, reverse=True)
     kept: list[Blinking] = []
     for one in ordered:
         # A lamp may lie within the light that another one scatters.
-        near = [other for other in kept if other.light > _GLOW_BRIGHTNESS * one.light]
+        is_own = one.lamp.period is not None and len(one.timing.edges) >= _OWN_EDGES
+        near = [
+            other for other in kept
+            if other.light > _GLOW_BRIGHTNESS * one.light
+            and not (is_own and not other.timing.agrees(one.timing))
+        ]  # fmt: skip
         if all(_shared(one.lamp, other.lamp) < _MOST_COMMON_FRACTION for other in near):
             kept.append(one)
     return kept

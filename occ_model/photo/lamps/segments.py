@@ -41,11 +41,12 @@ _LEAST_STEP_RATIO = 0.4  # minimum ratio of neighbouring steps of one lamp
 
 _MOST_DISTANCE = 2  # maximum distance of neighbouring segments in strips, for noise
 
-LEAST_EQUAL_FRACTION = 0.65
-"""Minimum fraction of equal edges of two segments, relative to the longer one: in a strip, noise or
-a rim can join the edges of two lamps, and such a segment must not join the lamps."""
+LEAST_EQUAL_FRACTION, _LEAST_EQUAL = 0.65, 3
+"""Minimum fraction and number of equal edges of two segments: in a strip, noise or a rim can join
+the edges of two lamps, and such a segment must not join the lamps."""
 
 LEAST_STRIPS = 2  # minimum number of strips of a lamp: in one, noise makes edges equal
+LEAST_EDGES_OF_STRIP = 12  # from which even a single strip shows a lamp
 
 _LEAST_STRIP_FRACTION = 0.2  # minimum fraction of a group's strips that show an edge
 
@@ -190,43 +191,53 @@ def chip_of(edges: Edges) -> float | None:
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
-    """Join the segments of each lamp; a single strip's is texture or a border, and left out."""
-    if not segments:
-        return []
-    # Imported only when lamps are searched: it is slow.
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+    """Join the segments of each lamp, which are in the order of their strips.
 
-    by_strip: dict[int, list[int]] = {}
+    What a single strip shows is texture or a border, unless its edges are many.
+    """
+    labels = list(range(len(segments)))
+
+    def group(index: int) -> int:
+        while labels[index] != index:
+            index = labels[index]
+        return index
+
     for index, segment in enumerate(segments):
-        by_strip.setdefault(segment.strip, []).append(index)
-    pairs = [
-        (index, other)
-        for index, segment in enumerate(segments)
-        for strip in range(segment.strip + 1, segment.strip + 1 + _MOST_DISTANCE)
-        for other in by_strip.get(strip, ())
-        if _agree(segment, segments[other])
-    ]
-    places = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
-    graph = coo_array((np.ones(len(pairs)), tuple(places)), shape=(len(segments),) * 2)
-    labels = connected_components(graph, directed=False)[1].tolist()
+        for other in range(index - 1, -1, -1):
+            apart = segment.strip - segments[other].strip
+            if apart > _MOST_DISTANCE:
+                break
+            if apart and _agree(segment, segments[other]):
+                labels[group(other)] = group(index)
     groups: dict[int, list[Segment]] = {}
-    for segment, label in zip(segments, labels, strict=True):
-        groups.setdefault(label, []).append(segment)
-    return [group for group in groups.values() if len({one.strip for one in group}) >= LEAST_STRIPS]
+    for index, segment in enumerate(segments):
+        groups.setdefault(group(index), []).append(segment)
+    return [one for one in groups.values() if _are_many(one)]
+
+
+def _are_many(group: Sequence[Segment]) -> bool:
+    most = max(len(one.edges) for one in group)
+    return most >= LEAST_EDGES_OF_STRIP or len({one.strip for one in group}) >= LEAST_STRIPS
 
 
 def _agree(one: Segment, other: Segment) -> bool:
+    """Whether most edges of two segments are equal; of pulses, in the columns of both."""
     chip = min(one.chip, other.chip)
     off = equal_within(chip)
-    counts = len(one.edges), len(other.edges)
-    here, there = one.edges.place, other.edges.place
-    if min(counts) < LEAST_EQUAL_FRACTION * max(counts) or not (
-        here[0] <= there[-1] + off and there[0] <= here[-1] + off
-    ):
+    first = max(one.edges.place[0], other.edges.place[0]) - off
+    last = min(one.edges.place[-1], other.edges.place[-1]) + off
+    if last < first:
         return False
-    near = np.count_nonzero(matches(one.edges, other.edges, chip))
-    return bool(near >= LEAST_EQUAL_FRACTION * max(counts))
+    here, there = one.edges, other.edges
+    if one.period is not None and other.period is not None:
+        here, there = (
+            each.where((each.place >= first) & (each.place <= last)) for each in (here, there)
+        )
+    most = max(len(here), len(there))
+    if min(len(here), len(there)) < LEAST_EQUAL_FRACTION * most:
+        return False
+    near = np.count_nonzero(matches(here, there, chip))
+    return bool(near >= max(_LEAST_EQUAL, LEAST_EQUAL_FRACTION * most))
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
@@ -240,7 +251,8 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
     low = np.concatenate([one.edges.low for one in group])
     high = np.concatenate([one.edges.high for one in group])
     rows: list[tuple[float, bool, float, float, int]] = []
-    least = max(LEAST_STRIPS, _LEAST_STRIP_FRACTION * len(group))
+    strips = len({one.strip for one in group})
+    least = max(min(LEAST_STRIPS, strips), _LEAST_STRIP_FRACTION * len(group))
     for kind in (True, False):
         order = np.flatnonzero(rises == kind)
         order = order[np.argsort(place[order], kind="stable")]

@@ -25,6 +25,8 @@ _SPACING_TOLERANCE, _SHADED_TOLERANCE = 0.003, 0.06
 by the number of edges: the outer edges of a lamp that is darker at its rim, seen on a lit wall, lie
 farther inside."""
 
+_PART_TOLERANCE = 0.03  # maximum relative difference of the spacings of two parts of a lamp
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampTiming:
@@ -70,6 +72,18 @@ class LampTiming:
             turns = (other.edges.place[other.edges.rises == kind] - start) / self.spacing
             offs.append(np.abs(turns - np.rint(turns)))
         return bool(np.median(np.concatenate(offs)) < _LATTICE_TOLERANCE)
+
+
+def common_timing(one: LampTiming, other: LampTiming) -> LampTiming | None:
+    """Return the timing whose lattices hold the edges of both; None if there is none."""
+    if one.is_code or other.is_code:
+        agree = one.agrees(other) or other.agrees(one)
+        return max(one, other, key=lambda each: len(each.edges)) if agree else None
+    if abs(one.spacing - other.spacing) > _PART_TOLERANCE * one.spacing:
+        return None
+    edges = one.edges.with_others(other.edges)
+    timing = _fitted(edges, np.ones(len(edges)), one.spacing, is_code=False)
+    return timing if timing is not None and timing.off < 0.5 * timing.most_off else None
 
 
 def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
@@ -131,6 +145,8 @@ def _fitted(edges: Edges, weights: FloatArray, spacing: float, is_code: bool) ->
         # From one edge to the next, so that an error of the spacing does not add up.
         apart = np.rint(np.diff(edges.place[same]) / spacing)
         steps[same] = np.concatenate([[0.0], np.cumsum(apart)])
+    if not steps.any():
+        return None
     shapes = np.column_stack([steps, edges.rises, ~edges.rises]).astype(np.float64)
     root = np.sqrt(weights)
     weighted = shapes * root[:, None]

@@ -20,7 +20,7 @@ from occ_model.video.file.write import write_frames
 KINDS = (
     ("mp4", "mp4v"), ("mov", "mp4v"), ("mov", "MJPG"), ("avi", "MJPG"), ("avi", "XVID"),
     ("avi", "HFYU"), ("mkv", "mp4v"), ("mkv", "FFV1"), ("mov", "MPNG"), ("mkv", "VP80"),
-    ("webm", "VP90"), ("mp4", "avc1"), ("mov", "hvc1"), ("webm", "AV01"), ("mov", "apcn"),
+    ("webm", "VP90"), ("mp4", "avc1"), ("mkv", "hvc1"), ("webm", "AV01"), ("mov", "apcn"),
 )  # fmt: skip
 """Endings and codecs of films, which FFmpeg writes everywhere."""
 

@@ -80,8 +80,8 @@ LEVELS = [
     ("mkv", Encoder("ffv1", "yuv444p10le", extent=LIMITED), False),
     ("mp4", Encoder("libx264", "yuvj420p", {"qp": "0"}, FULL), True),
     ("mp4", Encoder("libx264", "yuv420p", {"qp": "0"}), False),
-    ("mp4", Encoder("libx265", "gray", QUIET, LIMITED), False),
-    ("mp4", Encoder("libx265", "yuv420p10le", QUIET, FULL), True),
+    ("mkv", Encoder("libx265", "gray", QUIET, LIMITED), False),
+    ("mkv", Encoder("libx265", "yuv420p10le", QUIET, FULL), True),
     ("webm", Encoder("libvpx-vp9", "yuv420p", {"lossless": "1"}, FULL), True),
     ("webm", Encoder("libvpx-vp9", "yuv420p", {"lossless": "1"}), False),
     ("mov", Encoder("v210", "yuv422p10le"), False),
@@ -226,7 +226,7 @@ def test_each_field_is_a_frame_with_its_own_lines_and_time(
     ("ending", "encoder"),
     [
         ("avi", Encoder("mpeg4", options={"flags": "+ildct+ilme"})),
-        ("mp4", Encoder("libx265", options={"x265-params": "interlace=tff:log-level=none"})),
+        ("mkv", Encoder("libx265", options={"x265-params": "interlace=tff:log-level=none"})),
     ],
 )
 def test_fields_of_unknown_order_are_refused(tmp_path: Path, ending: str, encoder: Encoder) -> None:

@@ -16,6 +16,14 @@ _LICENCE_TEXT = re.compile(
 )
 
 
+REMARKS = {
+    "av": "its libraries are FFmpeg (LGPL 3 or later), linked to the encoders x264 and x265 (GPL 2 or "
+    "later): who passes on this folder does so as a whole under the GPL 3 or later, with its text and "
+    "with the sources of these libraries",
+}
+"""What packages hold under other licences than they state themselves, by their names."""
+
+
 def write_notice(sources: Collection[Path], bundle: Path, project: Path) -> None:
     """Name all that the bundle holds, made of the files ``sources``, with version and licence."""
     texts = bundle / "licences"
@@ -92,7 +100,8 @@ def _line(package: Distribution, texts: Path) -> str:
         name = "-".join(text.parts[-2:]) if len(copied) > 1 else text.name
         shutil.copy(str(text.locate()), folder / name)
     place = f"licences/{folder.name}" if copied else "it brings no text"
-    return f"{package.name} {package.version}: {licence(package)} ({place})"
+    remark = f"; {REMARKS[package.name]}" if package.name in REMARKS else ""
+    return f"{package.name} {package.version}: {licence(package)} ({place}){remark}"
 
 
 def _line_of_python(texts: Path) -> str:

@@ -51,7 +51,10 @@ def test_the_notice_names_what_the_bundle_holds_and_nothing_else(
     install(site, "absent", "License: MIT\n", "COPYING")
     own, *_ = (Path(str(file.locate())) for file in distribution("occ-explorer").files or ())
     library = Path(sysconfig.get_path("stdlib"), "ast.py")
+    films = distribution("av")
+    (*_, of_films) = (Path(str(file.locate())) for file in films.files or ())
     sources = [silent, own, ROOT / "LICENSE", named, without_text, library, Path("/lib/libz.so.1")]
+    sources.append(of_films)
 
     notice.write_notice(sources, bundle, ROOT)
 
@@ -67,7 +70,9 @@ def test_the_notice_names_what_the_bundle_holds_and_nothing_else(
     assert "absent" not in "".join(lines)
     assert (bundle / "licences" / "named-1.0" / "LICENSE.txt").read_text() == "named"
     held = {path.name for path in (bundle / "licences").iterdir()} - {"Python.txt"}
-    assert held == {"occ-explorer.txt", "named-1.0"}
+    assert held == {"occ-explorer.txt", "named-1.0", f"av-{films.version}"}
+    (line,) = (line for line in lines if line.startswith("av "))
+    assert "x264 and x265 (GPL 2 or later)" in line
 
 
 @pytest.mark.whole

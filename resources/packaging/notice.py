@@ -17,9 +17,9 @@ _LICENCE_TEXT = re.compile(
 
 
 REMARKS = {
-    "av": "its libraries are FFmpeg (LGPL 3 or later), linked to the encoders x264 and x265 (GPL 2 or "
-    "later): who passes on this folder does so as a whole under the GPL 3 or later, with its text and "
-    "with the sources of these libraries",
+    "av": "its libraries are FFmpeg (LGPL 3 or later), linked to the encoders x264 and x265 "
+    "(GPL 2 or later): who passes on this folder does so as a whole under the GPL 3 or later, with "
+    "its text and with the sources of these libraries",
 }
 """What packages hold under other licences than they state themselves, by their names."""
 

@@ -21,7 +21,7 @@ from occ_model.commands.options import (
     progress_bar,
     scene_of,
 )
-from occ_model.errors import inflect
+from occ_model.errors import ParameterError, inflect, one_line
 from occ_model.files.reading import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
@@ -68,6 +68,13 @@ def add_to(commands: Commands) -> None:
         "--follow", action="store_true", help="for a film: print what is known after each frame"
     )
     add_tolerances(parser)
+    parser.add_argument(
+        "--offset-to",
+        type=Path,
+        metavar="FILM",
+        help="for a film: another film of the same LED, whose times are compared with those of "
+        "this one",
+    )
     parser.set_defaults(command=_run)
 
 
@@ -157,6 +164,8 @@ def read_film(options: argparse.Namespace, scene: Scene, tolerances: Tolerances)
     for line in _film_lines(reading, video):
         print(line)
     print_problems(video, reading)
+    if options.offset_to is not None:
+        print(_offset_line(reading, options, scene, tolerances))
     if reading.failure is not None:
         if video.scene is not None and video.scene.transmitter.light != "code":
             light = describe_light(video.scene.transmitter)
@@ -165,6 +174,27 @@ def read_film(options: argparse.Namespace, scene: Scene, tolerances: Tolerances)
             )
         return EXIT_FAILURE
     return 0
+
+
+def _offset_line(
+    reading: VideoReading, options: argparse.Namespace, scene: Scene, tolerances: Tolerances
+) -> str:
+    """Compare the times of two films of one LED."""
+    channel = film_channel(options.channel)
+    other = load_video(options.offset_to, options.scan_axis, channel=channel)
+    clock = reading.clock
+    other_clock = decode_video(other, scene, options.decoder, **tolerances).clock
+    offset = None if clock is None or other_clock is None else clock.offset_of(other_clock)
+    if clock is None or offset is None:
+        raise ParameterError(
+            "--offset-to needs one sure clock of each film; state what is known by "
+            "--frequency-tolerance or --readout-tolerance."
+        )
+    return (
+        f"{'offset':18}{one_line(other.title)} is at "
+        f"{SECOND.format_estimate(offset.value, offset.error)} when this film begins, or whole "
+        f"multiples of {SECOND.format(clock.repeat_time)} earlier or later"
+    )
 
 
 def _format_progress(progress: FilmProgress) -> str:

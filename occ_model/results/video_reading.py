@@ -1,5 +1,6 @@
 """Results of reading a film: frames, packets and clock."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -105,6 +106,9 @@ class Clock(ClockSolution):
     chips_a_frame
         Chips sent in a frame period, up to the whole periods that ``spacing`` leaves open; None if
         the frames do not come in equal steps.
+    phase, repeated_chips
+        Chips sent at the film's time 0, in the middle of the exposure of column 0, up to whole
+        periods of ``repeated_chips``; None if the phases fit no clock.
     alternatives
         Other clocks that fit equally well and that what is known does not exclude.
     problems
@@ -118,6 +122,8 @@ class Clock(ClockSolution):
     frames: int
     spacing: float | None = None
     chips_a_frame: MeasuredValue | None = None
+    phase: MeasuredValue | None = None
+    repeated_chips: float = 0.0
     alternatives: tuple[ClockSolution, ...] = ()
     problems: tuple[str, ...] = ()
     chips_of_cycle: int = 0
@@ -144,6 +150,25 @@ class Clock(ClockSolution):
         period = self.frame_period.value
         beat = (cycles - round(cycles)) / period
         return MeasuredValue(beat, self.chips_a_frame.error / self.chips_of_cycle / period)
+
+    def offset_of(self, other: "Clock") -> MeasuredValue | None:
+        """Return the time of another film when this one's time is 0, in seconds.
+
+        It is known up to whole periods of what both films show, which last ``repeat_time``. The
+        time of a frame is that of the middle of the exposure of column 0, and that of the first
+        frame is 0. None if either clock is not sure.
+        """
+        if self.phase is None or other.phase is None or not (self.is_sure and other.is_sure):
+            return None
+        frequency = other.switching_frequency
+        chips = (self.phase.value - other.phase.value) % self.repeated_chips
+        errors = self.phase.error, other.phase.error, chips * frequency.error / frequency.value
+        return MeasuredValue(chips / frequency.value, math.hypot(*errors) / frequency.value)
+
+    @property
+    def repeat_time(self) -> float:
+        """How long what is sent takes before it repeats, in seconds."""
+        return self.repeated_chips / self.switching_frequency.value
 
     def _divide_by_cycle(self, chip_rate: MeasuredValue) -> MeasuredValue | None:
         chips = self.chips_of_cycle

@@ -193,6 +193,8 @@ def describe_clock(clock: FilmClock, film: FilmPhases, part: Part, chips_of_cycl
         chips_a_frame=MeasuredValue(fit.frequency, fit.frequency_error)
         if best.is_by_number
         else None,
+        phase=_phase_at_zero(best, part),
+        repeated_chips=film.phases.period,
         alternatives=tuple(other.values for other in clock.fits[1:]),
         problems=(
             *times.problems,
@@ -201,6 +203,19 @@ def describe_clock(clock: FilmClock, film: FilmPhases, part: Part, chips_of_cycl
         ),
         chips_of_cycle=chips_of_cycle,
     )
+
+
+def _phase_at_zero(best: FilmFit, part: Part) -> MeasuredValue:
+    """Return the chips sent at the film's time 0 and their standard deviation."""
+    fit = best.fit
+    tick = -part.start * best.stated_frequency / fit.frequency if best.is_by_number else 0.0
+    elapsed = tick - fit.middle
+    error = math.hypot(
+        fit.noise / math.sqrt(int(fit.kept.sum())),
+        fit.frequency_error * elapsed,
+        0.5 * fit.drift_error * elapsed**2,
+    )
+    return MeasuredValue(float(fit.at_start(np.array([tick]))[0]), error)
 
 
 def clock_of_lamp(film: FilmPhases, reason: str, chips_of_cycle: int) -> Clock | None:

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from amount import amount
 
+from occ_model.arrays import FloatArray
 from occ_model.video.blinking import fit_blinking
 
 
 def levels_of(
-    times: np.ndarray, frequency: float, duty: float, phase: float, exposure: float
-) -> np.ndarray:
+    times: FloatArray, frequency: float, duty: float, phase: float, exposure: float
+) -> FloatArray:
     """Return the mean level of frames that are exposed as a whole."""
     inside = times[:, None] + np.linspace(0.0, exposure, 40)
     return np.asarray(np.mean(np.mod(inside * frequency + phase, 1.0) < duty, axis=1))
@@ -36,7 +37,7 @@ def test_the_error_of_a_blinking_light_holds_also_where_frames_see_the_same_of_e
 
 
 def test_five_hertz_in_thirty_frames_a_second_are_five_and_not_quite_exact() -> None:
-    blinking = fit_blinking(np.arange(60) / 30.0, np.arange(60) // 3 % 2 * 170.0 + 30.0)
+    blinking = fit_blinking(np.arange(60) / 30.0, np.tile([30.0, 200.0], 10).repeat(3))
     assert blinking.value == pytest.approx(5.0)
     assert 0.01 < blinking.error < 0.1
 
@@ -44,5 +45,5 @@ def test_five_hertz_in_thirty_frames_a_second_are_five_and_not_quite_exact() -> 
 def test_irregular_or_few_changes_have_no_frequency() -> None:
     random = np.random.default_rng(2)
     times = np.arange(90) / 30.0
-    assert fit_blinking(times, np.repeat(random.integers(0, 2, 30), 3) * 1.0) is None
-    assert fit_blinking(times, (times > 1.0) * 1.0) is None
+    assert fit_blinking(times, random.integers(0, 2, 30).astype(np.float64).repeat(3)) is None
+    assert fit_blinking(times, (times > 1.0).astype(np.float64)) is None

@@ -165,3 +165,28 @@ def test_stated_errors_hold_in_every_container(container: str, known: str) -> No
         off = np.abs([one.off(name) for one in sure])
         assert off.max() < 5.0
         assert np.mean(off < 2.0) > amount(0.6, 0.9)
+
+
+@each_case((0.0, MILLISECOND))
+def test_two_cameras_of_one_code_give_the_offset_of_their_times(resolution: float) -> None:
+    """The second one is another camera, which begins 0.4 s and half a frame later."""
+    random, off = np.random.default_rng(4), []
+    for seed in range(amount(12, 100)):
+        later = float(random.uniform(0.3, 0.5))
+        first = replace(FILM, period=52.0, frequency=8e3, resolution=resolution, seed=seed)
+        second = replace(first, readout=20e-6, frame_period=1 / 50, frames=90)
+        clocks = []
+        for truth, starts in ((first, 0.0), (second, later)):
+            film = truth.phases(KnownTiming(8e3, truth.readout))
+            begin = np.random.default_rng(seed).uniform(0.0, 1.0)  # as the truth's films do
+            places = np.mod(film.phases.places + (starts - begin) * 8e3, 52.0)
+            film = replace(film, phases=replace(film.phases, places=places))
+            clocks.append(describe_clock(film.fit_clocks(), film, film.times.parts[0], 0))
+        offset = clocks[0].offset_of(clocks[1])
+        repeat = 52.0 / 8e3
+        # The second film's time is 0 when that of the first is ``later``.
+        assert clocks[0].repeat_time == pytest.approx(repeat, rel=1e-3)
+        off.append(((offset.value + later + repeat / 2) % repeat - repeat / 2) / offset.error)
+    assert np.abs(off).max() < 4.5
+    if resolution == 0.0:
+        assert offset.error < 1e-6

@@ -1,14 +1,13 @@
 """Photometry: pixel values from luminance by equations (1) to (3) of the paper, and electrons.
 
-The equations give the pixel value for a luminance, which is the mean of many pixels. The deviation
-of a single pixel follows from its number of electrons.
+The equations give the pixel value for a luminance, which is the mean of many pixels. The values of
+single pixels follow from their number of electrons: see :mod:`occ_model.camera.pixel_noise`.
 """
 
 import math
 import operator
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Self
 
 import cv2
@@ -16,7 +15,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.scene.scene import Camera, Scene, Sensor
+from occ_model.scene.scene import Camera, Scene
 
 WHITE = 255.0  # the largest pixel value
 FLAT_SPAN = 1.0  # least span in grey levels that is enhanced; stretching less would invent stripes
@@ -126,67 +125,27 @@ It includes the fall-off of light at 10 degrees from the axis, some 6 %."""
 _PHOTONS_PER_LUMEN_SECOND = 8.8e15  # of white LED light, with 320 lm/W and 3.55e-19 J a photon
 
 
-_SMALLEST_FLOAT = np.finfo(np.float64).tiny
+def white_electrons(scene: Scene) -> float:
+    """Return the mean number of electrons for the pixel value 255.
 
-
-def electrons_per_luminance(scene: Scene) -> float:
-    """Return the electrons that a pixel collects in the exposure time for each cd/m2."""
-    return _electrons_per_luminance(scene.camera, scene.sensor)
-
-
-def _electrons_per_luminance(camera: Camera, sensor: Sensor) -> float:
-    illumination = _EXPOSURE_FACTOR * camera.exposure_time / camera.f_number**2
+    It follows from the ISO speed, as the exposure time and the f-number cancel.
+    """
+    camera, sensor = scene.camera, scene.sensor
+    lux_seconds = _EXPOSURE_FACTOR * camera.meter_constant / camera.iso
+    lux_seconds *= (WHITE / _MID_GREY) ** camera.gamma
     collected: float = (
-        illumination * _PHOTONS_PER_LUMEN_SECOND * sensor.pixel_pitch**2 * sensor.quantum_efficiency
+        lux_seconds * _PHOTONS_PER_LUMEN_SECOND * sensor.pixel_pitch**2 * sensor.quantum_efficiency
     )
     return collected
 
 
-def electrons_of(values: FloatArray, scene: Scene) -> FloatArray:
-    """Return the mean number of electrons for pixel values before saturation."""
-    return luminance_of(values, scene.camera) * electrons_per_luminance(scene)
-
-
-def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
-    """Return the pixel values before saturation for numbers of electrons."""
-    return pixel_value(electrons / electrons_per_luminance(scene), scene.camera)
-
-
-@lru_cache(maxsize=8)
-def converter_step(camera: Camera, sensor: Sensor) -> float:
-    """Return the electrons for each step of the converter, whose range ends at white."""
-    brightest = luminance_of(np.array([WHITE]), camera)
-    largest = float(brightest[0]) * _electrons_per_luminance(camera, sensor)
-    return min(largest, sensor.full_well) / float(2**sensor.adc_bits)
-
-
-def deviation(
-    values: FloatArray, scene: Scene, variance: Callable[[FloatArray], FloatArray]
-) -> FloatArray:
-    """Return the standard deviation of pixels in grey levels from the variance of electrons.
-
-    The deviation sigma of n electrons is multiplied by the slope of the gamma encoding, PV / (gamma
-    n), taken at sqrt(n^2 + sigma^2) electrons: nearly n in bright pixels, and never zero in dark
-    ones, so that the slope stays finite.
-    The result is limited to the distance from saturation: a full pixel has no noise, and one that
-    is nearly full has little.
-    """
-    electrons = electrons_of(values, scene)
-    square = variance(electrons)
-    effective_electrons = np.sqrt(electrons * electrons + square)
-    slope = values_of(effective_electrons, scene) / np.maximum(
-        scene.camera.gamma * effective_electrons, _SMALLEST_FLOAT
-    )
-    headroom = np.maximum(saturation_value(scene) - values, 0.0)
-    return np.minimum(slope * np.sqrt(square), headroom)
+def converter_step(scene: Scene) -> float:
+    """Return the electrons for each step of the converter, whose top code is white or full."""
+    largest = min(white_electrons(scene), scene.sensor.full_well)
+    return largest / float(2**scene.sensor.adc_bits - 1)
 
 
 def saturation_value(scene: Scene) -> float:
     """Return the pixel value at which a pixel is full, at most white."""
-    return _saturation_value(scene.camera, scene.sensor)
-
-
-@lru_cache(maxsize=8)
-def _saturation_value(camera: Camera, sensor: Sensor) -> float:
-    full = np.array([sensor.full_well]) / _electrons_per_luminance(camera, sensor)
-    return min(float(pixel_value(full, camera)[0]), WHITE)
+    full = scene.sensor.full_well / white_electrons(scene)
+    return float(WHITE * min(full ** (1.0 / scene.camera.gamma), 1.0))

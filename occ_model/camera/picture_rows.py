@@ -90,6 +90,10 @@ class Rows:
 
     def change_values(self, change: Callable[[Pixels], Pixels]) -> "Rows":
         """Apply a change, which need not keep values smooth; only for rows without weights."""
+        return self.change_nodes(change)
+
+    def change_nodes(self, change: Callable[[Pixels], Pixels]) -> "Rows":
+        """Apply a change to nodes and rims; it must be smooth where rows are interpolated."""
         rims = tuple(replace(rim, values=change(rim.values)) for rim in self.rims)
         return replace(self, nodes=change(self.nodes), rims=rims)
 
@@ -246,7 +250,7 @@ class PictureRows:
     def _common_row(self, inside: list[tuple[_Panel, slice]]) -> Pixels:
         """Return the row to which all rows are equal between the rims."""
         last_inside, row = self._last_common_row
-        if inside != last_inside:  # returning the same array lets noise be reused
+        if inside != last_inside:
             row = self._surroundings.copy()
             for panel, columns in inside:
                 row[:, columns] = panel.values[:, columns]

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
+from occ_model.camera.normal import normal_fraction
 from occ_model.camera.optics import Optics
-from occ_model.effects.normal_noise import normal_fraction
 
 NEGLIGIBLE_BLUR = 0.1  # blur in pixels below which no light of a neighbour reaches a pixel
 STEEP_SLOPE = 1.5  # slope, in pixels a pixel, above which a rim counts as steep

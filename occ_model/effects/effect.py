@@ -24,6 +24,7 @@ from occ_model.camera.photometry import (
     ColumnLight,
     panel_values,
 )
+from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.projection import panel_corners
 from occ_model.results.decoding import Region
 from occ_model.results.frame import Stage
@@ -185,16 +186,14 @@ class PixelEffect(Effect):
 
 
 class NoiseEffect(Effect):
-    """Noise of mean zero, independent from pixel to pixel."""
+    """Noise of the electrons of single pixels, independent from pixel to pixel."""
 
     kind = "noise"
     stage = "sensor"
-    of_the_camera: ClassVar[bool] = False
-    """Whether the noise is the same in every picture of a camera."""
 
     @abstractmethod
-    def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Return the noise's standard deviation in grey levels at these mean values."""
+    def apply(self, scene: Scene, noise: PixelNoise) -> PixelNoise:
+        """Add the effect to the noise of a sensor's pixels."""
 
 
 class FileEffect(Effect):

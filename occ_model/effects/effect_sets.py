@@ -2,8 +2,7 @@
 
 The times were measured once on one computer, as the shortest of several pictures of the presets, so
 that a plan is the same on every computer. If any effect needs single pixels, exposing and storing
-them takes the same time for all effects, and scaling noise from a stored plane takes the same time
-for any number of noises.
+them takes the same time for all effects.
 """
 
 import math
@@ -19,7 +18,7 @@ from occ_model.effects.effect import Effect, FileEffect, NoiseEffect, PaperView
 from occ_model.effects.estimates import Estimates
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.frame import EffectSet
-from occ_model.scene.scene import NoiseSource, SimulationSettings
+from occ_model.scene.scene import SimulationSettings
 
 _SUM_RATIO = 1.15
 """Largest ratio of the sum of changes to the tolerance at which the effects are tried together, as
@@ -42,7 +41,7 @@ class EffectSets:
         free = tuple(e for e in EFFECTS if e.name in estimates.sizes and e.name not in force)
         forced_in = tuple(e for e in EFFECTS if force.get(e.name))
         pixels = view.scene.camera.rows * view.scene.camera.columns
-        subsets = _list_subsets(free, forced_in, pixels, settings.noise)
+        subsets = _list_subsets(free, forced_in, pixels)
         errors = _errors_if_added(estimates, free, subsets.left_out)
         ordered = errors[subsets.order]
         is_closer = ordered[1:] < np.minimum.accumulate(ordered)[:-1]
@@ -101,13 +100,11 @@ class _Subsets:
 
 
 @lru_cache(maxsize=8)
-def _list_subsets(
-    free: tuple[Effect, ...], forced_in: tuple[Effect, ...], pixels: int, noise: NoiseSource
-) -> _Subsets:
+def _list_subsets(free: tuple[Effect, ...], forced_in: tuple[Effect, ...], pixels: int) -> _Subsets:
     number = np.arange(2 ** len(free))[:, None]
     left_out = ((number >> np.arange(len(free))) & 1).astype(np.float64)
     inside = np.hstack([1.0 - left_out, np.ones((len(left_out), len(forced_in)))])
-    seconds = seconds_of([*free, *forced_in], inside, pixels, noise)
+    seconds = seconds_of([*free, *forced_in], inside, pixels)
     names = [
         frozenset(e.name for e, is_out in zip(free, row, strict=True) if not is_out)
         for row in left_out.tolist()
@@ -134,15 +131,10 @@ def _errors_if_added(
 
 _PIXEL_SECONDS = 1.1e-3  # seconds for a million pixels in rows that differ
 
-_NOISE_SECONDS: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
-"""Seconds to draw a million random numbers, or to read them from a stored plane."""
-
 _NOISY_FILE_SECONDS = 6e-3  # extra seconds to store a million pixels with noise in a file
 
 
-def seconds_of(
-    effects: Sequence[Effect], sets: FloatArray, pixels: int, noise: NoiseSource
-) -> FloatArray:
+def seconds_of(effects: Sequence[Effect], sets: FloatArray, pixels: int) -> FloatArray:
     """Return the time of each set, given by rows of ``sets``: 1 where an effect is simulated."""
     millions = pixels * 1e-6
     effect_seconds = np.array(
@@ -151,9 +143,7 @@ def seconds_of(
     by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)
     noises = np.array([isinstance(effect, NoiseEffect) for effect in effects], dtype=bool)
     files = np.array([isinstance(effect, FileEffect) for effect in effects], dtype=bool)
-    planes = sets[:, noises].sum(axis=1)
-    if noise == "reused":
-        planes = np.minimum(planes, 1.0)
-    shared = _PIXEL_SECONDS * (sets[:, by_pixel] > 0.0).any(axis=1) + _NOISE_SECONDS[noise] * planes
-    shared = shared + _NOISY_FILE_SECONDS * ((planes > 0.0) & (sets[:, files] > 0.0).any(axis=1))
+    noisy = (sets[:, noises] > 0.0).any(axis=1)
+    shared = _PIXEL_SECONDS * (sets[:, by_pixel] > 0.0).any(axis=1)
+    shared = shared + _NOISY_FILE_SECONDS * (noisy & (sets[:, files] > 0.0).any(axis=1))
     return np.asarray(sets @ effect_seconds + shared * millions)

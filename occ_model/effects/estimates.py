@@ -10,7 +10,6 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.effects.effect import Effect, PaperView
-from occ_model.effects.normal_noise import mean_after_clipping, normal_fraction, unclipped_fraction
 from occ_model.effects.observed import SampledObservable
 from occ_model.effects.observed_signal import observe_signal, signal_swing
 from occ_model.effects.registry import EFFECTS
@@ -21,22 +20,19 @@ from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Observable, SimulationSettings
 from occ_model.transmitter.scheme import check_code
 
-_SHARP_NOISE = 1e-9  # noise in grey levels in place of none, to divide by
-
 
 def observe_image(pixels: SampledPixels) -> SampledObservable:
-    """Observe the pixels, each weighted by how much of its change clipping leaves."""
+    """Observe the pixels, whose noise changes with their mean."""
     names, file = pixels.names, pixels.file
     spread = pixels.spread(names)
-    unclipped = unclipped_fraction(pixels.levels, spread, WHITE)
-    # A change of the light also changes its noise, and clipped pixels change less.
-    fraction = pixels.interpolate_at_pixels(unclipped * (1.0 + pixels.table.slope(spread) ** 2))
-    weights = np.sqrt(np.maximum(fraction * pixels.sample.pixel_weights, 0.0)).ravel()
+    fraction = pixels.interpolate_at_pixels(1.0 + pixels.table.slope(spread) ** 2)
+    weights = np.sqrt(fraction * pixels.sample.pixel_weights).ravel()
 
     def observe(sets: Sequence[Names]) -> FloatArray:
         return pixels.values(sets).reshape(len(sets), -1) * weights
 
-    observed = SampledObservable(names, observe, pixels.moving)
+    noises = tuple(pixels.variances)
+    observed = SampledObservable(names, observe, (*pixels.moving, *noises))
     region = pixels.view.region
     if pixels.sample.outline:
         doubt = unsampled_rim_square(pixels, pixels.contrast**2 / (region.rows * region.columns))
@@ -44,13 +40,13 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
         observed.doubt.update(
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
-    for name, variance in pixels.variances.items():
+    for name in noises:
         observed.independent[name] = (
-            pixels.mean_over_pixels(variance * unclipped)
-            if file is None
-            else pixels.noise_read_back[name][0]
+            pixels.noise_square(name) if file is None else pixels.noise_read_back[name][0]
         )
-    if file is not None:
+    if file is None:
+        observed.independent.update(pixels.drawn_changes)
+    else:
         observed.independent[pixels.files[0].name] = file.own_change
         squares = np.array([observed.sampled_square(name) for name in pixels.moving])
         doubts = np.array([observed.doubt.get(name, 0.0) for name in pixels.moving])
@@ -75,17 +71,13 @@ def observe_profile(pixels: SampledPixels) -> SampledObservable:
     rows, weights = pixels.view.region.rows, np.sqrt(sample.weights)
 
     def observe(sets: Sequence[Names]) -> FloatArray:
-        spread = np.stack([pixels.spread(included) for included in sets])
-        tables = mean_after_clipping(pixels.levels, spread, WHITE)
-        if file is not None:  # its error is clipped again, also where pixels are black or white
-            with_file = [at for at, included in enumerate(sets) if pixels.files[0].name in included]
-            below = normal_fraction(-pixels.levels / np.maximum(spread[with_file], _SHARP_NOISE))
-            above = normal_fraction(
-                (pixels.levels - WHITE) / np.maximum(spread[with_file], _SHARP_NOISE)
-            )
-            error = math.sqrt(file.own_change)
-            tables[with_file] += (below - above) * error / math.sqrt(2.0 * math.pi)
-        means = pixels.table.interpolate_each(tables, pixels.values_read_back(sets))
+        means = pixels.values_read_back(sets)
+        if file is not None:  # its error is clipped again where pixels are black or white
+            error = math.sqrt(file.own_change / (2.0 * math.pi))
+            for included, own in zip(sets, means, strict=True):
+                if pixels.files[0].name in included:
+                    black, white = pixels.noisy.end_fractions(included, pixels.levels)
+                    own += pixels.table.interpolate((black - white) * error, own)
         return pixels.mean_of_rows(means) * weights
 
     observed = SampledObservable(names, observe, sorted(names))
@@ -98,8 +90,10 @@ def observe_profile(pixels: SampledPixels) -> SampledObservable:
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
     if file is None:
-        variances = {n: pixels.mean_over_pixels(v) for n, v in pixels.variances.items()}
-        observed.add_noise({n: v / rows for n, v in variances.items()}, region.columns)
+        squares = {name: pixels.noise_square(name) / rows for name in pixels.variances}
+        observed.add_noise(squares, region.columns)
+        for name, square in pixels.drawn_changes.items():
+            observed.independent[name] = square / rows
     else:
         observed.independent.update(
             {n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()}

@@ -63,11 +63,18 @@ class FileChange:
     """How a file changes a sample's pixels, with all effects and without some.
 
     The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels, and
-    ``spread`` is the RMS of their noise.
+    ``spread`` is the RMS of their noise, ``gaps``, (columns, nodes), the distances between the
+    levels that they are drawn from.
     """
 
     def __init__(
-        self, steps: FloatArray, sample: PixelSample, stack: FloatArray, spread: float, rims: Rims
+        self,
+        steps: FloatArray,
+        sample: PixelSample,
+        stack: FloatArray,
+        spread: float,
+        rims: Rims,
+        gaps: FloatArray,
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]
@@ -88,6 +95,8 @@ class FileChange:
         self._inside = (
             self._blocks_between_rims(stack) if len(self._blocks) else stack[:, None, None]
         )
+        inside = self._blocks_between_rims(gaps[None]) if len(self._blocks) else gaps[None]
+        self._gaps = np.maximum(inside.reshape(1, -1), 1.0)
         self._x = self._coefficients(self._inside)
         contrast = float(np.ptp(stack[0]))
         along = self._spectrum_along(float(stack[0].min()), rims.is_level)
@@ -158,7 +167,8 @@ class FileChange:
         pixels if other coefficients differ a little from the sampled ones.
         """
         changes = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
-        flips = np.sqrt(rounding_growth(changes).mean(axis=1))
+        growth = rounding_growth(np.abs(changes) / self._gaps) * self._gaps**2
+        flips = np.sqrt(growth.mean(axis=1))
         size = np.sqrt((changes**2).mean(axis=1))
         read_back = self._x + rounding_mean(self._x, self._s)
         shift = read_back - read_back[0]

@@ -12,32 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
-
-_RANGE = 9.0  # standard deviations beyond which a normal distribution is negligible
-
-_PER_DEVIATION = 256
-
-
-@lru_cache(maxsize=1)
-def _tail_tables() -> tuple[FloatArray, FloatArray]:
-    """Tabulate the tail probability Q(u) and phi(u) - u Q(u) for u from -_RANGE to _RANGE."""
-    u = np.arange(-_RANGE * _PER_DEVIATION, _RANGE * _PER_DEVIATION + 1.0) / _PER_DEVIATION
-    tail = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
-    excess = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * tail
-    excess[-1] = 0.0
-    return tail, excess
-
-
-def _table_index(u: FloatArray) -> np.ndarray:
-    place = np.minimum(np.maximum(u, -_RANGE), _RANGE)
-    place += _RANGE + 0.5 / _PER_DEVIATION
-    place *= _PER_DEVIATION
-    return place.astype(np.intp)
-
-
-def normal_fraction(u: FloatArray) -> FloatArray:
-    """Return the probability that a normal variable is below u standard deviations."""
-    return _tail_tables()[0].take(_table_index(-u))
+from occ_model.camera.normal import normal_fraction
 
 
 def mean_after_clipping(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
@@ -46,17 +21,21 @@ def mean_after_clipping(levels: FloatArray, spread: FloatArray, white: float) ->
     Clipping a normal variable u standard deviations from its mean moves the mean by phi(u) - u Q(u)
     standard deviations.
     """
-    excess = _tail_tables()[1]
-    spreads = np.maximum(spread, 1e-9)
-    shift = excess.take(_table_index(levels / spreads)) - excess.take(
-        _table_index((white - levels) / spreads)
+    spreads = np.maximum(spread, _TINY_NOISE)
+    return np.asarray(
+        levels + spreads * (_excess(levels / spreads) - _excess((white - levels) / spreads))
     )
-    return np.asarray(levels + spreads * shift)
+
+
+def _excess(u: FloatArray) -> FloatArray:
+    flat = np.minimum(np.abs(u), 40.0)
+    density = np.exp(-0.5 * flat * flat) / math.sqrt(2.0 * math.pi)
+    return density - u * normal_fraction(-u)
 
 
 def unclipped_fraction(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
     """Return the fraction of noisy pixels that are clipped neither at black nor at white."""
-    spreads = np.maximum(spread, 1e-9)
+    spreads = np.maximum(spread, _TINY_NOISE)
     return normal_fraction(levels / spreads) - normal_fraction((levels - white) / spreads)
 
 

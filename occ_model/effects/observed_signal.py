@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, LevelSteps
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
-from occ_model.effects.normal_noise import mean_after_clipping, unclipped_fraction
+from occ_model.effects.normal_noise import mean_after_clipping
 from occ_model.effects.observed import SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
@@ -85,6 +85,8 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
 
 def _mean_after_rounding(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
     """Return the mean of pixels that are rounded but not enhanced."""
+    if pixels.noisy.is_drawn(included):
+        return values
     spread = pixels.spread(included)
     if float(spread.max()) < LEAST_SMOOTHING_NOISE:
         flat = np.clip(values, 0.0, WHITE)
@@ -110,7 +112,9 @@ def _doubt_sharp_steps(pixels: SampledPixels, observed: SampledObservable) -> No
         step = np.where(is_near, curve[below + 1] - curve[below], 0.0) / 2.0
     else:
         error = np.full(values.size, math.sqrt(pixels.file.own_change))
-        step = enhancement.moments(values.ravel(), error)[1].reshape(values.shape)
+        steps, curve = LevelSteps.of(values.ravel(), error), enhancement.curve.astype(np.float64)
+        variance = steps.mean_of(curve**2) - steps.mean_of(curve) ** 2
+        step = np.sqrt(np.maximum(variance, 0.0)).reshape(values.shape)
     square = pixels.mean_of_rows(np.where(sharp, step, 0.0) ** 2)
     observed.add_doubt(pixels.names, float((square * pixels.sample.weights).sum()))
 
@@ -176,9 +180,8 @@ def _doubt_clipped_noise(pixels: SampledPixels, observed: SampledObservable) -> 
     if pixels.file is None:
         return
     spread = pixels.spread(pixels.names)
-    clipped_fraction = np.where(
-        spread > _CLIPPED_NOISE, 1.0 - unclipped_fraction(pixels.levels, spread, WHITE), 0.0
-    )
+    ends = sum(pixels.noisy.end_fractions(pixels.names, pixels.levels))
+    clipped_fraction = np.where(spread > _CLIPPED_NOISE, ends, 0.0)
     clipped = pixels.mean_over_pixels(clipped_fraction)
     gain = float(np.ptp(observed.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = clipped * pixels.file.own_change * min(gain, _MOST_GAIN) ** 2 / 4.0

@@ -23,6 +23,8 @@ from occ_model.scene.units import NONE
 _ROUNDING_FACTOR = 1.0 + 1e-9
 """Allowance for comparing errors whose sums were rounded differently."""
 
+_DISTINCT_FACTOR = 1.0 + 1e-7  # ratio of errors above which they are no rounding of each other
+
 _CLEAR_RATIO = 1.3  # ratio of limit to estimate above which the reason states both
 
 
@@ -179,7 +181,8 @@ def effect_sets_of(scene: Scene, settings: SimulationSettings) -> tuple[EffectSe
     sets = _sets_of(paper_view_of(scene), settings.check(NAMES))
     effect_sets: list[EffectSet] = []
     for effect_set, error in zip(sets.effect_sets, sets.errors_of(sets.effect_sets), strict=True):
-        if error < (effect_sets[-1].error if effect_sets else math.inf):
+        least = error * _DISTINCT_FACTOR
+        if not effect_sets or least < effect_sets[-1].error:
             effect_sets.append(
                 EffectSet(effect_set.effects, effect_set.seconds, error * _ROUNDING_FACTOR)
             )

@@ -9,7 +9,6 @@ import numpy as np
 from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
-    WHITE,
     fast_power,
     luminance_of,
     panel_values,
@@ -30,11 +29,18 @@ from occ_model.effects.effect import (
 )
 from occ_model.effects.file_change import FileChange
 from occ_model.effects.level_table import LevelTable, Places
-from occ_model.effects.normal_noise import rounding_mean
+from occ_model.effects.noisy_pixels import NoisyPixels
+from occ_model.effects.normal_noise import (
+    rounding_growth,
+    rounding_growth_by_noise,
+    rounding_mean,
+)
 from occ_model.effects.registry import effects_named
 from occ_model.effects.rims import Rims
 from occ_model.effects.sample import PixelSample, choose_sample
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
+
+_LEAST_GAP = 0.1  # grey levels, in place of none
 
 _DITHERING_NOISE = 0.5  # noise in grey levels above which rounding does not change a pixel's mean
 
@@ -60,7 +66,8 @@ class SampledPixels:
         self._noisy = frozenset(effect.name for effect in self.noises)
         self._spread_of: dict[Names, tuple[FloatArray, float]] = {}
         self.sample = self._choose_sample()
-        self.columns = SimulatedColumns(view, self.lights, self.limits)
+        self.noisy = NoisyPixels(self.scene, self.names)
+        self.columns = SimulatedColumns(view, self.lights, self.limits, self.noises, self.noisy.law)
         self.rims = Rims(view, self.sample)
         gains, power = self.sample.transmission, 1.0 / self.scene.camera.gamma
         self._dimmed = {name: fast_power(gain, power) for name, gain in gains.items()}
@@ -90,11 +97,21 @@ class SampledPixels:
         return MEMORY.recall(key, make, lambda sample: sample.arrays)
 
     @cached_property
-    def stack(self) -> FloatArray:
-        """The pixels' mean values with all effects, and without each of ``moving``."""
-        return self._compute_values(
+    def _exposed(self) -> FloatArray:
+        """The pixels' values before saturation with all effects, and without each of ``moving``."""
+        exposed = self._compute_values(
             [self._moving, *(self._moving - {name} for name in self.moving)]
         )
+        around = surroundings_values(self.scene, self.view.light)
+        others = (self.view.values, self.columns.expose(self.names), around)
+        self.noisy.brightest = max(float(each.max()) for each in (exposed, *others))
+        return exposed
+
+    @cached_property
+    def stack(self) -> FloatArray:
+        """The pixels' mean values with all effects, and without each of ``moving``."""
+        sets = [self.names, *(self.names - {name} for name in self.moving)]
+        return self.values(sets)
 
     @property
     def complete_values(self) -> FloatArray:
@@ -107,10 +124,15 @@ class SampledPixels:
 
     def values(self, sets: Sequence[Names]) -> FloatArray:
         """Return the pixels' mean values with some effects, shape (sets, columns, nodes)."""
+        exposed = self._expose(sets)
+        pairs = zip(sets, exposed, strict=True)
+        return np.stack([self.noisy.means(included, values) for included, values in pairs])
+
+    def _expose(self, sets: Sequence[Names]) -> FloatArray:
         wanted = [included & self._moving for included in sets]
         missing = [self._moving - included for included in wanted]
         if all(len(names) <= 1 for names in missing):
-            return self.stack[[self.stack_index(next(iter(names), "")) for names in missing]]
+            return self._exposed[[self.stack_index(next(iter(names), "")) for names in missing]]
         return self._compute_values(wanted)
 
     def _compute_values(self, sets: Sequence[Names]) -> FloatArray:
@@ -136,17 +158,16 @@ class SampledPixels:
             for name, dimmed in self._dimmed.items():
                 if name in included:
                     pixel_values *= dimmed
-            for limit in self.limits:
-                if limit.name in included:
-                    pixel_values[:] = limit.apply(self.scene, pixel_values)
-        return np.minimum(values, WHITE, out=values)
+        return values
 
     @cached_property
     def table(self) -> LevelTable:
         """Levels from the darkest to the brightest pixel of the sample with any effects."""
-        low, high = float(self.stack.min()), float(self.stack.max())
+        ends = [self.stack, self.noisy.means(frozenset(), self._exposed)]
+        low, high = min(float(e.min()) for e in ends), max(float(e.max()) for e in ends)
         if self.sample.covers[self.sample.outline] is not None:  # include pixels beside the panel
-            low = min(low, float(surroundings_values(self.scene, self.view.light).min()))
+            around = surroundings_values(self.scene, self.view.light)
+            low = min(low, float(around.min()), float(self.noisy.means(self.names, around).min()))
         return LevelTable(low, high, saturation_value(self.scene))
 
     @property
@@ -155,9 +176,13 @@ class SampledPixels:
 
     @cached_property
     def variances(self) -> dict[str, FloatArray]:
-        return {
-            e.name: e.spread(self.scene, np.maximum(self.levels, 0.0)) ** 2 for e in self.noises
-        }
+        """What each noise adds to a pixel's variance, at each level."""
+        return {e.name: self.noisy.variance_by(e.name, self.levels) for e in self.noises}
+
+    @cached_property
+    def gaps(self) -> FloatArray:
+        """Distance between grey levels that noisy pixels can have, at each level; 0 without."""
+        return self.noisy.gaps(self.levels)
 
     def spread(self, included: Names) -> FloatArray:
         """Return the noise's standard deviation at each level, with some effects."""
@@ -176,19 +201,8 @@ class SampledPixels:
         return self._spread_of[key]
 
     def noise_at(self, included: Names, values: FloatArray) -> FloatArray:
-        """Return the noise's standard deviation at some values, with some effects.
-
-        Just below a full well, noise falls to zero between two levels of the table.
-        """
-        noise = self.table.interpolate(self.spread(included), values)
-        full = saturation_value(self.scene)
-        near_full = (values < full) & (values > full - self.table.step)
-        if near_full.any():
-            effects = (e for e in self.noises if e.name in included)
-            noise[near_full] = np.sqrt(
-                sum(e.spread(self.scene, values[near_full]) ** 2 for e in effects)
-            )
-        return noise
+        """Return the noise's standard deviation at some values, with some effects."""
+        return self.table.interpolate(self.spread(included), values)
 
     @cached_property
     def _places(self) -> Places:
@@ -217,7 +231,29 @@ class SampledPixels:
             self.stack,
             self.noise_rms(self.names),
             self.rims,
+            self.interpolate_at_pixels(self.gaps),
         )
+
+    def noise_square(self, name: str) -> float:
+        """Return the mean square change of pixels without a noise, apart from their means'.
+
+        Drawn pixels of other gains change by whole gaps between grey levels.
+        """
+        square = self.variances[name]
+        if self.noisy.is_drawn(self.names - {name}):
+            gaps = np.maximum(self.gaps, _LEAST_GAP)
+            square = square + gaps**2 * rounding_growth_by_noise(np.sqrt(square) / gaps)
+        return self.mean_over_pixels(square)
+
+    @cached_property
+    def drawn_changes(self) -> dict[str, float]:
+        """What drawing whole grey levels adds to the mean square change of pixels, by effect."""
+        if not self.noisy.is_drawn(self.names):
+            return {}
+        gaps = np.maximum(self.interpolate_at_pixels(self.gaps), _LEAST_GAP)
+        growth = gaps**2 * rounding_growth(np.abs(self.stack[1:] - self.complete_values) / gaps)
+        squares = np.einsum("ecn,cn->e", growth, self.sample.pixel_weights)
+        return dict(zip(self.moving, squares.tolist(), strict=True))
 
     def noise_rms(self, included: Names) -> float:
         """Return the RMS of the noise on the panel with some effects."""
@@ -250,12 +286,11 @@ class SampledPixels:
         return float(self.levels[-1] - self.levels[0])
 
     def profile(self, included: Names, factor: FloatArray | None = None) -> FloatArray:
-        """Return the value on the panel of each column of the region, dimmed by a factor each."""
+        """Return the mean on the panel of each column of the region, dimmed by a factor each."""
         region = self.view.region
         span = slice(region.first_column, region.last_column)
-        if factor is None:
-            return self.columns.profile(included)[span]
-        return self.columns.dim_values(included, span, factor)
+        exposed = self.columns.expose(included)[span]
+        return self.noisy.means(included, exposed if factor is None else exposed * factor)
 
     @cached_property
     def unsampled(self) -> FloatArray | None:
@@ -303,7 +338,9 @@ class SampledPixels:
         if self.file is None or not with_file:
             return values
         for at in with_file:  # the file gets pixels of whole levels
-            if self.least_noise(sets[at]) < _DITHERING_NOISE:  # a full pixel has no noise
+            if self.noisy.is_drawn(sets[at]):
+                continue  # it is drawn as a whole level
+            if self.least_noise(sets[at]) < _DITHERING_NOISE:
                 spread = self.table.interpolate(self.spread(sets[at]), values[at])
                 values[at] += rounding_mean(values[at], spread)
         noise = np.array([self.noise_rms(sets[at]) for at in with_file])

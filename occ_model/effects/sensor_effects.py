@@ -1,6 +1,7 @@
 """Effects of the sensor (full well, fixed pattern, shot and read noise) and of the JPEG file."""
 
 import math
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -9,11 +10,11 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import (
     WHITE,
     converter_step,
-    deviation,
     luminance_levels,
     pixel_value,
     saturation_value,
 )
+from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.effects.effect import Cost, FileEffect, NoiseEffect, PixelEffect, Values
 from occ_model.errors import ParameterError
 from occ_model.files.writing import LONGEST_SIDE
@@ -115,41 +116,38 @@ class FixedPattern(NoiseEffect):
     """Photo response non-uniformity: each pixel's gain differs from the mean by a fraction p.
 
     n electrons become n (1 + p z), where z is standard normal and the same in every picture of the
-    camera (J. R. Janesick, *Photon Transfer*, 2007).
+    sensor (J. R. Janesick, *Photon Transfer*, 2007).
     """
 
     name = "fixed-pattern"
     label = "Fixed-pattern gain"
-    parameters = ("gain_variation",)
+    parameters = ("gain_variation", "sensor_seed")
     cost = Cost(pixels=0.2e-3)
-    of_the_camera = True
 
     def is_present(self, scene: Scene) -> bool:
         return scene.sensor.gain_variation != 0.0
 
-    def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        fraction = scene.sensor.gain_variation
-        return deviation(values, scene, lambda electrons: np.asarray((fraction * electrons) ** 2))
+    def apply(self, scene: Scene, noise: PixelNoise) -> PixelNoise:
+        variation = math.hypot(noise.gain_variation, scene.sensor.gain_variation)
+        return replace(noise, gain_variation=variation)
 
 
 class SensorNoise(NoiseEffect):
-    """Shot noise, read noise and the converter's rounding.
+    """Shot noise, read noise, and the converter's steps.
 
-    A pixel with a mean of n electrons has the variance n + r^2 + q^2 / 12, with read noise r and
-    converter steps q (J. R. Janesick, *Photon Transfer*, 2007). The distribution is assumed normal,
-    as a Poisson distribution nearly is above about ten electrons.
+    Electrons are counted, read with normal noise, and rounded to the converter's codes; see
+    :mod:`occ_model.camera.pixel_noise`.
     """
 
     name = "sensor-noise"
     label = "Shot and read noise"
     parameters = ("pixel_pitch", "quantum_efficiency", "read_noise", "adc_bits")
-    cost = Cost(pixels=0.4e-3)
+    cost = Cost(pixels=2.0e-3)
 
     def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - light is always there
         """Return True, since all light has shot noise."""
         return True
 
-    def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        step = converter_step(scene.camera, scene.sensor)
-        constant = scene.sensor.read_noise**2 + step**2 / 12.0
-        return deviation(values, scene, lambda electrons: np.asarray(electrons + constant))
+    def apply(self, scene: Scene, noise: PixelNoise) -> PixelNoise:
+        read_noise = math.hypot(noise.read_noise, scene.sensor.read_noise)
+        return replace(noise, is_counted=True, read_noise=read_noise, step=converter_step(scene))

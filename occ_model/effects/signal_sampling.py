@@ -24,11 +24,12 @@ class SignalSampling:
     def __init__(self, pixels: SampledPixels, curves: SmoothedCurves) -> None:
         self._pixels = pixels
         self._rows = pixels.view.region.rows
-        noise = curves.noise(pixels.names - curves.files)
-        self._spread = spread = noise.spread
-        curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).moments_and_jumps(
-            noise.steps
-        )
+        noises = pixels.names - curves.files
+        self._spread = spread = pixels.spread(noises)
+        greys = pixels.columns.enhancement(pixels.names).curve.astype(np.float64)
+        steps = np.concatenate([[0.0], np.cumsum(np.diff(greys) ** 2)])
+        curve, square, jumps = (curves.tabulate(noises, each) for each in (greys, greys**2, steps))
+        self._deviation = np.sqrt(np.maximum(square - curve**2, 0.0))
         self._even = pixels.table.slope(curve) ** 2
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
         inside = pixels.panel_mask([pixels.names])

@@ -1,13 +1,15 @@
 """The columns of a whole picture with some of the effects; they take microseconds."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import ColumnLight, fast_power, panel_values, saturate
-from occ_model.effects.effect import LightEffect, PaperView, PixelEffect
+from occ_model.effects.effect import LightEffect, NoiseEffect, PaperView, PixelEffect
+from occ_model.effects.noise import enhancement_of
 
 Names = frozenset[str]  # effects by name
 
@@ -19,12 +21,19 @@ class SimulatedColumns:
     """
 
     def __init__(
-        self, view: PaperView, lights: Sequence[LightEffect], limits: Sequence[PixelEffect]
+        self,
+        view: PaperView,
+        lights: Sequence[LightEffect],
+        limits: Sequence[PixelEffect],
+        noises: Sequence[NoiseEffect],
+        law: Callable[[Names], GreyLaw | None],
     ) -> None:
-        self._view = view
+        """Prepare the columns; ``law`` is that of grey levels with some effects."""
+        self._view, self._law = view, law
         self._lights, self._limits = lights, limits
         self._of_light = frozenset(effect.name for effect in lights)
         self._of_value = self._of_light.union(effect.name for effect in limits)
+        self._of_pixels = self._of_value.union(effect.name for effect in noises)
         self._light: dict[Names, ColumnLight] = {}
         self._exposed: dict[Names, FloatArray] = {}
         self._profile: dict[Names, FloatArray] = {}
@@ -57,20 +66,17 @@ class SimulatedColumns:
         return light_of_sets, [distinct.index(key) for key in keys]
 
     def profile(self, included: Names) -> FloatArray:
+        """Return the values of all columns after saturation, without noise."""
         key = included & self._of_value
         if key not in self._profile:
-            self._profile[key] = self.dim_values(key, slice(None), 1.0)
+            values = self.expose(key)
+            for limit in self._limits:
+                if limit.name in key:
+                    values = limit.apply(self._view.scene, values)
+            self._profile[key] = saturate(values)
         return self._profile[key]
 
-    def dim_values(self, included: Names, columns: slice, factor: FloatArray | float) -> FloatArray:
-        """Return the values of some columns after dimming by a lens and saturation."""
-        values = self._expose(included)[columns] * factor
-        for limit in self._limits:
-            if limit.name in included:
-                values = limit.apply(self._view.scene, values)
-        return saturate(values)
-
-    def _expose(self, included: Names) -> FloatArray:
+    def expose(self, included: Names) -> FloatArray:
         """Return the unsaturated values of all columns from their light alone."""
         key = included & self._of_light
         if key not in self._exposed:
@@ -82,8 +88,9 @@ class SimulatedColumns:
         return self._exposed[key]
 
     def enhancement(self, included: Names) -> Enhancement:
-        key = included & self._of_value
+        key = included & self._of_pixels
         if key not in self._enhancement:
-            method = self._view.scene.model.enhancement
-            self._enhancement[key] = Enhancement(self.profile(included), method)
+            self._enhancement[key] = enhancement_of(
+                self._view.scene, self.profile(key), self.expose(key), self._law(key)
+            )
         return self._enhancement[key]

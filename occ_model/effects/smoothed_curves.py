@@ -3,8 +3,8 @@
 Also changes that a sample may miss: in few columns, and at the panel's rims.
 """
 
+import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -51,69 +51,69 @@ def cut_block_square(pixels: SampledPixels) -> float:
 LEAST_SMOOTHING_NOISE = 0.5
 """Noise in grey levels below which single steps of the enhancement remain visible in its mean."""
 
+_GREYS: FloatArray = np.arange(256.0)
+
 _LEAST_TABULATED_NOISE = 1.5
 """Noise, in steps of the table, above which interpolating a smoothed curve is accurate."""
 
 
-class _CurveNoise(NamedTuple):
-    """The noise at each level after the file, its smallest value, and the steps it crosses."""
-
-    spread: FloatArray
-    least: float
-    steps: LevelSteps
-
-
 class SmoothedCurves:
-    """The enhancement's curves over the levels, smoothed by the noise of some effects."""
+    """Means over the pixels' noise of what the enhancement makes of them."""
 
     def __init__(self, pixels: SampledPixels) -> None:
         self._pixels = pixels
         self._levels = np.clip(pixels.levels, 0.0, WHITE)
-        self._moving = frozenset(pixels.moving)
-        self._lenses = frozenset(effect.name for effect in pixels.lenses)
         self.files = frozenset(effect.name for effect in pixels.files)
-        self._noises: dict[Names, _CurveNoise] = {}
-        self._curves: dict[Names, FloatArray] = {}
+        self._spreads: dict[Names, FloatArray] = {}
 
-    def noise(self, included: Names) -> _CurveNoise:
-        key = included - self._moving
-        if key not in self._noises:
+    def spread(self, included: Names) -> FloatArray:
+        """Return the deviation at each level of pixels that are not drawn, after the file."""
+        key = included - frozenset(self._pixels.moving)
+        if key not in self._spreads:
             spread, file = self._pixels.spread(included), self._pixels.file
-            if file is not None and self.files & included:
-                spread = file.spread(spread)
-            steps = LevelSteps.of(self._levels, spread)
-            self._noises[key] = _CurveNoise(spread, float(spread.min()), steps)
-        return self._noises[key]
+            has_file = file is not None and self.files & included
+            self._spreads[key] = file.spread(spread) if file and has_file else spread
+        return self._spreads[key]
 
-    def curve(self, included: Names) -> FloatArray:
-        """Return the mean of the enhanced pixels at each level."""
-        key = included - self._lenses
-        if key not in self._curves:
-            enhancement = self._pixels.columns.enhancement(included)
-            self._curves[key] = enhancement.mean(self.noise(included).steps)
-        return self._curves[key]
+    def tabulate(self, included: Names, of_greys: FloatArray) -> FloatArray:
+        """Return the mean at each level of a quantity given for each of 256 grey levels."""
+        if self._pixels.noisy.is_drawn(included):
+            return self._mean_of_drawn(included, self._levels, of_greys)
+        return LevelSteps.of(self._levels, self.spread(included)).mean_of(of_greys)
+
+    def _mean_of_drawn(
+        self, included: Names, values: FloatArray, of_greys: FloatArray
+    ) -> FloatArray:
+        """Return the mean over drawn pixels of some means, which the file changes further."""
+        noisy, file = self._pixels.noisy, self._pixels.file
+        if file is not None and self.files & included:
+            before = self._pixels.noise_rms(included)
+            after = float(file.spread(np.array([before]))[0])
+            error = np.full(256, math.sqrt(max(after**2 - before**2, 0.0)))
+            of_greys = LevelSteps.of(_GREYS, error).mean_of(of_greys)
+        law = noisy.law(included)
+        exposed = noisy.values_of(included, values)
+        return values if law is None else law.mean(exposed, of_greys)
 
     def enhance(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
         """Return the mean of the enhanced pixels for each mean value, shape as ``values``."""
-        pixels = self._pixels
-        means = pixels.table.interpolate_each(
-            np.stack([self.curve(included) for included in sets]), values
-        )
-        tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
-        for included, set_values, mean in zip(sets, values, means, strict=True):
-            noise = self.noise(included)
-            if noise.least < tabulated:
-                flat = np.clip(set_values, 0.0, WHITE)
-                with_file = self.files & included
-                own_noise = (
-                    pixels.table.interpolate(noise.spread, flat)
-                    if with_file
-                    else pixels.noise_at(included, flat)
-                )
-                sharp = own_noise < tabulated
-                if sharp.any():
-                    steps = LevelSteps.of(flat[sharp], own_noise[sharp])
-                    mean[sharp] = pixels.columns.enhancement(included).mean(steps)
+        means = np.empty(values.shape)
+        for included, own, mean in zip(sets, values, means, strict=True):
+            curve = self._pixels.columns.enhancement(included).curve.astype(np.float64)
+            if self._pixels.noisy.is_drawn(included):
+                mean[:] = self._mean_of_drawn(included, own, curve)
+            else:
+                mean[:] = self._smooth(included, np.clip(own, 0.0, WHITE), curve)
+        return means
+
+    def _smooth(self, included: Names, values: FloatArray, curve: FloatArray) -> FloatArray:
+        table, spread = self._pixels.table, self.spread(included)
+        means = table.interpolate(self.tabulate(included, curve), values)
+        tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * table.step)
+        if float(spread.min()) < tabulated:
+            noise = table.interpolate(spread, values)
+            sharp = noise < tabulated
+            means[sharp] = LevelSteps.of(values[sharp], noise[sharp]).mean_of(curve)
         return means
 
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.coverage import column_spans
+from occ_model.camera.normal import normal_fraction
 from occ_model.effects.distortion import subdivide
-from occ_model.effects.normal_noise import normal_fraction
 from occ_model.effects.optics_effects import blur_of
 from occ_model.photo.photo_scene import with_allowed
 from occ_model.room.edge_lines import (

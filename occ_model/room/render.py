@@ -31,7 +31,8 @@ from occ_model.scene.scene import (
     SimulationSettings,
     Transmitter,
 )
-from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.render import render_plan
 from occ_model.simulation.stage_timer import StageTimer
@@ -45,6 +46,7 @@ class PicturedLamp:
     region: Region  # Its bounding rectangle in the picture
     is_cut: bool  # Whether a part of it is outside the picture
     profile: FloatArray  # Shape (columns,): its pixel value in each column, without other lamps
+    enhancement: Enhancement  # of its pixels by the receiver
     blur: float  # Standard deviation of the lens's blur, in pixels
 
 
@@ -74,15 +76,13 @@ class RoomFrame:
     def image(self) -> ByteArray:
         """The receiver's picture: each lamp is enhanced separately, by the scene's method."""
         image = self.camera_image.copy()
-        method = self.room.scene.model.enhancement
         rows, columns = image.shape
         for lamp in self.lamps:
-            enhancement = Enhancement(lamp.profile, method)
             for band in split_into_blocks(range(rows), columns):
                 is_covered = Coverage(lamp.outline, rows, columns, lamp.blur).rows(band) >= 0.5
                 camera = self.camera_image[band.start : band.stop]
                 enhanced = image[band.start : band.stop]
-                np.copyto(enhanced, enhancement.enhance_bytes(camera), where=is_covered)
+                np.copyto(enhanced, lamp.enhancement.enhance_bytes(camera), where=is_covered)
         return image
 
 
@@ -121,13 +121,13 @@ def render_room(
     effect_plan = plan_of_any(_select_extreme(views), settings)
     timer.end_stage("plan")
     if len(views) == 1:
-        frame = render_plan(views[0], effect_plan, seed=seed, noise=noise, timer=timer)
-        profiles, image = [expose_columns(views[0], effect_plan).profile], frame.camera_image
+        frame = render_plan(views[0], effect_plan, seed=seed, timer=timer)
+        columns, image = [expose_columns(views[0], effect_plan)], frame.camera_image
     else:
-        profiles, image = _compose(views, effect_plan, settings, timer)
+        columns, image = _compose(views, effect_plan, settings, timer)
     pictured = tuple(
-        _make_pictured_lamp(lamp_view, effect_plan, profile)
-        for lamp_view, profile in zip(lamp_views, profiles, strict=False)
+        _make_pictured_lamp(lamp_view, effect_plan, lamp_columns)
+        for lamp_view, lamp_columns in zip(lamp_views, columns, strict=False)
     )
     lamps = tuple(lamp for lamp in pictured if lamp is not None)
     return RoomFrame(room, effect_plan, image, lamps, timer.timings)
@@ -181,8 +181,8 @@ def _optics_of(view: PaperView, effect_plan: Plan) -> Optics:
 
 def _compose(
     views: list[PaperView], effect_plan: Plan, settings: SimulationSettings, timer: StageTimer
-) -> tuple[list[FloatArray], ByteArray]:
-    """Return the profile of each lamp, and the camera's picture of all lamps."""
+) -> tuple[list[Columns], ByteArray]:
+    """Return the columns of each lamp, and the camera's picture of all lamps."""
     camera = views[0].scene.camera
     columns = [expose_columns(view, effect_plan, timer) for view in views]
     panels = [
@@ -200,12 +200,12 @@ def _compose(
     mean = PictureRows(camera, panels, columns[0].surroundings)
     exposure = PixelExposure(views[0], effect_plan, columns[0], timer, bands, mean=mean)
     plain = Enhancement(columns[0].profile, "none")
-    pictures = exposure.pictures(plain, settings.seed, settings.noise)
-    return [lamp_columns.profile for lamp_columns in columns], pictures.camera_image
+    pictures = exposure.pictures(plain, PictureNumbers(settings.seed, camera.columns))
+    return columns, pictures.camera_image
 
 
 def _make_pictured_lamp(
-    lamp_view: LampView, effect_plan: Plan, profile: FloatArray
+    lamp_view: LampView, effect_plan: Plan, columns: Columns
 ) -> PicturedLamp | None:
     camera, optics = lamp_view.view.scene.camera, _optics_of(lamp_view.view, effect_plan)
     outline = optics.outline
@@ -217,4 +217,5 @@ def _make_pictured_lamp(
         column.min() < 0 or row.min() < 0
         or column.max() > camera.columns - 1 or row.max() > camera.rows - 1
     )  # fmt: skip
-    return PicturedLamp(lamp_view.lamp, outline, region, is_cut, profile, optics.blur)
+    profile, enhancement = columns.profile, columns.enhancement
+    return PicturedLamp(lamp_view.lamp, outline, region, is_cut, profile, enhancement, optics.blur)

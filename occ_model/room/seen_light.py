@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
-from occ_model.camera.enhancement import Enhancement, LevelSteps, byte_fractions
+from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import (
     WHITE,
     ColumnLight,
@@ -19,8 +19,9 @@ from occ_model.camera.photometry import (
     panel_values,
     saturate,
 )
-from occ_model.effects.effect import LightEffect, NoiseEffect, PixelEffect
+from occ_model.effects.effect import LightEffect, PixelEffect
 from occ_model.effects.light_effects import LedEdges
+from occ_model.effects.noise import enhancement_of, law_of
 from occ_model.effects.registry import NAMES, effects_named
 from occ_model.light.sent import light_period
 from occ_model.room.room import Room, RoomLamp
@@ -53,9 +54,9 @@ class ApparentLight:
         if enhancement is not None:
             curve, values = enhancement
             self._of_byte = self._mean_light(curve, values)
-        steps = LevelSteps.of(_limit(_LEVELS, scene), _noise_of(_LEVELS, scene))
+        law = _law_of(scene, _LEVELS)
         self._outside, self._inside = (
-            np.maximum.accumulate(steps.mean_of(self._of_byte[tone_curve]))
+            np.maximum.accumulate(law.mean(_LEVELS, self._of_byte[tone_curve]))
             for tone_curve in (_IDENTITY, curve)
         )
         slope = np.diff(self._inside) / np.diff(self._true)
@@ -64,11 +65,12 @@ class ApparentLight:
     def _mean_light(self, curve: ByteArray, values: FloatArray) -> FloatArray:
         """Return the mean light of the pixels of each value, in a lamp's columns and beside it."""
         dark = level_values(self.scene)[:1]
+        law = _law_of(self.scene, np.append(values, dark))
         sums = np.zeros((2, 256))
         for levels, tone_curve in ((values, curve), (dark, _IDENTITY)):
             light = luminance_of(levels, self.scene.camera)
             for total, weights in zip(sums, (np.ones(len(levels)), light), strict=True):
-                fractions = _fractions_of_bytes(levels, weights, self.scene)
+                fractions = law.histogram(levels, weights / len(levels))
                 total += np.bincount(tone_curve, fractions, minlength=256)
         is_frequent = sums[0] > _NEGLIGIBLE
         mean = np.interp(
@@ -119,8 +121,9 @@ def find_enhancement(
         column_light,
     ):  # a picture may be simulated without the lamp's edges
         values = panel_values(scene, variant)
-        curve = Enhancement(_limit(values, scene), scene.model.enhancement).curve
-        plain = _fractions_of_bytes(values, np.ones(len(values)), scene)
+        law = _law_of(scene, values)
+        curve = enhancement_of(scene, _limit(values, scene), values, law).curve
+        plain = law.histogram(values, np.full(len(values), 1.0 / len(values)))
         enhanced = np.bincount(curve, plain, minlength=256)
         gain = float(counts @ np.log((enhanced + _OUTLIER_FRACTION) / (plain + _OUTLIER_FRACTION)))
         if gain > best_gain:
@@ -128,15 +131,11 @@ def find_enhancement(
     return best_curve
 
 
-def _fractions_of_bytes(levels: FloatArray, weights: FloatArray, scene: Scene) -> FloatArray:
-    """Return the total weight of the pixels that become each byte, from their mean values."""
-    spread = _noise_of(levels, scene)
-    return byte_fractions(_limit(levels, scene), spread, weights / len(levels))
-
-
-def _noise_of(levels: FloatArray, scene: Scene) -> FloatArray:
-    noises = [noise for noise in effects_named(NAMES, NoiseEffect) if noise.is_present(scene)]
-    return np.asarray(np.sqrt(sum(noise.spread(scene, levels) ** 2 for noise in noises)))
+def _law_of(scene: Scene, values: FloatArray) -> GreyLaw:
+    """Return the law of the grey levels of a scene's pixels, all of whose sensor noise is seen."""
+    law = law_of(scene, NAMES, values)
+    assert law is not None  # noqa: S101 - all light has shot noise
+    return law
 
 
 def _limit(levels: FloatArray, scene: Scene) -> FloatArray:
@@ -146,6 +145,7 @@ def _limit(levels: FloatArray, scene: Scene) -> FloatArray:
     return saturate(levels)
 
 
+_DARK_STEP, _DARK_CELL = 4, 8  # step of the pixels that tell the dark, and of these a cell's side
 _MIN_ROWS = 16  # minimum rows that determine the lamp's light in a column
 _MIN_COLUMNS = 16  # minimum columns that determine brightness and start of the packet
 _STEPS_A_COLUMN = 8  # steps per column of the packet's light
@@ -179,7 +179,7 @@ class LampLight:
         Columns in which the lamp's inside is not visible, or white, get the light of its packet.
         """
         middle = float(outline[:, 1].mean())
-        dark = float(np.median(apparent.of(image[::16, ::16])))
+        dark = _dark_light(apparent.of(image[::_DARK_STEP, ::_DARK_STEP]))
         columns, mean, fall = _inner_light(image, outline, apparent, margin)
         light = np.zeros(image.shape[1])
         is_known = ~apparent.is_white(mean)
@@ -189,6 +189,17 @@ class LampLight:
             light = _Packet.of(lamp, apparent.scene).fit(columns, lamp_light, len(light))
             light[columns] = lamp_light
         return cls(light, fall, middle)
+
+
+def _dark_light(light: FloatArray) -> float:
+    """Return the light of most of a picture, the median of the means of cells.
+
+    Single pixels are often black where the mean is not.
+    """
+    rows, columns = (max(size // _DARK_CELL, 1) for size in light.shape)
+    cells = light[: rows * _DARK_CELL, : columns * _DARK_CELL]
+    cells = cells.reshape(rows, len(cells) // rows, columns, -1).mean(axis=(1, 3))
+    return float(np.median(cells))
 
 
 def _inner_light(

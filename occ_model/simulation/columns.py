@@ -10,9 +10,12 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
+from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import panel_values, saturate, surroundings_values
 from occ_model.camera.picture_rows import Rows
 from occ_model.effects.effect import LightEffect, PaperView, PixelEffect
+from occ_model.effects.noise import enhancement_of, law_of
 from occ_model.effects.registry import effects_planned
 from occ_model.results.frame import Plan
 from occ_model.simulation.stage_timer import StageTimer
@@ -27,6 +30,8 @@ class Columns:
     # Shape (columns,): the same after saturation; ``profile`` is PV_sim
     profile: FloatArray
     around: FloatArray
+    law: GreyLaw | None  # of the pixels' grey levels; None without noise
+    enhancement: Enhancement  # of the panel, by its columns' pixels
 
 
 def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = None) -> Columns:
@@ -43,7 +48,11 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
     for limit in effects_planned(chosen, PixelEffect):
         profile, around = limit.apply(scene, profile), limit.apply(scene, around)
         timer.end_stage(limit.name)
-    return Columns(panel, surroundings, saturate(profile), saturate(around))
+    profile, around = saturate(profile), saturate(around)
+    law = law_of(scene, chosen.included, panel, surroundings)
+    enhancement = enhancement_of(scene, profile, panel, law)
+    timer.end_stage("enhancement")
+    return Columns(panel, surroundings, profile, around, law, enhancement)
 
 
 class ColumnMeans:

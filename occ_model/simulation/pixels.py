@@ -3,11 +3,12 @@
 Threads are faster because NumPy and OpenCV release the interpreter's lock while they compute.
 """
 
+import math
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, islice
 from typing import TypeVar
@@ -16,18 +17,19 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
-from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, split_at, split_into_blocks
-from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PaperView, PixelEffect
+from occ_model.effects.effect import FileEffect, OpticsEffect, PaperView, PixelEffect
+from occ_model.effects.noise import noise_of
 from occ_model.effects.registry import effects_planned
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Plan
-from occ_model.scene.scene import NoiseSource, Observable
+from occ_model.scene.scene import Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel
-from occ_model.simulation.noise import NOISE_MAKERS, Drawn, NoiseMaker, NoiseSpread
+from occ_model.simulation.picture_noise import NoiseNumbers, PictureNoise
 from occ_model.simulation.stage_timer import StageTimer
 
 _Item = TypeVar("_Item")
@@ -46,8 +48,7 @@ def threads() -> int:
 def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
     """Do some work for each item in threads; yield the results in the order of the items.
 
-    Items are read in the calling thread, a few in advance, so that random numbers drawn there do
-    not depend on the threads.
+    Items are read in the calling thread, a few in advance.
     """
     count, left = threads(), iter(items)
     begun = list(islice(left, 2 if count > 1 else 0))
@@ -73,7 +74,8 @@ class ExposedRows:
     """Some rows of pixels before rounding."""
 
     place: slice  # Their place in the picture, in which the exposed rows are one below the other
-    values: Pixels  # Shape (rows, columns): pixel values from 0 to 255
+    # Shape (rows, columns): pixel values from 0 to 255, whole ones if they are drawn
+    values: Pixels | ByteArray
     mean: Rows  # The same without noise, and the place of the panel
 
 
@@ -92,12 +94,10 @@ class Pictures:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Band:
-    """Rows to expose, their place in the picture that is made, and their noise."""
+    """Rows to expose, and their place in the picture that is made."""
 
     place: slice
     rows: range
-    drawn: Drawn | None
-    timer: StageTimer
 
 
 class PixelExposure:
@@ -126,7 +126,7 @@ class PixelExposure:
         self._timer = timer
         self._columns = columns
         self._limits = effects_planned(plan, PixelEffect)
-        self._noises = effects_planned(plan, NoiseEffect)
+        self._noise = noise_of(scene, plan.included)
         self._files = effects_planned(plan, FileEffect)
         self._bands = bands or split_into_blocks(range(scene.camera.rows), scene.camera.columns)
         height = sum(len(band) for band in self._bands)
@@ -141,9 +141,12 @@ class PixelExposure:
             # Then all rows of a band are equal.
             ends = self._region.first_row, self._region.last_row
             self._bands = [part for band in self._bands for part in split_at(band, ends)]
-        self._mean = mean or PictureRows(
-            scene.camera, [LitPanel(self._optics, columns.panel)], columns.surroundings
-        )
+        self._brightest = math.inf
+        if mean is None:
+            lit = LitPanel(self._optics, columns.panel)
+            mean = PictureRows(scene.camera, [lit], columns.surroundings)
+            self._brightest = max(float(columns.panel.max()), float(columns.surroundings.max()))
+        self._mean = mean
         timer.end_stage(self._optics.cover_stage)
 
     def drafted_panel(self, rows: range) -> DraftedPanel:
@@ -153,50 +156,34 @@ class PixelExposure:
         rounding = sum(file.rounding_of_means(self._scene) for file in self._files)
         return DraftedPanel(rows, columns, outline, size, blur, rounding)
 
-    def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
-        spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
-        for band in self._draw_bands(seed, source):
-            yield self._expose(band, spreads)
+    def rows(self, numbers: NoiseNumbers) -> Iterator[ExposedRows]:
+        noise = self._prepare_noise(numbers)
+        for band in self._split_bands():
+            yield self._expose(band, noise, StageTimer())
 
-    def _draw_bands(
-        self,
-        seed: int,
-        source: NoiseSource | NoiseMaker,
-        heartbeat: Heartbeat = lambda: None,
-    ) -> Iterator[_Band]:
-        make = NOISE_MAKERS[source] if isinstance(source, str) else source
-        noise = make(self._noises, self._scene, seed) if self._noises else None
+    def _prepare_noise(self, numbers: NoiseNumbers) -> PictureNoise | None:
+        if self._noise is None:
+            return None
+        return PictureNoise(self._noise, self._scene, self._brightest, numbers)
+
+    def _split_bands(self, heartbeat: Heartbeat = lambda: None) -> Iterator[_Band]:
         place = 0
         for rows in self._bands:
             heartbeat()
-            timer = StageTimer()
-            drawn = None
-            if noise is not None:
-                drawn = noise.draw(len(rows))
-                timer.end_stage(self._noises[-1].name)
-            yield _Band(slice(place, place + len(rows)), rows, drawn, timer)
+            yield _Band(slice(place, place + len(rows)), rows)
             place += len(rows)
 
-    def _expose(
-        self, band: _Band, spreads: dict[Sequence[NoiseEffect], NoiseSpread]
-    ) -> ExposedRows:
-        timer = band.timer
-        timer.begin()
+    def _expose(self, band: _Band, noise: PictureNoise | None, timer: StageTimer) -> ExposedRows:
         mean = self._mean.of(band.rows, timer.end_stage)
+        if noise is not None and noise.is_drawn:
+            values = noise.draw(mean, band.rows, band.place, timer.end_stage)
+            return ExposedRows(band.place, values, mean)
         each_row = mean.expand_rows()
-        values: Pixels | None = None
-        for effects, normal in band.drawn() if band.drawn else ():
-            if effects not in spreads:
-                spreads[effects] = NoiseSpread(effects, self._scene)
-            spreads[effects].scale(normal, mean, each_row)
-            values = normal if values is None else np.add(values, normal, out=values)
-            timer.end_stage(effects[-1].name)
-        held = self._limit_values(each_row, timer)
-        if values is None:
-            return ExposedRows(band.place, held.values, mean)
-        held.combine(np.add, values, held.nodes, [rim.values for rim in held.rims])
-        np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
-        return ExposedRows(band.place, values, mean)
+        if noise is None:
+            return ExposedRows(band.place, self._limit_values(each_row, timer).values, mean)
+        varied = noise.vary(each_row, band.rows, timer.end_stage)
+        held = self._limit_values(replace(each_row, nodes=varied, rims=()), timer)
+        return ExposedRows(band.place, held.nodes, mean)
 
     def _limit_values(self, mean: Rows, timer: StageTimer) -> Rows:
         """Limit mean values to what a pixel can hold."""
@@ -208,17 +195,17 @@ class PixelExposure:
     def pictures(
         self,
         enhancement: Enhancement,
-        seed: int,
-        source: NoiseSource | NoiseMaker,
+        numbers: NoiseNumbers,
         heartbeat: Heartbeat = lambda: None,
     ) -> Pictures:
         """Make the camera's and the receiver's picture of the exposed rows."""
         camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
-        spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
+        noise = self._prepare_noise(numbers)
 
         def make(band: _Band) -> tuple[ColumnMeans, ColumnMeans, StageTimer]:
-            exposed, timer = self._expose(band, spreads), band.timer
+            timer = StageTimer()
+            exposed = self._expose(band, noise, timer)
             before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
             camera, receiver = camera_image[band.place], image[band.place]
             cv2.convertScaleAbs(exposed.values, dst=camera)
@@ -235,9 +222,7 @@ class PixelExposure:
 
         before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
         timers = []
-        for of_camera, of_receiver, timer in each_in_threads(
-            make, self._draw_bands(seed, source, heartbeat)
-        ):
+        for of_camera, of_receiver, timer in each_in_threads(make, self._split_bands(heartbeat)):
             before.include(of_camera)
             after.include(of_receiver)
             timers.append(timer)
@@ -256,19 +241,18 @@ class PixelExposure:
         first, last = min(part.start for part in shown), max(part.stop for part in shown)
         return slice(first // _BLOCK * _BLOCK, min(-(-last // _BLOCK) * _BLOCK, self._shape[1]))
 
-    def observe(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
+    def observe(self, observable: Observable, numbers: NoiseNumbers) -> Pixels:
         """Simulate an observable before enhancement and rounding.
 
         ``"image"`` gives the pixels of the panel's bounding rectangle, ``"profile"`` the means of
         its columns.
         """
         image = np.empty(self._shape, dtype=np.float32)
-        for exposed in self.rows(seed, source):
-            values = exposed.values
+        for exposed in self.rows(numbers):
+            image[exposed.place] = exposed.values
             for file in self._files:
-                read = file.apply(self._scene, to_bytes(values))
-                values = read.astype(np.float32)
-            image[exposed.place] = values
+                whole = np.asarray(cv2.convertScaleAbs(exposed.values), dtype=np.uint8)
+                image[exposed.place] = file.apply(self._scene, whole)
         region, above = self._region, self._bands[0].start
         rows = slice(region.first_row - above, region.last_row - above)
         seen = image[rows, region.first_column : region.last_column]

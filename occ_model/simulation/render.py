@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
-from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturation_value
 from occ_model.camera.picture_rows import split_into_blocks
 from occ_model.camera.projection import check_size, paint
@@ -27,6 +27,7 @@ from occ_model.scene.scene import (
 )
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.draft_error import DraftedMeans, draft_errors
+from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -76,12 +77,10 @@ def render(
         The quantity to which the tolerance refers, and effects that are switched on or off; see
         :func:`occ_model.plan`.
     noise
-        ``"exact"`` draws random numbers for every pixel; ``"reused"`` takes them at random places
-        from one stored plane, which is many times faster. All noise then has the same numbers, so
-        that the fixed pattern is not fixed.
+        Ignored; noise is drawn for every pixel.
     rows_step
         From 2 on, the frame is a draft: it has only every ``rows_step``-th row of the picture,
-        equal to that row except for its random numbers. A file is made of the draft's rows as if
+        equal to that row. A file is made of the draft's rows as if
         they were a picture, and only where they show the panel. How far its column means may be
         from those of the picture is :attr:`occ_model.Frame.draft_error`.
 
@@ -140,7 +139,6 @@ def render_with(
         planned.view,
         planned.plan,
         seed=settings.seed,
-        noise=settings.noise,
         rows_step=rows_step,
         timer=timer,
         heartbeat=heartbeat,
@@ -152,7 +150,6 @@ def render_plan(
     chosen: Plan,
     *,
     seed: int,
-    noise: NoiseSource = "exact",
     rows_step: int = 1,
     timer: StageTimer | None = None,
     heartbeat: Heartbeat = lambda: None,
@@ -162,7 +159,7 @@ def render_plan(
     check_size(scene.camera)
     timer = timer or StageTimer()
     columns = expose_columns(view, chosen, timer)
-    enhancement = Enhancement(columns.profile, scene.model.enhancement)
+    enhancement = columns.enhancement
     enhanced = enhancement(columns.profile)
     timer.end_stage("enhancement")
     around, corners = to_bytes(columns.around), view.corners
@@ -182,12 +179,13 @@ def render_plan(
             split_into_blocks(rows, scene.camera.columns),
             panel_only=rows_step > 1,
         )
-        made = exposure.pictures(enhancement, seed, noise, heartbeat)
+        numbers = PictureNumbers(seed, scene.camera.columns)
+        made = exposure.pictures(enhancement, numbers, heartbeat)
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:
-            means = describe_draft(made, columns, enhancement)
-            expose = partial(_expose_rows, view, chosen, columns, enhancement, seed=seed)
+            means = describe_draft(made, columns)
+            expose = partial(_expose_rows, view, chosen, columns, seed=seed)
             errors = partial(draft_errors, exposure.drafted_panel(rows), means, expose)
     return Frame(
         scene=scene,
@@ -203,12 +201,10 @@ def render_plan(
     )
 
 
-def describe_draft(
-    made: Pictures, columns: Columns, enhancement: Enhancement
-) -> dict[str, DraftedMeans]:
+def describe_draft(made: Pictures, columns: Columns) -> dict[str, DraftedMeans]:
     """Return a draft's column means, with the values that its pixels can have."""
     levels = np.concatenate([columns.profile, columns.around, made.profile])
-    seen = enhancement(levels)
+    seen = columns.enhancement(levels)
     stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT_SPAN), 1.0)
     return {
         "profile": DraftedMeans(made.camera_image, made.profile, levels, 1.0),
@@ -220,7 +216,6 @@ def _expose_rows(
     view: PaperView,
     chosen: Plan,
     columns: Columns,
-    enhancement: Enhancement,
     shown: NDArray[np.bool_],
     times: int,
     *,
@@ -231,7 +226,8 @@ def _expose_rows(
     bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
     exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
     seeds = range(seed + 1, seed + 1 + (times if effects_planned(chosen, NoiseEffect) else 1))
-    made = (exposure.pictures(enhancement, other, "reused") for other in seeds)
+    numbers = (PictureNumbers(other, view.scene.camera.columns) for other in seeds)
+    made = (exposure.pictures(columns.enhancement, own) for own in numbers)
     # Only one picture at a time is in memory.
     profiles, signals = zip(*((one.profile, one.signal) for one in made), strict=True)
     return {"profile": np.array(profiles), "signal": np.array(signals)}
@@ -247,22 +243,22 @@ def observe(
     chosen: Plan,
     *,
     seed: int = 1,
-    noise: NoiseSource = "exact",
     timer: StageTimer | None = None,
 ) -> Pixels:
     """Simulate the observable of a plan, in grey levels.
 
-    ``"image"``: the camera's pixels of the panel's bounding rectangle before rounding;
+    ``"image"``: the camera's pixels of the panel's bounding rectangle, before rounding where no
+    noise is drawn;
     ``"profile"``: the means of its columns; ``"signal"``: those of the receiver's picture.
     """
     check_size(scene.camera)
     view, timer = paper_view_of(scene), timer or StageTimer()
     if chosen.observable == "signal":
-        image = render_plan(view, chosen, seed=seed, noise=noise, timer=timer).image
+        image = render_plan(view, chosen, seed=seed, timer=timer).image
         return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
     seen = range(view.region.first_row, view.region.last_row)
     blocks = split_into_blocks(range(scene.camera.rows), scene.camera.columns)
     bands = [rows for rows in blocks if rows[0] < seen.stop and rows[-1] >= seen.start]
     exposure = PixelExposure(view, chosen, columns, timer, bands)
-    return exposure.observe(chosen.observable, seed, noise)
+    return exposure.observe(chosen.observable, PictureNumbers(seed, scene.camera.columns))

@@ -5,20 +5,15 @@ the panel, therefore show what the whole picture would. A band has eight rows, t
 a JPEG file: what becomes of a block depends on that block alone.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from statistics import NormalDist
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, IndexArray, Pixels
-from occ_model.camera.enhancement import Enhancement
-from occ_model.effects.effect import NoiseEffect, PaperView
+from occ_model.arrays import ByteArray
+from occ_model.effects.effect import PaperView
 from occ_model.results.frame import Plan
-from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise import Drawn
+from occ_model.simulation.pixel_draw import Numbers
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -31,8 +26,6 @@ _PAIRS = BANDS // 2  # pairs of neighbouring bands, whose noise is opposite: its
 _QUANTILE_STRIDE = 7
 """Quantiles from a pair to the next one: light varies from band to band, the noise not with it.
 Without a common divisor with the number of pairs, so that each quantile is used once."""
-
-_TABLE_ENTRIES = 4096  # entries of the table of normal deviates
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,8 +62,8 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     columns, timer = expose_columns(view, plan), StageTimer()
     bands = [band for part in parts for band in part.bands]
     exposure = PixelExposure(view, plan, columns, timer, bands)
-    enhancement = Enhancement(columns.profile, view.scene.model.enhancement)
-    image = exposure.pictures(enhancement, seed, SystematicNoise).image
+    numbers = SystematicNumbers(view.scene.camera.columns, seed)
+    image = exposure.pictures(columns.enhancement, numbers).image
     return SampledPicture(_repeated(image, parts), rows_each)
 
 
@@ -107,40 +100,25 @@ def _repeated(image: ByteArray, parts: tuple[_Part, ...]) -> ByteArray:
     return np.concatenate(pieces)
 
 
-class SystematicNoise:
-    """Noise whose values at one place of all bands are spread evenly over its distribution.
+class SystematicNumbers:
+    """Uniform numbers that are spread evenly at one place of all bands.
 
-    At a row of a band and a column, the bands have quantiles in equal steps from a random first one
-    (systematic sampling), each also with the opposite sign (antithetic variates). Within a band the
+    At a row of a band and a column, the bands have numbers in equal steps from a random first one
+    (systematic sampling), each also with its complement (antithetic variates). Within a band the
     numbers are independent, as drawn ones are, so that a file changes a block as it would.
-    Effects use the same numbers, scaled to their total deviation.
     """
 
-    def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:
-        self._effects = effects
+    has_pattern = False  # that of few rows would be another one than that of all
+
+    def __init__(self, columns: int, seed: int) -> None:
         random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
-        self._first = random.random((BAND, scene.camera.columns), dtype=np.float32)
-        self._row = 0
+        self._first = random.integers(0, 2**32, (BAND, columns), dtype=np.uint32)
 
-    def draw(self, rows: int) -> Drawn:
-        """Choose the quantiles of the next rows."""
-        place = self._row + np.arange(rows)
-        self._row += rows
-        return lambda: [(self._effects, self._normal(place))]
-
-    def _normal(self, place: IndexArray) -> Pixels:
-        band = place // BAND
-        step = (band // 2 * _QUANTILE_STRIDE % _PAIRS / _PAIRS).astype(np.float32)
-        quantile = self._first[place % BAND] + step[:, None]
-        entry = (quantile * _TABLE_ENTRIES).astype(np.int32) % _TABLE_ENTRIES
-        normal: Pixels = _deviates()[entry]
-        normal[band % 2 == 1] *= np.float32(-1.0)
-        return normal
-
-
-@lru_cache(maxsize=1)
-def _deviates() -> Pixels:
-    """Return the normal deviates of evenly spaced quantiles."""
-    normal = NormalDist()
-    found = [normal.inv_cdf((place + 0.5) / _TABLE_ENTRIES) for place in range(_TABLE_ENTRIES)]
-    return np.array(found, dtype=np.float32)
+    def of(self, rows: range, place: slice) -> Numbers:  # noqa: ARG002 - bands follow each other
+        at = np.arange(place.start, place.stop)
+        band = at // BAND
+        step = (band // 2 * _QUANTILE_STRIDE % _PAIRS * (2**32 // _PAIRS)).astype(np.uint32)
+        numbers: Numbers = self._first[at % BAND] + step[:, None]
+        is_second = band % 2 == 1
+        numbers[is_second] = ~numbers[is_second]
+        return numbers

@@ -1,9 +1,8 @@
 """Measure the time and the error of each simulation method for a scene.
 
-There are five comparisons: samples of the exposure with its closed form, effects added one by one
-with all of them, the profile path with the image path, drafts with the whole picture, and reused
-noise with noise drawn for each pixel. All errors are RMS in the unit of the plan: levels of the
-stretched profile, or margins of a decision.
+There are four comparisons: samples of the exposure with its closed form, effects added one by one
+with all of them, the profile path with the image path, and drafts with the whole picture. All
+errors are RMS in the unit of the plan: levels of the stretched profile, or margins of a decision.
 """
 
 from bisect import bisect_right
@@ -22,17 +21,15 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.exposure import forget_exposures, lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import NoiseEffect, paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.plan import plan
-from occ_model.effects.registry import effects_planned
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import Light, light_of
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 from occ_model.results.frame import Plan
 from occ_model.scene.argument_checks import check_seed
-from occ_model.scene.scene import NOISE_SOURCES, Scene, SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise import NoiseSpread
 from occ_model.simulation.render import observe, render
 from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
 from occ_model.study.observation import panel_span
@@ -79,10 +76,9 @@ def accuracy(
 def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int:
     settings = settings or SimulationSettings()
     complete = plan(scene, 0.0, settings.observable)
-    noise = 2 if effects_planned(complete, NoiseEffect) else 0
     paths = 1 if panel_span(scene) is None else 2
     drafts = len(draft_steps(scene))
-    return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + drafts + noise
+    return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + drafts
 
 
 def _measure_points(
@@ -96,7 +92,6 @@ def _measure_points(
     yield from _measure_added_effects(scene, settings, chosen, complete)
     yield from _measure_paths(scene, settings, chosen)
     yield from _measure_drafts(scene, settings, chosen)
-    yield from _measure_noise_sources(scene, settings, chosen.stretch)
 
 
 def _measure_integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
@@ -152,11 +147,11 @@ def _label(chosen: Plan, effect: str) -> str:
 
 def _render(scene: Scene, effects: frozenset[str], settings: SimulationSettings) -> object:
     force = dict.fromkeys(sorted(effects), True)
-    return render(scene, tolerance=np.inf, seed=settings.seed, force=force, noise=settings.noise)
+    return render(scene, tolerance=np.inf, seed=settings.seed, force=force)
 
 
 def _observe(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixels:
-    return observe(scene, chosen, seed=settings.seed, noise=settings.noise)
+    return observe(scene, chosen, seed=settings.seed)
 
 
 def _measure_paths(
@@ -183,15 +178,13 @@ def _measure_drafts(
     steps = draft_steps(scene)
     if not steps:
         return
-    seed, noise = settings.seed, settings.noise
+    seed = settings.seed
     region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
-    truth = render(scene, tolerance=0.0, seed=seed, noise=noise).profile[seen]
+    truth = render(scene, tolerance=0.0, seed=seed).profile[seen]
     force = dict.fromkeys(chosen.included, True)
     for step in steps:
-        work = partial(
-            render, scene, tolerance=np.inf, seed=seed, force=force, noise=noise, rows_step=step
-        )
+        work = partial(render, scene, tolerance=np.inf, seed=seed, force=force, rows_step=step)
         seconds, frame = time_shortest(work)
         error = rms(frame.profile[seen] - truth) * chosen.stretch
         yield AccuracyPoint("draft", f"draft 1/{step}", seconds, error)
@@ -201,27 +194,6 @@ def draft_steps(scene: Scene) -> tuple[int, ...]:
     """Return the row steps that leave enough rows of the panel."""
     rows = paper_view_of(scene).region.rows
     return tuple(step for step in DRAFT_STEPS if step * _MIN_DRAFT_ROWS <= rows)
-
-
-def _measure_noise_sources(
-    scene: Scene, settings: SimulationSettings, stretch: float
-) -> Iterator[AccuracyPoint]:
-    """Compare the standard deviation of each kind of noise with that of the sensor."""
-    complete = plan(scene, 0.0, "image")
-    noises = effects_planned(complete, NoiseEffect)
-    if not noises:
-        return
-    names = frozenset(effect.name for effect in noises)
-    noisy = plan_of_effects(scene, "image", names)
-    still = observe(scene, plan_of_effects(scene, "image", ()), seed=settings.seed)
-    wanted = rms(NoiseSpread(noises, scene)(still))
-    for source in NOISE_SOURCES:
-        own = SimulationSettings(seed=settings.seed, noise=source)
-        size = rms(_observe(scene, noisy, own) - still)
-        seconds, _ = time_shortest(partial(_render, scene, names, own))
-        name = {"exact": "drawn for each pixel", "reused": "reused plane"}[source]
-        error = abs(size - wanted) * stretch
-        yield AccuracyPoint("noise", name, seconds, error)
 
 
 def time_shortest(work: Callable[[], Result]) -> tuple[float, Result]:

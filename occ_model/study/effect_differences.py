@@ -13,7 +13,7 @@ from occ_model.effects.plan import effect_sets_of, plan, plan_with
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
 from occ_model.results.frame import EffectSet, Plan
-from occ_model.scene.scene import NoiseSource, Observable, Scene, SimulationSettings
+from occ_model.scene.scene import Observable, Scene, SimulationSettings
 from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -179,7 +179,7 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
     effect_plan = plan_with(scene, settings)
     seconds = _add_seconds(effect_plan.included, costs)
     force = tuple(sorted(settings.force.items()))
-    effect_sets = _effect_sets_cached(scene, settings.observable, force, settings.noise)
+    effect_sets = _effect_sets_cached(scene, settings.observable, force)
     forced = frozenset(name for name, on in force if on)
     times = tuple(_add_seconds(tuple(each.effects | forced), costs) for each in effect_sets)
     present = frozenset(decision.effect for decision in effect_plan.decisions if decision.estimate)
@@ -196,12 +196,10 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
 
 @lru_cache(maxsize=4)
 def _effect_sets_cached(
-    scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...], noise: NoiseSource
+    scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...]
 ) -> tuple[EffectSet, ...]:
     """Return the sets of effects from which a plan chooses, cached without the tolerance."""
-    return effect_sets_of(
-        scene, SimulationSettings(observable=observable, force=dict(force), noise=noise)
-    )
+    return effect_sets_of(scene, SimulationSettings(observable=observable, force=dict(force)))
 
 
 def _add_seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:

@@ -14,7 +14,8 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.enhancement import Enhancement, fraction_above, to_bytes
+from occ_model.camera.enhancement import to_bytes
+from occ_model.camera.normal import normal_fraction
 from occ_model.camera.projection import check_size, panel_corners, row_spans
 from occ_model.effects.effect import PaperView, paper_view_of
 from occ_model.effects.plan import signal_plan
@@ -57,6 +58,7 @@ _SEEDS = 2**32
 
 # Negligible number of pixels beside the panel that are as bright as its brightest
 _MAX_EXPECTED_BRIGHT = 0.01
+_SMALLEST_SPREAD = 1e-9  # grey levels, in place of none
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -113,12 +115,11 @@ def observe_profile(
     columns = expose_columns(view, plan)
     if span.columns == 0:
         return Observation(to_bytes(columns.around), None)
-    enhancement = Enhancement(columns.profile, view.scene.model.enhancement)
-    if "noise" in plan.kinds:
-        noisy = NoisyColumns(view.scene, columns, plan, span, enhancement)
+    if columns.law is not None:
+        noisy = NoisyColumns(view.scene, columns, columns.law, span)
         region = noisy.draw_region(random)
         return Observation(noisy.means(region, random), region)
-    panel, around = enhancement(columns.profile), to_bytes(columns.around)
+    panel, around = columns.enhancement(columns.profile), to_bytes(columns.around)
     return _observe_without_noise(view.scene, span, panel, around)
 
 
@@ -159,7 +160,8 @@ def is_region_known(sample: SampledPicture, view: PaperView) -> bool:
         if not pixels_beside.size:
             continue
         mean, spread = np.array([pixels_beside.mean()]), np.array([pixels_beside.std()])
-        (bright,) = fraction_above(bright_area.bright_level - 0.5, mean, spread)
+        limit = (mean - bright_area.bright_level + 0.5) / np.maximum(spread, _SMALLEST_SPREAD)
+        (bright,) = normal_fraction(limit)
         if (
             np.any(pixels_beside >= bright_area.bright_level)
             or bright * pixels_beside.size * sample.rows_each > _MAX_EXPECTED_BRIGHT
@@ -215,29 +217,28 @@ def read_profile(
     view = view or paper_view_of(scene)
     columns = expose_columns(view, effect_plan)
     random = np.random.default_rng(settings.seed)
-    profile, signal, observation = _draw_column_means(scene, columns, effect_plan, span, random)
+    profile, signal, observation = _draw_column_means(scene, columns, span, random)
     results = {decoder: observation.read(scene, decoder) for decoder in decoders}
     return ProfileReading(effect_plan, view.corners, profile, signal, results)
 
 
 def _draw_column_means(
-    scene: Scene, columns: Columns, effect_plan: Plan, span: Region, random: np.random.Generator
+    scene: Scene, columns: Columns, span: Region, random: np.random.Generator
 ) -> tuple[FloatArray, FloatArray, Observation]:
     """Return the means before and after the enhancement, and the part that a decoder reads."""
     profile = columns.profile.copy()
-    enhancement = Enhancement(profile, scene.model.enhancement)
-    enhanced = enhancement(profile)
+    enhanced = columns.enhancement(profile)
     signal = enhanced.astype(np.float64)
     if span.columns == 0:
         return profile, signal, Observation(to_bytes(columns.around), None)
     panel_columns = slice(span.first_column, span.last_column)
-    if "noise" not in effect_plan.kinds:
+    if columns.law is None:
         return (
             profile,
             signal,
             _observe_without_noise(scene, span, enhanced, to_bytes(columns.around)),
         )
-    noisy = NoisyColumns(scene, columns, effect_plan, span, enhancement)
+    noisy = NoisyColumns(scene, columns, columns.law, span)
     region = noisy.draw_region(random)
     profile[panel_columns], signal[panel_columns] = (
         noisy.plain_means(span),

@@ -17,12 +17,11 @@ from scene_values import presets_of_codes
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.commands.limits import range_cells
-from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.registry import NAMES, effects_named
+from occ_model.effects.noise import law_of
+from occ_model.effects.registry import NAMES
 from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.simulation.noise import NoiseSpread
 from occ_model.study import theory
 from occ_model.study.limits import SEARCHED_PARAMETERS
 from occ_model.study.working_range import working_range
@@ -53,7 +52,7 @@ def line(preset: str, decoder: str) -> str:
 
 def with_noise(scene: Scene, levels: float) -> Scene:
     """Change the size of the pixels until a lit one has this noise; it holds as much more light."""
-    lit = np.array([[level_values(scene)[1]]], dtype=np.float32)
+    lit = level_values(scene)[1:]
 
     def of_pitch(pitch: float) -> Scene:
         return scene.replace(pixel_pitch=pitch)
@@ -61,7 +60,8 @@ def with_noise(scene: Scene, levels: float) -> Scene:
     low, high = 1e-7, 1e-4  # much noise, and little
     for _ in range(40):
         middle = (low * high) ** 0.5
-        found = float(NoiseSpread(effects_named(NAMES, NoiseEffect), of_pitch(middle))(lit)[0, 0])
+        law = law_of(of_pitch(middle), NAMES, lit)
+        found = 0.0 if law is None else float(law.moments(lit, np.arange(256.0))[1][0])
         low, high = (middle, high) if found > levels else (low, middle)
     return of_pitch(high)
 

@@ -11,12 +11,10 @@ from hypothesis import strategies as st
 from hard_cases.laws import cases, record
 from hard_cases.references import STARTS, decades, signed_decades, some_columns, within
 from occ_model.camera.optics import Gain, Optics
-from occ_model.camera.photometry import saturation_value
 from occ_model.camera.projection import rotation_of
-from occ_model.effects.effect import NoiseEffect, OpticsEffect
+from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.light_effects import Flicker, ambient_fractions
 from occ_model.effects.optics_effects import Emission, Vignetting
-from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.light.sent import flicker_of
 from occ_model.scene.scene import Scene
 
@@ -147,56 +145,3 @@ def test_emission_is_that_of_fifty_digits_at_grazing_angles(
     assert worst <= 2e-5  # rays of single precision, to the 99th power
     assert gain.min() >= 0.0
     assert gain.max() <= 1.0
-
-
-def exact_spread(effect: NoiseEffect, scene: Scene, value: float) -> mpmath.mpf:
-    """Return a pixel's deviation in grey levels, by its definition."""
-    camera, sensor = scene.camera, scene.sensor
-    exact = mpmath.mpf
-    gamma = exact(camera.gamma)
-    gain = exact(camera.iso) * camera.exposure_time
-    gain /= exact(camera.meter_constant) * exact(camera.f_number) ** 2
-    each = exact(0.65) * camera.exposure_time / exact(camera.f_number) ** 2 * exact(8.8e15)
-    each *= exact(sensor.pixel_pitch) ** 2 * sensor.quantum_efficiency
-
-    def electrons(level: float) -> mpmath.mpf:
-        return (exact(level) / 118) ** gamma / gain * each
-
-    n = electrons(value)
-    if isinstance(effect, SensorNoise):
-        step = min(electrons(255.0), exact(sensor.full_well)) / exact(2) ** sensor.adc_bits
-        variance = n + exact(sensor.read_noise) ** 2 + step**2 / 12
-    else:
-        variance = (exact(sensor.gain_variation) * n) ** 2
-    there = mpmath.sqrt(n**2 + variance)
-    if not there:
-        return exact(0)
-    slope = 118 * (gain * there / each) ** (1 / gamma) / (gamma * there)
-    return slope * mpmath.sqrt(variance)
-
-
-@cases(
-    light=st.one_of(st.just(0.0), decades(1e-12, 1.0), st.just(1e12)), iso=decades(1.0, 4e6),
-    exposure=decades(1e-9, 1e6), gamma=st.floats(1.0, 4.0), read_noise=st.floats(0.0, 1e4),
-    gain=st.one_of(st.just(0.0), decades(1e-12, 0.5)), well=decades(10.0, 1e9),
-    bits=st.integers(4, 24), effect=st.sampled_from([SensorNoise(), FixedPattern()]),
-)  # fmt: skip
-def test_noise_spreads_as_in_fifty_digits_at_any_light(
-    light: float, iso: float, exposure: float, gamma: float, read_noise: float, gain: float,
-    well: float, bits: int, effect: NoiseEffect,
-) -> None:  # fmt: skip
-    scene = Scene().replace(
-        iso=iso, exposure_time=exposure, gamma=gamma, read_noise=read_noise, gain_variation=gain,
-        full_well=well, adc_bits=bits,
-    )  # fmt: skip
-    values = np.array([255.0 * light ** (1 / gamma)])
-    with np.errstate(all="raise", under="ignore"):
-        (found,) = effect.spread(scene, values).tolist()
-    exact = exact_spread(effect, scene, float(values[0]))
-    assert math.isfinite(found)
-    # Near and beyond saturation noise may be clipped, and is then less.
-    room = max(min(saturation_value(scene), 255.0) - float(values[0]), 0.0)
-    least, most = min(exact, mpmath.mpf(room)), exact
-    beyond = max(found - most, least - found, mpmath.mpf(0))
-    error = float(beyond / exact) if exact else abs(found)
-    record("noise's deviation, relative", "light 0 to 1e12 times white", error, 1e-13)

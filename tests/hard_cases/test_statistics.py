@@ -15,12 +15,11 @@ from hard_cases.references import decades
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.picture_rows import Rim, Rows
 from occ_model.effects.effect import paper_view_of
-from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import ColumnMeans, expose_columns
-from occ_model.simulation.noise import ReusedNoise
+from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.pixels import ExposedRows, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.confidence import wilson_interval
@@ -150,8 +149,11 @@ def exposed() -> tuple[PixelExposure, Enhancement]:
     return PixelExposure(view, plan, columns, StageTimer()), Enhancement(columns.profile, "none")
 
 
+NUMBERS = PictureNumbers(7, PIXELS.camera.columns)
+
+
 def blocks_of(exposure: PixelExposure) -> Iterator[ExposedRows]:
-    return exposure.rows(7, "reused")
+    return exposure.rows(NUMBERS)
 
 
 def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
@@ -164,12 +166,14 @@ def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
         total += float(rows.values.sum(dtype=np.float64))
     pixels = np.concatenate(kept).astype(np.float64)
     assert pixels.shape == (4608, 6)
-    profile = exposure.pictures(enhancement, 7, "reused").profile
+    profile = exposure.pictures(enhancement, NUMBERS).profile
     exact = np.array([math.fsum(column) / 4608 for column in pixels.T.tolist()])
     error = float(np.abs(profile[chosen] - exact).max())
     record("profile means of 16 MP, grey levels", "noise of 30 electrons", error, 1e-9)
     # The noise of the mean is neither lost among the pixels nor larger than it should be.
-    bare = expose_columns(paper_view_of(PIXELS), occ.plan(PIXELS, math.inf)).profile
+    columns = expose_columns(paper_view_of(PIXELS), occ.plan(PIXELS, 0.0))
+    assert columns.law is not None
+    bare = columns.law.mean(columns.panel, np.arange(256.0))
     noise = pixels - bare[chosen]
     for column, place in enumerate(chosen.tolist()):
         mean = math.fsum(noise[:, column].tolist()) / 4608
@@ -177,18 +181,6 @@ def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
         record("noise means of 16 MP, grey levels", "noise of 30 electrons", error, 1e-9)
         assert abs(mean) < 6 * noise.std() / math.sqrt(4608) + 0.01
     assert float(profile.sum()) * 4608 == pytest.approx(total, rel=1e-12)
-
-
-def test_reused_noise_has_zero_mean() -> None:
-    # Two million numbers in single precision, whose sum in that would be off in the fifth digit.
-    scene = Scene().replace(columns=1, rows=4)
-    noise = ReusedNoise([SensorNoise()], scene, 1)
-    numbers = noise.places[:, 0]
-    mean = math.fsum(numbers.tolist()) / len(numbers)
-    square = math.fsum((numbers.astype(np.float64) ** 2).tolist()) / len(numbers)
-    record("mean of the noise's plane, standard deviations", "2e6 numbers", abs(mean))
-    assert abs(mean) <= 1e-7
-    assert square == pytest.approx(1.0, abs=1e-5)
 
 
 @st.composite

@@ -59,7 +59,7 @@ def random_scene(random: np.random.Generator) -> Scene:
 def errors(scene: Scene, step: int) -> list[tuple[float, float]]:
     """Return the true and the stated error of the profile and of the signal."""
     whole = occ.render(scene, tolerance=0.0, seed=1)
-    draft = occ.render(scene, tolerance=0.0, seed=2, noise="reused", rows_step=step)
+    draft = occ.render(scene, tolerance=0.0, seed=2, rows_step=step)
     region = paper_view_of(scene).region
     columns = slice(region.first_column, region.last_column)
     found = []
@@ -108,7 +108,7 @@ def test_a_picture_and_a_draft_of_equal_rows_have_no_error() -> None:
 def test_fewer_rows_have_a_larger_error() -> None:
     scene = occ.load_preset("phone-136us-real").replace(columns=600)
     steps = (2, 6, 18)
-    stated = [occ.render(scene, noise="reused", rows_step=step).draft_error for step in steps]
+    stated = [occ.render(scene, rows_step=step).draft_error for step in steps]
     for observed in OBSERVED:
         found = [errors[observed] for errors in stated]
         assert found == sorted(found)
@@ -260,11 +260,14 @@ def test_with_few_rows_of_the_panel_the_error_is_as_stated_and_not_much_less() -
 def test_an_enhancement_makes_a_files_rounding_larger_and_never_smaller(
     factor: float, stretch: float
 ) -> None:
-    columns = SimpleNamespace(profile=np.array([20.0, 80.0]), around=np.array([10.0]))
+    columns = SimpleNamespace(
+        profile=np.array([20.0, 80.0]), around=np.array([10.0]),
+        enhancement=lambda levels: factor * levels,
+    )  # fmt: skip
     made = SimpleNamespace(
         profile=np.array([21.0, 79.0]), signal=np.zeros(2), camera_image=None, image=None
     )
-    means = describe_draft(made, columns, lambda levels: factor * levels)  # type: ignore[arg-type]
+    means = describe_draft(made, columns)  # type: ignore[arg-type]
     assert means["profile"].stretch == 1.0
     assert means["signal"].stretch == pytest.approx(stretch)
     assert np.ptp(means["profile"].levels) == 70.0

@@ -141,4 +141,8 @@ class Sensor(Group):
         "Bits of the analogue-to-digital converter, before the gamma encoding.",
         4, 24, 10,
     )
+    sensor_seed: int = count_field(
+        "Sensor's number", "", "Which sensor of its kind: another one has other gains.",
+        0, 2**32 - 1, 1,
+    )
     # fmt: on

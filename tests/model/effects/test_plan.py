@@ -154,7 +154,9 @@ def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
 
 
 def test_effects_that_only_the_signal_needs_are_named() -> None:
-    scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
+    scene = occ.load_preset("phone-136us").replace(
+        switching_frequency=14.6e3, illuminance=10_000.0, pixel_pitch=3e-6, full_well=1e5
+    )
     of_profile = occ.plan(scene, observable="profile")
     assert "sensor-noise" not in of_profile
     assert "Shot and read noise" in name_effects_for_signal(of_profile, scene)
@@ -183,7 +185,9 @@ def test_a_plan_changes_at_the_error_of_each_set_and_nowhere_else(
 
 def test_the_limit_of_noise_in_the_means_of_columns_is_its_law() -> None:
     """The RMS of n normal numbers deviates by 1 / sqrt(2 n) of it; 3.5 times that is allowed."""
-    scene = occ.load_preset("phone-68us").replace(rows=200, columns=300)
+    scene = occ.load_preset("phone-68us").replace(
+        rows=200, columns=300, illuminance=10_000.0, pixel_pitch=4e-6, full_well=1e5, adc_bits=14
+    )  # so many electrons that the noise moves no column's mean
     everything = occ.plan(scene, 0.0, "profile")
     (noise,) = (d for d in everything.decisions if d.effect == "sensor-noise")
     complete, without = (

@@ -43,7 +43,7 @@ def test_two_dim_lamps_with_long_dark_times_are_found_as_two() -> None:
     room = _room(_lamp(300.0), _lamp(360.0), rows=768, columns=1152)
     image = occ.render_room(room, seed=1).camera_image
     assert 60 < np.percentile(image, 99) < 75
-    assert 7 < np.median(image) < 10
+    assert 5 < image[:, :100].mean() < 8
     assert _names(room) == ["L0", "L1"]
 
 
@@ -51,12 +51,12 @@ def test_two_dim_lamps_with_long_dark_times_are_found_as_two() -> None:
     {}, _lamp(2e3, 0.05), _lamp(9e3, 0.05), _lamp(400.0, 0.3, depth=0.5),
     {"light": "pulses", "pulse_frequency": 700.0, "pulse_length": 100e-6},
 ], ids=["code", "flashes", "missed flashes", "half dark", "pulses"])  # fmt: skip
-@pytest.mark.parametrize("luminance", [1000.0, 3600.0])
+@pytest.mark.parametrize("luminance", [2500.0, 3600.0])
 @pytest.mark.parametrize("blur", [0.0, 3.0])
 def test_as_many_lamps_are_found_as_there_are(
     light: dict[str, Any], luminance: float, blur: float
 ) -> None:
-    """At the lower luminance the light is as much above the dark as four times the noise."""
+    """At the lower luminance the mean of missed flashes is little above the noise of the dark."""
     room = _room(light, light, rows=768, columns=1152, luminance=luminance, point_spread=blur,
                  vignetting_exponent=4.0)  # fmt: skip
     assert len(_read(room)) == len(occ.render_room(room, seed=1).lamps) == 2

@@ -1,0 +1,177 @@
+"""A table of the law of grey levels over all mean pixel values, and what follows from it.
+
+The table has a row for each of some levels: a power of the mean value in which noise is as wide
+everywhere, or in which grey levels are. Between two levels the law is interpolated linearly, which
+adds a variance of a sixth of a step's square on average; the table is sharpened by as much.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray, Pixels
+from occ_model.camera.photometry import WHITE
+from occ_model.camera.pixel_noise import GREYS, PixelNoise
+
+_PER_ROOT = 32.0  # levels to the root of an electron, 16 to the deviation of shot noise
+_PER_GREY = 16  # levels to a grey level, where noise is far less
+_FEWEST_TO_WHITE = 256.0
+_MOST_TO_WHITE, _MOST = 4096.0, 8192.0
+_BLOCK = 256  # levels to which a table's height is rounded up
+_BRIGHTEST = 7.0  # deviations above white, or a full well, at which all pixels have the top code
+
+
+@dataclass(frozen=True, eq=False)
+class GreyLaw:
+    """The probability of each grey level that a pixel can have, for mean values up to some end."""
+
+    noise: PixelNoise
+    to_white: float  # Level of white
+    power: float  # Power of the pixel value to which a level is proportional
+    greys: IndexArray  # Shape (greys,): the grey levels that pixels can have
+
+    below: FloatArray
+    """Probability of each grey level but the last, or of a lower one: shape (levels, greys - 1)."""
+
+    def levels_of(self, values: Pixels) -> Pixels:
+        """Return the levels of mean pixel values before saturation, in single precision."""
+        flat = np.maximum(values, np.float32(0.0)).reshape(len(values), -1)
+        levels = np.asarray(cv2.pow(flat, self.power), dtype=np.float32)
+        levels *= np.float32(self.to_white / WHITE**self.power)
+        return np.minimum(levels, np.float32(self.last), out=levels).reshape(values.shape)
+
+    def level_of(self, value: float) -> float:
+        """Return the level of one value, however bright."""
+        return self.to_white * float((min(value, 1e9) / WHITE) ** self.power)
+
+    @property
+    def last(self) -> float:
+        """The last level, up to which values are told apart."""
+        return len(self.below) - 1.001
+
+    def mean(self, values: FloatArray, curve: FloatArray) -> FloatArray:
+        """Return the mean of ``curve``, given for each of 256 grey levels, over pixels.
+
+        ``values`` are the pixels' mean values before saturation.
+        """
+        return self.interpolate(self._mean_of(curve), values)
+
+    def moments(self, values: FloatArray, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return mean and standard deviation of ``curve`` over pixels, as :meth:`mean` does."""
+        places = self._places(values)
+        mean, square = (
+            self._interpolate_at(self._mean_of(each), places) for each in (curve, curve**2)
+        )
+        return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
+
+    @cached_property
+    def means(self) -> FloatArray:
+        """The mean grey level of a pixel at each level, shape (levels,)."""
+        return self._mean_of(np.arange(256.0))
+
+    def values_of(self, means: FloatArray) -> FloatArray:
+        """Return the mean values before saturation of pixels with some mean grey levels.
+
+        They are those of no light where pixels are darker on average, and the brightest of the law
+        where all pixels have the top code.
+        """
+        levels = np.interp(means, np.maximum.accumulate(self.means), np.arange(len(self.means)))
+        return np.asarray(WHITE * (levels / self.to_white) ** (1.0 / self.power))
+
+    @cached_property
+    def gaps(self) -> FloatArray:
+        """The distance at each level from a grey level to the next one that pixels can have.
+
+        If the mean changes by a little, d, pixels change by the gap, and their mean square by d
+        times it. Averaged over the distribution, shape (levels,).
+        """
+        moved = np.abs(np.diff(self.below, axis=0, append=self.below[-1:]))
+        gaps = np.diff(self.greys).astype(np.float64)
+        return np.asarray((moved @ gaps**2 + 1e-12) / (moved @ gaps + 1e-12))
+
+    def fraction_below(self, grey: int, values: FloatArray) -> FloatArray:
+        """Return the probability of a grey level below ``grey``."""
+        rank = int(np.searchsorted(self.greys, grey))
+        if rank == 0:
+            return np.zeros(values.shape)
+        if rank == len(self.greys):
+            return np.ones(values.shape)
+        return self.interpolate(self.below[:, rank - 1], values)
+
+    def histogram(self, values: FloatArray, weights: FloatArray) -> FloatArray:
+        """Return the expected number of pixels of each of 256 grey levels, by their weights."""
+        place, fraction = self._places(values)
+        above = weights * fraction
+        levels = np.bincount(place, weights - above, len(self.below))
+        levels[1:] += np.bincount(place, above, len(self.below))[:-1]
+        used = np.flatnonzero(levels)
+        counts: FloatArray = np.zeros(GREYS)
+        counts[self.greys] = np.maximum(levels[used] @ self._fractions[used], 0.0)
+        return counts
+
+    def interpolate(self, of_levels: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate a quantity, given for each level, at mean pixel values."""
+        return self._interpolate_at(of_levels, self._places(values))
+
+    def _places(self, values: FloatArray) -> tuple[IndexArray, FloatArray]:
+        levels = self.to_white * (np.maximum(values, 0.0) / WHITE) ** self.power
+        np.minimum(levels, self.last, out=levels)
+        place = levels.astype(np.int64)
+        return place, levels - place
+
+    def _interpolate_at(
+        self, of_levels: FloatArray, places: tuple[IndexArray, FloatArray]
+    ) -> FloatArray:
+        place, fraction = places
+        return np.asarray(of_levels[place] + fraction * np.diff(of_levels)[place])
+
+    def _mean_of(self, curve: FloatArray) -> FloatArray:
+        """Return the mean of a curve at each level."""
+        own = curve[self.greys]
+        return np.asarray(own[-1] - self.below @ np.diff(own))
+
+    @cached_property
+    def _fractions(self) -> FloatArray:
+        """Probability of each grey level, shape (levels, greys)."""
+        return np.diff(self.below, axis=1, prepend=0.0, append=1.0)
+
+
+def grey_law(noise: PixelNoise, brightest: float) -> GreyLaw:
+    """Return the law for mean values up to a brightest one, cached for the same sensor."""
+    to_white, power, end = _scale(noise)
+    needed = max(min(brightest, 1e9), 0.0) ** power * (to_white / WHITE**power) + 3.0
+    blocks = math.ceil(min(needed, end) / _BLOCK)
+    return _tabulate(noise, min(blocks * _BLOCK, math.ceil(end)))
+
+
+@lru_cache(maxsize=64)
+def _scale(noise: PixelNoise) -> tuple[float, float, float]:
+    """Return the level of white, the power of a value, and the level of none but top codes."""
+    top = min(noise.full, noise.white)
+    reach = noise.deviation(top) / top  # relative to the top; the gain's part grows with it
+    end = top * (1.0 + _BRIGHTEST * reach) / max(1.0 - _BRIGHTEST * noise.gain_variation, 0.1)
+    end += _BRIGHTEST**2 * noise.is_counted
+    to_white, power = _PER_ROOT * math.sqrt(noise.white), noise.gamma / 2.0
+    if to_white > _MOST_TO_WHITE or not noise.is_counted:
+        to_white, power = _PER_GREY * WHITE, 1.0
+    to_white = max(to_white, _FEWEST_TO_WHITE)
+    last = to_white * (end / noise.white) ** (power / noise.gamma)
+    shrunk = min(_MOST / last, 1.0)
+    return to_white * shrunk, power, last * shrunk + 2.0
+
+
+@lru_cache(maxsize=8)
+def _tabulate(noise: PixelNoise, levels: int) -> GreyLaw:
+    to_white, power, end = _scale(noise)
+    relative = np.arange(levels + 2) / to_white
+    below = noise.fractions(noise.white * relative ** (noise.gamma / power))
+    below[1:-1] -= (below[2:] - 2.0 * below[1:-1] + below[:-2]) / 12.0
+    below = np.clip(below[:-1], 0.0, 1.0)
+    np.maximum.accumulate(below, axis=1, out=below)
+    if levels >= math.ceil(end):
+        below[-1] = 0.0  # brighter pixels than any that differ
+    below.flags.writeable = False
+    return GreyLaw(noise, to_white, power, noise.greys, below)

@@ -1,0 +1,85 @@
+"""The noise of a picture's pixels: their gains, and their grey levels, drawn by bands of rows."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Protocol
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, Pixels
+from occ_model.camera.grey_law import grey_law
+from occ_model.camera.picture_rows import Rows
+from occ_model.camera.pixel_noise import PixelNoise
+from occ_model.camera.row_interpolation import find_smooth_columns
+from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
+from occ_model.scene.scene import Scene
+from occ_model.simulation.pixel_draw import GainPattern, Numbers, dither, grey_table
+
+_MOST_GAIN = 4.0  # standard deviations of the gain that the pattern reaches
+
+_TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
+
+
+class NoiseNumbers(Protocol):
+    """A source of uniform numbers for pixels."""
+
+    has_pattern: bool
+    """Whether gains are those of the sensor; otherwise they are random, as part of the law."""
+
+    def of(self, rows: range, place: slice) -> Numbers:
+        """Return the numbers of some rows of the picture, at their place among those exposed."""
+
+
+class PictureNoise:
+    """Draws the pixels of some rows from their mean values; any thread may draw any rows."""
+
+    def __init__(
+        self, noise: PixelNoise, scene: Scene, brightest: float, numbers: NoiseNumbers
+    ) -> None:
+        """Prepare for mean values up to a brightest one."""
+        self.is_drawn = noise.is_drawn
+        self._numbers = numbers
+        self._columns = scene.camera.columns
+        variation = noise.gain_variation
+        has_pattern = variation > 0.0 and (numbers.has_pattern or not self.is_drawn)
+        power = 1.0 / noise.gamma
+        if self.is_drawn:
+            if has_pattern:
+                noise = replace(noise, gain_variation=0.0)
+                brightest *= (1.0 + _MOST_GAIN * variation) ** power
+            self._law = grey_law(noise, brightest)
+            self._table = grey_table(self._law)
+            self._is_bright = self._law.level_of(brightest) + 2.0 > self._law.last
+            power *= self._law.power
+        size = (scene.camera.rows, scene.camera.columns)
+        seed = scene.sensor.sensor_seed
+        self._pattern = GainPattern(variation, power, seed, size) if has_pattern else None
+
+    def draw(
+        self, mean: Rows, rows: range, place: slice, end_stage: Callable[[str], object]
+    ) -> ByteArray:
+        """Return the grey levels of some rows of pixels, shape (rows, columns)."""
+        levels = mean.change_nodes(self._law.levels_of)
+        if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
+            levels = mean.expand_rows().change_nodes(self._law.levels_of)
+        drawn = self._gains(rows)
+        levels.combine(np.multiply, drawn, levels.nodes, [rim.values for rim in levels.rims])
+        drawn += dither(rows, self._columns)
+        if self._is_bright:
+            np.minimum(drawn, np.float32(self._law.last), out=drawn)
+        end_stage(FixedPattern.name)
+        grey = self._table.draw(drawn, self._numbers.of(rows, place))
+        end_stage(SensorNoise.name)
+        return grey
+
+    def vary(self, mean: Rows, rows: range, end_stage: Callable[[str], object]) -> Pixels:
+        """Return the values of some rows of pixels with their gains, shape (rows, columns)."""
+        varied = self._gains(rows)
+        mean.combine(np.multiply, varied, mean.nodes, [rim.values for rim in mean.rims])
+        end_stage(FixedPattern.name)
+        return varied
+
+    def _gains(self, rows: range) -> Pixels:
+        if self._pattern is None:
+            return np.ones((len(rows), self._columns), dtype=np.float32)
+        return self._pattern.of(rows)

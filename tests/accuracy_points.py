@@ -10,5 +10,4 @@ EACH_WAY = (
     AccuracyPoint("effects", "this plan", 1e-2, 0.0, True, ("led-edges", "vignetting")),
     AccuracyPoint("path", "profile path", 1e-4, 0.4),
     AccuracyPoint("draft", "draft 1/16", 2e-3, 0.8),
-    AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
 )

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from occ_gui.accuracy.named_points import NamedPoint, choose_points
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import ElidedLabel, fill, push_button
-from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin_pen
+from occ_gui.widgets.colours import BAND, PHOTO, REGION, SIMULATION, lighten_for, thin_pen
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
     ACCURACY_PARTS,
@@ -21,18 +21,17 @@ from occ_model.results.accuracy import (
     Forecast,
 )
 
-SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "t", "d"), strict=True))
+SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "t"), strict=True))
 COLOURS: dict[str, QColor] = dict(
-    zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, REGION, NOISE), strict=True)
+    zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, REGION), strict=True)
 )
 
-_GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}  # the symbols as characters
+_GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼"}  # the symbols as characters
 _LEGEND_NAMES = (
     "exposure",
     "effects",
     "path",
     "draft",
-    "noise",
 )  # names of the parts in the legend
 _FLOOR = round(math.log10(LEAST_ERROR))  # power of ten at which all smaller errors are drawn
 _LEAST_HEIGHT = 56  # pixels; small, because the panes of a low window share its height

@@ -27,7 +27,6 @@ def choose_points(points: Iterable[AccuracyPoint]) -> list[NamedPoint]:
         *_name_others(by_part.get("path", [])),  # its picture is the present one
         *(NamedPoint(point, point.name) for point in by_part.get("draft", [])),
         *_name_samplings(by_part.get("integration", [])),
-        *_name_others(by_part.get("noise", [])),
     ]
 
 
@@ -59,9 +58,5 @@ def _name_samplings(points: Sequence[AccuracyPoint]) -> list[NamedPoint]:
 
 
 def _name_others(points: Iterable[AccuracyPoint]) -> list[NamedPoint]:
-    names = {
-        "profile path": "profile only",
-        "reused plane": "noise reused",
-        "drawn for each pixel": "noise drawn",
-    }
+    names = {"profile path": "profile only"}
     return [NamedPoint(point, names[point.name]) for point in points if point.name in names]

@@ -88,6 +88,18 @@ class Rows:
             return self
         return replace(self, nodes=self._expand(self.nodes), weights=None)
 
+    def crop(self, part: slice) -> "Rows":
+        """Return some of the rows."""
+        rims = tuple(
+            replace(rim, values=rim.values[part], inside=rim.inside[part]) for rim in self.rims
+        )
+        nodes, weights = self.nodes, self.weights
+        if weights is not None:
+            weights = weights[part]
+        elif len(nodes) > 1:
+            nodes = nodes[part]
+        return replace(self, rows=self.rows[part], nodes=nodes, weights=weights, rims=rims)
+
     def change_values(self, change: Callable[[Pixels], Pixels]) -> "Rows":
         """Apply a change, which need not keep values smooth; only for rows without weights."""
         return self.change_nodes(change)

@@ -18,11 +18,11 @@ from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.scene.units import LEVEL
 
-_MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "v", "D"), strict=True))
+_MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "v"), strict=True))
 _COLOURS = dict(
     zip(
         ACCURACY_PARTS,
-        (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION, colours.NOISE),
+        (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION),
         strict=True,
     )
 )

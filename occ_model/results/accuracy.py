@@ -14,7 +14,6 @@ ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name
     "effects": "effects, one after the other",
     "path": "columns alone, whole pictures",
     "draft": "drafts: every k-th row of the picture",
-    "noise": "noise drawn, noise used again",
 }
 
 CHAINED_PARTS = ("integration", "effects")  # whose points form curves, except the present one

@@ -1,6 +1,6 @@
 """The noise of a picture's pixels: their gains, and their grey levels, drawn by bands of rows."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Protocol
 
@@ -13,11 +13,13 @@ from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
-from occ_model.simulation.pixel_draw import GainPattern, Numbers, dither, grey_table
+from occ_model.simulation.pixel_draw import GainPattern, Numbers, Scratch, dither, grey_table
 
 _MOST_GAIN = 4.0  # standard deviations of the gain that the pattern reaches
 
 _TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
+
+_CHUNK = 16  # rows drawn at once, whose arrays stay in the processor's cache
 
 
 class NoiseNumbers(Protocol):
@@ -26,8 +28,11 @@ class NoiseNumbers(Protocol):
     has_pattern: bool
     """Whether gains are those of the sensor; otherwise they are random, as part of the law."""
 
-    def of(self, rows: range, place: slice) -> Numbers:
-        """Return the numbers of some rows of the picture, at their place among those exposed."""
+    def of(self, rows: range, place: slice, height: int) -> Iterator[Numbers]:
+        """Yield the numbers of some rows of the picture, ``height`` of them at a time.
+
+        ``place`` is their place among the rows that are exposed.
+        """
 
 
 class PictureNoise:
@@ -56,30 +61,39 @@ class PictureNoise:
         self._pattern = GainPattern(variation, power, seed, size) if has_pattern else None
 
     def draw(
-        self, mean: Rows, rows: range, place: slice, end_stage: Callable[[str], object]
-    ) -> ByteArray:
-        """Return the grey levels of some rows of pixels, shape (rows, columns)."""
+        self, mean: Rows, place: slice, out: ByteArray, end_stage: Callable[[str], object]
+    ) -> None:
+        """Draw the grey levels of some rows of pixels, which are exposed at a place."""
         levels = mean.change_nodes(self._law.levels_of)
         if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
             levels = mean.expand_rows().change_nodes(self._law.levels_of)
-        drawn = self._gains(rows)
-        levels.combine(np.multiply, drawn, levels.nodes, [rim.values for rim in levels.rims])
-        drawn += dither(rows, self._columns)
-        if self._is_bright:
-            np.minimum(drawn, np.float32(self._law.last), out=drawn)
-        end_stage(FixedPattern.name)
-        grey = self._table.draw(drawn, self._numbers.of(rows, place))
-        end_stage(SensorNoise.name)
-        return grey
+        numbers = self._numbers.of(mean.rows, place, _CHUNK)
+        shape = (min(_CHUNK, len(mean.rows)), self._columns)
+        scratch, buffer = Scratch(shape), np.empty(shape, dtype=np.float32)
+        for start, chunk in zip(range(0, len(mean.rows), _CHUNK), numbers, strict=True):
+            part = slice(start, start + len(chunk))
+            drawn = buffer[: len(chunk)]
+            self._vary(levels.crop(part), drawn)
+            drawn += dither(mean.rows[part], self._columns)
+            if self._is_bright:
+                np.minimum(drawn, np.float32(self._law.last), out=drawn)
+            end_stage(FixedPattern.name)
+            self._table.draw(drawn, chunk, out[part], scratch)
+            end_stage(SensorNoise.name)
 
-    def vary(self, mean: Rows, rows: range, end_stage: Callable[[str], object]) -> Pixels:
+    def vary(self, mean: Rows, end_stage: Callable[[str], object]) -> Pixels:
         """Return the values of some rows of pixels with their gains, shape (rows, columns)."""
-        varied = self._gains(rows)
-        mean.combine(np.multiply, varied, mean.nodes, [rim.values for rim in mean.rims])
+        varied = np.empty((len(mean.rows), self._columns), dtype=np.float32)
+        self._vary(mean, varied)
         end_stage(FixedPattern.name)
         return varied
 
-    def _gains(self, rows: range) -> Pixels:
-        if self._pattern is None:
-            return np.ones((len(rows), self._columns), dtype=np.float32)
-        return self._pattern.of(rows)
+    def _vary(self, values: Rows, out: Pixels) -> None:
+        """Multiply values, or levels, by the pixels' gains."""
+        parts = [(slice(None), values.expand_rows().nodes)]
+        parts += [(rim.columns, rim.values) for rim in values.rims]
+        for columns, own in parts:
+            if self._pattern is None:
+                out[:, columns] = own
+            else:
+                self._pattern.vary(values.rows, own, out[:, columns], columns)

@@ -6,9 +6,12 @@ search of L. Devroye, *Non-Uniform Random Variate Generation*, 1986, chapter III
 of a number tell a cell of the table, in which usually at most one grey level ends.
 """
 
+from collections.abc import Iterator
 from functools import lru_cache
 from statistics import NormalDist
+from typing import Any
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,14 +24,25 @@ Numbers = NDArray[np.uint32]  # uniform numbers in units of 2^-32
 _CELL_BITS = 7
 _WHOLE = 2**32
 _SEVERAL = np.uint32(_WHOLE - 1)  # entry of a cell in which several grey levels end
-_CHUNK = 2**16  # pixels drawn at once, whose arrays stay in the processor's cache
+
+
+class Scratch:
+    """Arrays for drawing pixels, which are used again: new ones would be slow."""
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        kinds = (np.int32, np.int64, np.uint32, np.bool_)
+        self._arrays = [np.empty(shape, dtype=kind) for kind in kinds]
+
+    def of(self, rows: int) -> list[Any]:
+        """Return the arrays of some rows."""
+        return [array[:rows] for array in self._arrays]
 
 
 class GreyTable:
     """The quantiles of a law's grey levels."""
 
     def __init__(self, law: GreyLaw) -> None:
-        self._greys = law.greys.astype(np.uint8)
+        self._greys = np.pad(law.greys, (0, GREYS - len(law.greys))).astype(np.uint8)
         self._is_whole = len(law.greys) == GREYS
         ends = np.full((len(law.below), GREYS), _WHOLE - 1, dtype=np.int64)
         ends[:, : law.below.shape[1]] = np.minimum(np.rint(law.below * _WHOLE), _WHOLE - 1)
@@ -52,31 +66,30 @@ class GreyTable:
         entries[after > first + 1] = _SEVERAL
         return entries.ravel()
 
-    def draw(self, levels: Pixels, numbers: Numbers) -> ByteArray:
-        """Return the grey level of each pixel, with the shape of its levels and numbers.
+    def draw(
+        self, levels: Pixels, numbers: Numbers, out: ByteArray, scratch: Scratch | None = None
+    ) -> None:
+        """Draw the grey level of each pixel; all arrays have one shape.
 
-        Both arrays are overwritten.
+        ``numbers`` are overwritten.
         """
-        rank = np.empty(levels.shape, dtype=np.uint8)
-        height = max(_CHUNK // levels.shape[1], 1)
-        for start in range(0, len(levels), height):
-            part = slice(start, start + height)
-            self._draw_ranks(levels[part], numbers[part], rank[part])
-        return rank if self._is_whole else np.asarray(self._greys.take(rank))
-
-    def _draw_ranks(self, levels: Pixels, numbers: Numbers, out: ByteArray) -> None:
-        place = levels.astype(np.int64)
+        place, wide, entry, is_above = (scratch or Scratch(out.shape)).of(len(out))
+        np.copyto(place, levels, casting="unsafe")
         place <<= _CELL_BITS
-        place |= numbers >> np.uint32(32 - _CELL_BITS)
-        entry = self._entries.take(place, mode="wrap")
+        np.right_shift(numbers, np.uint32(32 - _CELL_BITS), out=entry)
+        place |= entry.view(np.int32)
+        np.copyto(wide, place)
+        self._entries.take(wide, mode="wrap", out=entry)
         np.copyto(out, entry, casting="unsafe")
-        several = np.flatnonzero(entry == _SEVERAL)
+        several = np.flatnonzero(np.equal(entry, _SEVERAL, out=is_above))
         if several.size:
-            found = self._search(place.ravel()[several] >> _CELL_BITS, numbers.ravel()[several])
+            found = self._search(wide.ravel()[several] >> _CELL_BITS, numbers.ravel()[several])
         numbers <<= np.uint32(_CELL_BITS)
-        out += (entry < numbers).view(np.uint8)
+        out += np.less(entry, numbers, out=is_above).view(np.uint8)
         if several.size:
-            out.reshape(-1)[several] = found
+            out.flat[several] = found
+        if not self._is_whole:
+            cv2.LUT(out, self._greys, dst=out)
 
     def _search(self, level: IndexArray, numbers: Numbers) -> IndexArray:
         """Return the rank of the grey level at a number, by bisection."""
@@ -104,19 +117,26 @@ class PictureNumbers:
         self._seed = np.random.SeedSequence(seed, spawn_key=(1,))
         self._columns = columns
 
-    def of(self, rows: range, place: slice) -> Numbers:  # noqa: ARG002 - all rows have their own
-        """Return the numbers of some rows, shape (rows, columns)."""
+    def of(
+        self,
+        rows: range,
+        place: slice,  # noqa: ARG002 - a row has its numbers wherever it is exposed
+        height: int,
+    ) -> Iterator[Numbers]:
+        """Yield the numbers of some rows, ``height`` of them at a time."""
         words = -(-self._columns // 2)
         source = np.random.PCG64(self._seed)
         source.advance(rows.start * words)
-        if rows.step == 1:
-            drawn = source.random_raw(len(rows) * words).reshape(len(rows), words)
-        else:
-            drawn = np.empty((len(rows), words), dtype=np.uint64)
-            for row in drawn:
-                row[:] = source.random_raw(words)
-                source.advance((rows.step - 1) * words)
-        return drawn.view(np.uint32)[:, : self._columns]
+        for start in range(0, len(rows), height):
+            count = min(height, len(rows) - start)
+            if rows.step == 1:
+                drawn = source.random_raw(count * words).reshape(count, words)
+            else:
+                drawn = np.empty((count, words), dtype=np.uint64)
+                for row in drawn:
+                    row[:] = source.random_raw(words)
+                    source.advance((rows.step - 1) * words)
+            yield drawn.view(np.uint32)[:, : self._columns]
 
 
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
@@ -153,11 +173,14 @@ class GainPattern:
         """Prepare the pattern of a picture's ``size``, its rows and columns."""
         self._plane, self._step = _gain_plane(variation, power, seed, size)
 
-    def of(self, rows: range) -> Pixels:
-        """Return the powers of the gains in some rows, shape (rows, columns)."""
-        gains = np.multiply(self._plane[rows.start : rows.stop : rows.step], self._step)
-        gains += np.float32(1.0)
-        return gains
+    def vary(self, rows: range, values: Pixels, out: Pixels, columns: slice = slice(None)) -> None:
+        """Multiply values in some rows and columns by the powers of the gains.
+
+        If all rows are equal, ``values`` may have one.
+        """
+        plane = self._plane[rows.start : rows.stop : rows.step, columns]
+        np.multiply(plane, values * self._step, out=out)
+        out += values
 
 
 @lru_cache(maxsize=2)

@@ -173,15 +173,23 @@ class PixelExposure:
             yield _Band(slice(place, place + len(rows)), rows)
             place += len(rows)
 
-    def _expose(self, band: _Band, noise: PictureNoise | None, timer: StageTimer) -> ExposedRows:
+    def _expose(
+        self,
+        band: _Band,
+        noise: PictureNoise | None,
+        timer: StageTimer,
+        out: ByteArray | None = None,
+    ) -> ExposedRows:
+        """Expose some rows; pixels that are drawn may have a place, ``out``."""
         mean = self._mean.of(band.rows, timer.end_stage)
         if noise is not None and noise.is_drawn:
-            values = noise.draw(mean, band.rows, band.place, timer.end_stage)
-            return ExposedRows(band.place, values, mean)
+            drawn = np.empty((len(band.rows), self._shape[1]), np.uint8) if out is None else out
+            noise.draw(mean, band.place, drawn, timer.end_stage)
+            return ExposedRows(band.place, drawn, mean)
         each_row = mean.expand_rows()
         if noise is None:
             return ExposedRows(band.place, self._limit_values(each_row, timer).values, mean)
-        varied = noise.vary(each_row, band.rows, timer.end_stage)
+        varied = noise.vary(each_row, timer.end_stage)
         held = self._limit_values(replace(each_row, nodes=varied, rims=()), timer)
         return ExposedRows(band.place, held.nodes, mean)
 
@@ -205,10 +213,11 @@ class PixelExposure:
 
         def make(band: _Band) -> tuple[ColumnMeans, ColumnMeans, StageTimer]:
             timer = StageTimer()
-            exposed = self._expose(band, noise, timer)
-            before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
             camera, receiver = camera_image[band.place], image[band.place]
-            cv2.convertScaleAbs(exposed.values, dst=camera)
+            exposed = self._expose(band, noise, timer, camera)
+            before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
+            if exposed.values is not camera:
+                cv2.convertScaleAbs(exposed.values, dst=camera)
             timer.end_stage("image")
             stored = self._stored_columns(exposed.mean)
             for file in self._files if stored else ():

@@ -5,11 +5,12 @@ the panel, therefore show what the whole picture would. A band has eight rows, t
 a JPEG file: what becomes of a block depends on that block alone.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, IndexArray
 from occ_model.effects.effect import PaperView
 from occ_model.results.frame import Plan
 from occ_model.simulation.columns import expose_columns
@@ -114,8 +115,17 @@ class SystematicNumbers:
         random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
         self._first = random.integers(0, 2**32, (BAND, columns), dtype=np.uint32)
 
-    def of(self, rows: range, place: slice) -> Numbers:  # noqa: ARG002 - bands follow each other
-        at = np.arange(place.start, place.stop)
+    def of(
+        self,
+        rows: range,  # noqa: ARG002 - bands have their numbers wherever they are
+        place: slice,
+        height: int,
+    ) -> Iterator[Numbers]:
+        """Yield the numbers of rows at a place in the sample, ``height`` of them at a time."""
+        for start in range(place.start, place.stop, height):
+            yield self._numbers(np.arange(start, min(start + height, place.stop)))
+
+    def _numbers(self, at: IndexArray) -> Numbers:
         band = at // BAND
         step = (band // 2 * _QUANTILE_STRIDE % _PAIRS * (2**32 // _PAIRS)).astype(np.uint32)
         numbers: Numbers = self._first[at % BAND] + step[:, None]

@@ -107,7 +107,7 @@ def test_an_absent_effect_changes_nothing_when_switched_on(scene: Scene, name: s
 def test_every_effect_that_is_simulated_is_timed(scene: Scene) -> None:
     complete = whole(scene)
     frame = occ.render(complete, tolerance=0)
-    assert set(NAMES) - set(frame.timings) == {"full-well"}  # in the law of the noise
+    assert set(NAMES) <= set(frame.timings)
     frame = occ.render(complete, tolerance=0, force={"sensor-noise": False})
     assert set(NAMES) - set(frame.timings) == {"sensor-noise"}
     assert all(seconds >= 0.0 for seconds in frame.timings.values())

@@ -25,7 +25,6 @@ POINTS = (
     AccuracyPoint("effects", "this plan", 1e-2, 0.5, current=True, effects=ALL[1:]),
     AccuracyPoint("path", "profile path", 1e-4, 0.4),
     AccuracyPoint("draft", "draft 1/4", 3e-3, 0.3),
-    AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
 )
 NAMED = [point for point in POINTS if point.name != "+ Vignetting"]
 
@@ -55,7 +54,7 @@ def test_each_point_has_its_time_error_and_marker_and_the_present_one_a_ring(
         assert sorted(10**x for x in xs) == pytest.approx(of_part)
         errors = sorted(max(p.error, LEAST_ERROR) for p in NAMED if p.part == part)
         assert sorted(10**y for y in ys) == pytest.approx(errors)
-    assert len(set(SYMBOLS.values())) == len({c.name() for c in COLOURS.values()}) == 5
+    assert len(set(SYMBOLS.values())) == len({c.name() for c in COLOURS.values()}) == 4
     xs, ys = plot.rings.getData()
     assert [10**x for x in xs] == pytest.approx([10.0])
     assert [10**y for y in ys] == pytest.approx([0.5])

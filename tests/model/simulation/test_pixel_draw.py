@@ -44,7 +44,9 @@ def draw(scene: Scene, value: float, pixels: int) -> np.ndarray:
     level = law(scene).levels_of(np.full((1, 1), value, dtype=np.float32))
     for start in range(0, pixels // 2**12, rows):
         block = range(start, start + rows)
-        greys = table.draw(dither(block, 2**12) + level, numbers.of(block, slice(0, rows)))
+        (own,) = numbers.of(block, slice(0, rows), rows)
+        greys = np.empty((rows, 2**12), dtype=np.uint8)
+        table.draw(dither(block, 2**12) + level, own, greys)
         counts += np.bincount(greys.ravel(), minlength=256)
     return counts
 
@@ -139,8 +141,9 @@ def test_a_drafts_rows_are_the_pictures(step: int) -> None:
 
 @pytest.mark.parametrize("shift", [(0, 1), (1, 0), (1, 1), (32, 0)])
 def test_pixels_are_uncorrelated_with_their_neighbours(shift: tuple[int, int]) -> None:
-    numbers = PictureNumbers(4, 500).of(range(1000), slice(0, 1000))
-    greys = GreyTable(law(Scene())).draw(dither(range(1000), 500) + np.float32(100.0), numbers)
+    (numbers,) = PictureNumbers(4, 500).of(range(1000), slice(0, 1000), 1000)
+    greys = np.empty((1000, 500), dtype=np.uint8)
+    GreyTable(law(Scene())).draw(dither(range(1000), 500) + np.float32(100.0), numbers, greys)
     deviation = greys - greys.mean()
     moved = np.roll(deviation, shift, axis=(0, 1))
     correlation = np.corrcoef(deviation.ravel(), moved.ravel())[0, 1]

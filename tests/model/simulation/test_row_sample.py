@@ -84,7 +84,7 @@ def _numbers_of_bands(columns: int) -> np.ndarray:
     """Return the numbers of all bands, from 0 to 1: shape (bands, rows, columns)."""
     source = SystematicNumbers(columns, 3)
     places = [slice(BAND * band, BAND * (band + 1)) for band in range(BANDS)]
-    return np.stack([source.of(range(BAND), place) for place in places]) / 2.0**32
+    return np.stack([next(source.of(range(BAND), at, BAND)) for at in places]) / 2.0**32
 
 
 def test_a_small_picture_is_not_sampled() -> None:

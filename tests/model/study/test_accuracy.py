@@ -11,7 +11,6 @@ from PIL import Image
 import occ_model as occ
 from occ_model.camera.exposure import lit_fraction
 from occ_model.cli import main
-from occ_model.effects.effect import paper_view_of
 from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.accuracy import (
@@ -80,19 +79,9 @@ def test_the_last_added_effect_gives_the_complete_simulation(points: list[Accura
 
 @pytest.mark.parametrize("tolerance", [pytest.param(0.0, marks=pytest.mark.whole), 5.0])
 def test_the_current_setting_is_marked_exactly_once(tolerance: float) -> None:
-    scene, settings = small("phone-136us-real"), SimulationSettings(tolerance, noise="reused")
+    scene, settings = small("phone-136us-real"), SimulationSettings(tolerance)
     (current,) = [point for point in accuracy(scene, settings) if point.current]
     assert set(current.effects) == set(occ.plan(scene, tolerance).included)
-
-
-def test_both_noise_sources_have_the_sensors_noise() -> None:
-    scene = small("phone-68us")
-    drawn, reused = select_part(list(accuracy(scene)), "noise")
-    region = paper_view_of(scene).region
-    size = sum(decision.estimate for decision in occ.plan(scene).decisions)
-    # The standard error of the root mean square of n numbers is its 1 / sqrt(2 n).
-    for point in (drawn, reused):
-        assert point.error < 5 * size / np.sqrt(2 * region.rows * region.columns)
 
 
 def test_samples_count_chips_that_are_lit() -> None:
@@ -124,7 +113,7 @@ def test_the_command_prints_the_table_and_writes_the_figure(
 ) -> None:
     settings = [word for setting in SMALL for word in ("--set", setting)]
     folder = tmp_path / "new"
-    command = ["accuracy", *settings, "--noise", "reused", "--tolerance", "2", "--out", str(folder)]
+    command = ["accuracy", *settings, "--tolerance", "2", "--out", str(folder)]
     assert main(command) == 0
     printed = capsys.readouterr().out.splitlines()
     assert sum("<- current" in line for line in printed) == 1

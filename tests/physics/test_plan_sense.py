@@ -9,8 +9,10 @@ from occ_model.scene.scene import Scene
 
 
 def close_up() -> Scene:
-    """Make a bright panel that fills more than 3,000 rows, in light that leaves nothing black."""
-    scene = occ.load_preset("phone-68us").replace(distance=0.6, illuminance=10_000.0)
+    """Make a bright panel that fills more than 3,000 rows, whose pixels all hold many electrons."""
+    scene = occ.load_preset("phone-68us").replace(
+        distance=0.6, illuminance=10_000.0, pixel_pitch=3e-6, full_well=1e5, adc_bits=14
+    )
     assert paper_view_of(scene).region.rows > 3000
     return scene
 
@@ -26,7 +28,7 @@ def test_a_bright_close_panel_needs_no_noise_for_its_profile() -> None:
 
 
 def test_a_far_panel_of_twenty_rows_needs_noise() -> None:
-    far = close_up().replace(panel_height=0.02, distance=3.4)
+    far = close_up().replace(panel_height=0.02, distance=3.4, pixel_pitch=1e-6)
     assert paper_view_of(far).region.rows == 20
     assert "sensor-noise" in noises(far)
 

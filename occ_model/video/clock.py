@@ -23,7 +23,9 @@ _TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies too small for coherence by
 
 _MIN_RELATIVE_COHERENCE = 0.8  # fraction of the best coherence from which an alias is fitted
 _MIN_COHERENCE = 0.5  # minimum coherence of phases with the frame times
-_MAX_NOISE = 1 / 6  # scatter of phases, in periods, from which whole periods are miscounted
+# Scatter of phases, in periods, from which whole periods are miscounted, or a few agree by chance
+_MAX_NOISE, _MAX_NOISE_OF_SHORT = 1 / 8, 1 / 12
+_SHORT_FILM = 20  # frames
 _PART_GROWTH = 1.3  # factor by which the fitted part of the film grows, once its frequency is known
 
 _MAX_CHI_SQUARED_EXCESS = 9.0  # above this, three standard deviations, an alias is excluded
@@ -37,7 +39,8 @@ def fit_clock(phases: FramePhases, low: float, high: float) -> tuple[ClockFit, .
         _follow_phase(phases, reduced_phases, alias)
         for alias in _find_aliases(phases, reduced_phases, low, high)
     ]
-    max_noise = _MAX_NOISE * phases.period
+    is_short = len(phases.times) < _SHORT_FILM
+    max_noise = (_MAX_NOISE_OF_SHORT if is_short else _MAX_NOISE) * phases.period
     fits = _drop_repeated(
         [fit for fit in all_fits if low <= fit.frequency <= high and fit.noise <= max_noise]
     )

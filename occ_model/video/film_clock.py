@@ -116,19 +116,24 @@ class FilmPhases:
         by_film = fit.frequency / tick
         film_error = math.hypot(by_phase, period_error) if is_by_number else by_phase
         frequency, error = self.known.join(by_film, film_error)
-        scale = period_error if self.known.frequency_tolerance is None else error
-        if not is_by_number:  # the mean of uneven steps has an error of its own
-            scale = math.hypot(period_error, error)
-        frame_period = period.value * by_film / frequency
         readout, by_step = fit.step / frequency, fit.step_error / fit.step
+        frame_period = period.value * by_film / frequency
         read = self.columns * readout
-        # By number, the frame period, the readout time and the gap share the error of the clock.
-        gap, scaled = frame_period - read, frame_period - read if is_by_number else frame_period
+        gap = frame_period - read
+        if self.known.frequency_tolerance is not None:
+            # The frame period is that of the phases by the lamp's clock, which the gap shares.
+            of_period = math.hypot(error, by_phase, 0.0 if is_by_number else period_error)
+            gap_error = math.hypot(gap * error, frame_period * by_phase, read * by_step)
+        else:
+            of_period = period_error
+            gap_error = math.hypot(gap * period_error, read * math.hypot(by_step, by_phase))
+        if not is_by_number:  # the mean of uneven steps has an error of its own
+            gap_error = math.hypot(gap_error, frame_period * period_error)
         return ClockSolution(
             MeasuredValue(frequency, error * frequency),
             MeasuredValue(readout, readout * math.hypot(by_step, error)),
-            MeasuredValue(frame_period, frame_period * scale),
-            MeasuredValue(gap, math.hypot(scaled * scale, read * math.hypot(by_step, by_phase))),
+            MeasuredValue(frame_period, frame_period * of_period),
+            MeasuredValue(gap, gap_error),
             slow_motion=round(self.times.period.value / period.value),
         )
 

@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from film_clocks import KNOWN, RESOLUTIONS, judged_clocks
 
-NAMES = ("switching_frequency", "readout_time", "gap")
+NAMES = ("switching_frequency", "readout_time", "gap", "frame_period")
 
 
 def main(count: int) -> None:

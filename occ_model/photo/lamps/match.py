@@ -1,6 +1,7 @@
 """Match every lamp in a photo with a scene."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -66,9 +67,10 @@ def match_lamps(
             progress=lambda fraction: report(begin + each * fraction),
         )
 
+    beside = [] if any(lamp.modulated for lamp in lamps) else _other_axis(photo)
     for number, lamp in enumerate(lamps):
         if not lamp.modulated:
-            matched.append((lamp, MatchError(_why_no_stripes(photo, lamp))))
+            matched.append((lamp, MatchError(_why_no_stripes(photo, lamp), *beside)))
             continue
         try:
             matched.append((lamp, match(lamp, _SEARCH_FRACTION + each * number)))
@@ -85,3 +87,12 @@ def _why_no_stripes(photo: Photo, lamp: Lamp) -> str:
         f"No stripes were found in it: its {inflect(columns, 'column')} differ by {span:.2g} grey "
         "levels."
     )
+
+
+def _other_axis(photo: Photo) -> list[str]:
+    """Say that lamps blink along the other axis; empty if none does."""
+    turned = replace(photo, samples=np.ascontiguousarray(photo.samples.T))
+    if not any(lamp.modulated for lamp in find_lamps(turned)):
+        return []
+    axis = "columns" if photo.turned else "lines"
+    return [f"Lamps blink along the other axis: read the photo with {axis} as the scan axis."]

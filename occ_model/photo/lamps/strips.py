@@ -12,7 +12,9 @@ from occ_model.photo.reading.load import Photo, column_means
 from occ_model.results.lamp import Lamp
 
 _MOST_STRIPS = 480
-_LEAST_ROWS = 8
+_ROWS, _LEAST_ROWS, _FEW_STRIPS = 8, 4, 32
+"""Rows of a strip; in small photos fewer, for so many strips: a bar of light has at least two."""
+
 
 _FINE_COLUMNS, _CELL_COLUMNS = 2000, 4
 """Number of columns above which columns are averaged in cells of so many: sensors with many pixels
@@ -32,7 +34,8 @@ def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArr
     of each strip, and the number of rows.
     """
     rows, columns = photo.samples.shape
-    count = int(np.clip(rows // _LEAST_ROWS, 1, _MOST_STRIPS))
+    count = max(rows // _ROWS, min(rows // _LEAST_ROWS, _FEW_STRIPS), 1)
+    count = min(count, _MOST_STRIPS)
     bounds = np.arange(count + 1, dtype=np.int64) * rows // count
     means = np.empty((count, columns))
     for strip in range(count):

@@ -33,6 +33,8 @@ __all__ = ["CHANNELS", "Photo", "column_means", "load_photo"]
 _USUAL_FRACTION = 0.97
 """Fraction of the smallest differences between neighbours, which are not at a panel's edges."""
 
+_STRIP_PIXELS, _MOST_STRIPS = 8, 240  # lines or columns of a strip, and how many at most
+
 Corners: TypeAlias = Region | Sequence[int]
 """A Region, or first row, row after the last, first column, column after the last."""
 
@@ -219,11 +221,27 @@ def _in_grey_levels(samples: Samples) -> ByteArray:
 def stripes_are_lines(samples: Samples, transposed: bool) -> bool:
     """Return whether the means of neighbouring lines differ more than those of columns.
 
-    Lines and columns are those of the upright photo; ``samples`` may be ``transposed``.
+    The means of the whole photo show faint bars, those of strips of it show small lamps. Lines and
+    columns are those of the upright photo; ``samples`` may be ``transposed``.
     """
     axes = (1, 0) if transposed else (0, 1)
-    columns, lines = (roughness_along(samples, axis) for axis in axes)
+    columns, lines = (
+        roughness_along(samples, axis) * _shared_steps(samples, axis) for axis in axes
+    )
     return lines > columns
+
+
+def _shared_steps(samples: Samples, axis: int) -> float:
+    """Return the root sum of squares of the steps in strips of pixels that the next strip shares.
+
+    The steps of noise differ from strip to strip, and so add nothing.
+    """
+    count = max(1, min(samples.shape[axis] // _STRIP_PIXELS, _MOST_STRIPS))
+    shape = (samples.shape[1], count) if axis == 0 else (count, samples.shape[0])
+    means = cv2.resize(samples, shape, interpolation=cv2.INTER_AREA).astype(np.float32)
+    steps = np.diff(means if axis == 0 else means.T, axis=1)
+    shared = np.vdot(steps[1:], steps[:-1]) if count > 1 else np.vdot(steps, steps)
+    return math.sqrt(max(float(shared), 0.0))
 
 
 def roughness_along(samples: Samples | ByteArray, axis: int) -> float:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.errors import MatchError, ParameterError
+from occ_model.photo.camera.advice import mains_advice
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
 from occ_model.photo.evidence.unexplained import why_not_as_sent, why_unread
@@ -92,10 +93,16 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     report(0.0)
     if _is_lamp(scene, sent):
         within = region.region if isinstance(region, Lamp) else region_within(photo, region)
-        match = match_lamp(
-            photo, scene, within,
-            estimate=estimate, is_duty_known=sent == "scene", fit_gamma=fit_gamma,
-        )  # fmt: skip
+        advice = mains_advice(scene) if estimate == ESTIMATES[0] else ()
+        try:
+            match = match_lamp(
+                photo, scene, within,
+                estimate=estimate, is_duty_known=sent == "scene", fit_gamma=fit_gamma,
+            )  # fmt: skip
+        except MatchError as error:
+            raise MatchError(*error.reasons, *advice) from None
+        if match.reasons:
+            match = replace(match, reasons=(*match.reasons, *advice))
     else:
         how = _Settings(estimate, sent, averaging, fit_gamma, region)
         match = _match_chips(photo, _in_chips(scene, is_read=sent == "read"), how, report)

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.results.fact import Fact
+from occ_model.scene.light_words import MAINS_HARMONIC
 from occ_model.scene.units import HERTZ, NONE, PERCENT, SECOND
-
-HARMONIC = 2  # cycles of a mains lamp's light in one cycle of the mains
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,7 +66,7 @@ class CameraMeasurement:
     @property
     def light_frequency(self) -> float:
         """Cycles of the light a second: twice those of the mains."""
-        return HARMONIC * self.mains_frequency
+        return MAINS_HARMONIC * self.mains_frequency
 
     def _estimate(self, name: str) -> str:
         unit = NONE if name == "bars" else SECOND

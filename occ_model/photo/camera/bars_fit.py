@@ -23,7 +23,7 @@ _LEAST_SHARE = 0.2  # of a wave's energy in harmonics that those of twice or thr
 # What is believed of the logarithms of the scales before: deviations, and the farthest.
 _SPREAD, _FARTHEST = np.array([1.5, 0.4, 0.7, 2.0, 0.5]), np.array([3.0, 0.7, 1.4, 3.0, 1.0])
 _APART = 0.04  # difference of numbers of bars, relative, that makes two of them other answers
-_MODULATIONS = (0.03, 0.06, 0.12, 0.25, 0.5)
+_MODULATIONS = (0.06, 0.12, 0.25, 0.5)
 _NO_MODULATION = 1e-3
 _BENDS = np.linspace(-0.06, 0.06, 7)
 
@@ -244,18 +244,19 @@ def _widened(search: Search, bars: float, variance: float) -> float:
     """Widen a variance by what tiles have in common, and by how far they disagree.
 
     Modulations are independent in the model's tiles, but the same lamps light all of them: their
-    part of the variance is taken as that of one tile.
+    part of the variance is taken as if half of the tiles showed the same one.
     """
     step = 0.5 * math.sqrt(variance)
     places = (bars + step, bars, bars - step)
     models = [BarsModel(search.lines, each, FINE) for each in places]
     even = replace(search.scales, modulation=_NO_MODULATION)
-    least = 1.0 / _curvature([model.log_evidences(even) for model in models], step)
+    steepest = _curvature([model.log_evidences(even) for model in models], step)
+    least = min(1.0 / steepest, variance)
     logs = [model.log_evidences(search.scales) for model in models]
     slopes = (logs[0] - logs[2]) / (2.0 * step)
     tiles = len(slopes)
     scatter = float(((slopes - slopes.mean()) ** 2).sum()) * tiles / (tiles - 1)
-    common = least + tiles * max(variance - least, 0.0)
+    common = least + 0.5 * tiles * (variance - least)
     return common * max(1.0, scatter / _curvature(logs, step))
 
 

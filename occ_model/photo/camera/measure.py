@@ -2,18 +2,20 @@
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from occ_model.errors import MatchError, ParameterError, inflect
 from occ_model.photo.camera.bars_fit import BarsFit, fit_bars, search_bars
-from occ_model.photo.camera.quotient import quotient_of_lines
-from occ_model.photo.camera.verdict import LEAST_FOR_ANY, doubts, refuse
+from occ_model.photo.camera.quotient import LineValues, quotient_of_lines
+from occ_model.photo.camera.verdict import LEAST_FOR_ANY, doubts, refuse, tilt_of
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.results.camera import HARMONIC, CameraMeasurement
+from occ_model.results.camera import CameraMeasurement
 from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.light_words import MAINS_HARMONIC
 from occ_model.scene.parameters import quantity
 
 _MAINS_ERROR = 4e-4
@@ -65,22 +67,23 @@ def measure_camera(
     found = []
     for number, axis in enumerate(axes, 1):
         lines = quotient_of_lines(loaded, axis)
-        fit = fit_bars(search_bars(lines))
-        found.append((axis, lines, fit, doubts(lines, fit, is_single=len(loaded) == 1)))
+        found.append(_Along(axis, lines, fit_bars(search_bars(lines)), len(loaded) == 1))
         report(0.2 + 0.7 * number / len(axes))
-    axis, lines, fit, reasons = max(
-        found, key=lambda each: (each[2].gap_to_none > LEAST_FOR_ANY, -len(each[3]),
-                                 each[2].gap_to_none)
-    )  # fmt: skip
-    refuse(loaded, axes, lines, fit)
+    best = max(found, key=_Along.credit)
+    refuse(loaded, axes, best.lines, best.fit)
     report(1.0)
-    frequency = HARMONIC * mains_frequency
+    return _result(best, float(mains_frequency))
+
+
+def _result(best: "_Along", mains_frequency: float) -> CameraMeasurement:
+    fit, lines, is_single = best.fit, best.lines, best.is_single
+    frequency = MAINS_HARMONIC * mains_frequency
     frame = fit.bars / frequency
     relative = math.hypot(fit.deviation / fit.bars, _MAINS_ERROR)
     waves = np.log((1.0 + fit.clipped_waves) / (1.0 - fit.clipped_waves))
     depth = _depth(waves)
     return CameraMeasurement(
-        mains_frequency=float(mains_frequency),
+        mains_frequency=mains_frequency,
         bars=fit.bars,
         readout_time=frame / lines.lines,
         frame_readout_time=frame,
@@ -89,15 +92,32 @@ def measure_camera(
             "readout_time": relative * frame / lines.lines,
             "frame_readout_time": relative * frame,
         },
-        scan_axis=axis,
+        scan_axis=best.axis,
         lines=lines.lines,
-        pictures=len(loaded),
+        pictures=1 if is_single else MOST_PICTURES,
         depth=depth,
-        longest_exposure=_longest_exposure(depth, fit, frequency) if len(loaded) == 1 else None,
+        longest_exposure=_longest_exposure(depth, fit, frequency) if is_single else None,
         waves=waves,
-        reasons=tuple(reasons),
+        reasons=tuple(doubts(lines, fit, is_single=is_single)),
         other_bars=None if math.isnan(fit.other) else fit.other,
     )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Along:
+    """The bars along one axis of the pictures."""
+
+    axis: str
+    lines: LineValues
+    fit: BarsFit
+    is_single: bool
+
+    def credit(self) -> tuple[float, ...]:
+        """Return what orders the axes: of one picture how level bars are, else how many doubts."""
+        fit, shows_any = self.fit, self.fit.gap_to_none > LEAST_FOR_ANY
+        if self.is_single:
+            return (shows_any, -tilt_of(self.lines, fit).largest)
+        return (shows_any, -len(doubts(self.lines, fit, is_single=False)), fit.gap_to_none)
 
 
 def _load(photos: Sequence[Photo | str | Path]) -> list[Photo]:

@@ -18,13 +18,18 @@ LEAST_FOR_ANY = 60.0  # bars over no bars, for a doubtful answer
 _LEAST_FOR_SURE = 300.0  # the same for a sure one
 _LEAST_GAP = 40.0  # over other numbers of bars
 _FEWEST_SURE_BARS = 1.9  # fewer do not show that they repeat
-_LARGEST_ERROR = 0.03  # relative
+_LARGEST_ERROR = 0.015  # relative
+_SAME = 0.03  # relative difference of two numbers of bars that are one
 _BENT, _PERHAPS_BENT = 15.0, 6.0  # a lens correction over none
 _MOST_MODULATION = 0.5
 
 # Of one picture, in which the room's own pattern does not cancel:
 _MOST_TEXTURE = 0.1  # scatter along a line, and misfit, over the swing of the bars
 _MOST_TILT = 5e-4  # bars over lines, in radians: what people hang is level to about 1e-2
+_SLANTED = 0.08  # the same, above which lamps on other phases do not explain it
+
+
+_ANOTHER = "Take a second picture a moment later, and give both."
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +40,13 @@ class _Tilt:
     deviation: float
 
     @property
+    def largest(self) -> float:
+        """The largest slope that is credible."""
+        return abs(self.slope) + 2.0 * self.deviation
+
+    @property
     def is_level(self) -> bool:
-        return abs(self.slope) + 2.0 * self.deviation < _MOST_TILT
+        return self.largest < _MOST_TILT
 
 
 def refuse(photos: list[Photo], axes: list[str], lines: LineValues, fit: BarsFit) -> None:
@@ -48,6 +58,11 @@ def refuse(photos: list[Photo], axes: list[str], lines: LineValues, fit: BarsFit
         )
     if fit.gap_to_none < LEAST_FOR_ANY:
         raise MatchError(*_why_none(photos, axes))
+    if len(photos) == 1 and tilt_of(lines, fit).largest > _SLANTED:
+        raise MatchError(
+            "The picture's pattern is not along its lines, as bars of light are: it may be the "
+            f"room's own. {_ANOTHER}"
+        )
     if fit.bend_gap > _BENT and abs(fit.bend) > 0.0:
         raise MatchError(
             f"The bars are bent, by {PERCENT.format(abs(fit.bend), 1)} in the corners: the camera "
@@ -68,7 +83,7 @@ def _why_none(photos: list[Photo], axes: list[str]) -> list[str]:
     )
     for axis in axes:
         stand = [bars for photo in photos if (bars := _alone(photo, axis)) is not None]
-        if len(stand) < len(photos) or abs(stand[0] / stand[1] - 1.0) > _LARGEST_ERROR:
+        if len(stand) < len(photos) or abs(stand[0] / stand[1] - 1.0) > _SAME:
             continue
         return [
             f"Each picture shows {stand[0]:.1f} bars, at the same place in both: bars that stand "
@@ -113,11 +128,12 @@ def doubts(lines: LineValues, fit: BarsFit, *, is_single: bool) -> list[str]:
 def _doubts_about_one(lines: LineValues, fit: BarsFit) -> list[str]:
     swing = float(np.median(np.ptp(fit.waves, axis=1)))
     rough = max(lines.texture, fit.residual)
-    another = "Take a second picture a moment later, and give both."
     if rough > _MOST_TEXTURE * swing:
-        return [f"One picture does not tell bars of light from the room's own pattern. {another}"]
+        return [f"One picture does not tell bars of light from the room's own pattern. {_ANOTHER}"]
     if not tilt_of(lines, fit).is_level:
-        return [f"The bars are not exactly along the lines, as blinds or slats would be. {another}"]
+        return [
+            f"The bars are not exactly along the lines, as blinds or slats would be. {_ANOTHER}"
+        ]
     return []
 
 

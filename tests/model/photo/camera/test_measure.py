@@ -148,3 +148,14 @@ def test_the_result_is_kept_as_json_and_answers_in_a_sentence(tmp_path: Path) ->
     assert kept["verdict"] == "sure"
     assert measured.sentence.startswith("Your camera reads a line in 103.")
     assert measured.longest_exposure == pytest.approx(0.02)
+
+
+def test_a_match_of_mains_light_points_to_the_measurement(tmp_path: Path) -> None:
+    photo = occ.load_photo(saved(tmp_path, wall())[0], "lines")
+    scene = occ.load_preset("phone-136us").replace(light="lamp", lamp_frequency=100.0)
+    try:
+        said = occ.match_photo(photo, scene).reasons
+    except occ.MatchError as error:
+        said = error.reasons
+    assert "occ-model camera --mains 50Hz" in said[-1]
+    assert "chips" not in " ".join(said)

@@ -143,6 +143,6 @@ class Sensor(Group):
     )
     sensor_seed: int = count_field(
         "Sensor's number", "", "Which sensor of its kind: another one has other gains.",
-        0, 2**32 - 1, 1,
+        0, 2**31 - 1, 1,
     )
     # fmt: on

@@ -204,7 +204,8 @@ class VideoFile(Video):
                 "cut off or damaged."
             )
             return
-        times = np.array(self._times[:frames]) - self._first_time
+        # A film whose first frame is shown late states its length from the time 0 on.
+        times = np.array(self._times[:frames]) - min(self._first_time, 0.0)
         end = float(times[-1]) if frames else 0.0
         usual = 1.0 / self.frame_rate if self.frame_rate else 0.0
         longest = max(float(np.diff(times).max()) if frames > 1 else 0.0, usual)

@@ -1,5 +1,6 @@
 """Films as cameras write them: levels, orientation, fields, times, and edits."""
 
+import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -328,6 +329,54 @@ def test_a_film_of_which_an_edit_shows_a_part_is_whole(tmp_path: Path) -> None:
     assert (len(frames), film.frame_count, film.problem) == (18, 18, None)
     assert frames[0].image[0, 0] == pytest.approx((26 - 16) * 255 / 219, abs=1.5)
     assert film.frame(7).image[0, 0] == frames[7].image[0, 0]
+
+
+EDITS = {  # of frames, as first and end, or of nothing for some frames
+    "two pieces": [(10, 20), (40, 50)],
+    "exchanged": [(40, 50), (10, 20)],
+    "repeated": [(10, 20), (10, 20)],
+    "late": [None, (10, 20)],
+}
+
+
+@pytest.mark.parametrize("edits", EDITS.values(), ids=EDITS)
+def test_a_film_of_edits_shows_its_pieces_one_after_the_other(
+    tmp_path: Path, edits: list[tuple[int, int] | None]
+) -> None:
+    path = tmp_path / "a.mp4"
+    pictures = [np.full((LINES, COLUMNS), 20 + number, np.uint8) for number in range(60)]
+    write(path, Encoder("libx264", options={"g": "20", "bf": "2"}), pictures)
+    path.write_bytes(with_edits(path.read_bytes(), edits))
+    shown = [number for piece in edits if piece for number in range(*piece)]
+    film = occ.load_video(path)
+    frames = list(film)
+    assert (len(frames), film.frame_count, film.problem) == (len(shown), len(shown), None)
+    for frame, number in zip(frames, shown, strict=True):
+        assert frame.image[0, 0] == pytest.approx((4 + number) * 255 / 219, abs=1.5)
+        assert frame.time == pytest.approx(frame.index / RATE, abs=1e-3)
+    assert film.frame(len(shown) - 2).image[0, 0] == frames[-2].image[0, 0]
+
+
+def with_edits(film: bytes, edits: list[tuple[int, int] | None]) -> bytes:
+    """Give an MP4 film, whose boxes are at its end, another list of edits."""
+    place = film.index(b"edts") - 4
+    (size,) = struct.unpack_from(">I", film, place)
+    (start,) = struct.unpack_from(">i", film, film.index(b"elst") + 16)
+    unit = 15_360 // RATE
+    rows = [
+        (round(1000 / RATE * (end - first)), start + first * unit, 1, 0)
+        for first, end in ((0, 0) if edit is None else edit for edit in edits)
+    ]
+    rows = [(500, -1, 1, 0) if edit is None else row for row, edit in zip(rows, edits, strict=True)]
+    table = struct.pack(">II", 0, len(rows)) + b"".join(struct.pack(">IihH", *row) for row in rows)
+    inner = struct.pack(">I4s", 8 + len(table), b"elst") + table
+    new = struct.pack(">I4s", 8 + len(inner), b"edts") + inner
+    changed = bytearray(film[:place] + new + film[place + size :])
+    for outer in (b"moov", b"trak"):
+        position = film.rindex(outer) - 4
+        (old,) = struct.unpack_from(">I", changed, position)
+        struct.pack_into(">I", changed, position, old + len(new) - size)
+    return bytes(changed)
 
 
 def test_the_picture_of_an_animation_for_other_programs_is_not_a_frame(tmp_path: Path) -> None:

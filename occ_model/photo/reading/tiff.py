@@ -111,12 +111,12 @@ def has_short_tags(file: IO[bytes]) -> bool:
 
 
 def describe_samples(file: IO[bytes]) -> str:
-    """Describe the samples of a TIFF's first picture, and those that are read, for a sentence."""
+    """Describe the samples of a TIFF's first picture, and what to do, for a sentence."""
     with suppress(ValueError):
         entries = {entry.tag: entry for entry in next(directories(file))}
         tags = {tag: numbers_of(file, entries[tag]) for tag in _SAMPLES if tag in entries}
         bits, kinds = (tags.get(tag) or [1.0] for tag in _SAMPLES)
         kind = _KINDS.get(round(kinds[0]), "another format")
         samples = f"a pixel has {len(bits)} x {bits[0]:g} bits of {kind}"
-        return f"{samples}; allowed: whole numbers up to 16 bits, floating point of 32"
+        return f"{samples}; save it as PNG, or as TIFF of colours of 8 or 16 bits"
     return "its tags are incomplete"

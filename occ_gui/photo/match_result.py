@@ -14,6 +14,7 @@ from occ_gui.photo.match_figures import (
     describe_stale_value,
     is_match_certain,
 )
+from occ_gui.widgets.answer import MoreButton
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
@@ -34,7 +35,10 @@ _MARGIN = 4
 
 
 class MatchVerdictView(QWidget):
-    """The verdict on a match as a word on a coloured background, with its reasons."""
+    """The verdict on a match as a word on a coloured background.
+
+    Its reasons are a label of their own, to be put elsewhere.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -49,8 +53,7 @@ class MatchVerdictView(QWidget):
         self.word.setSizePolicy(fixed, fixed)
         self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, minimum)
         self._verdict, self._is_outdated = "", False
-        row = fill(QHBoxLayout(), self.word, None)
-        fill(QVBoxLayout(self), row, self.reasons, margins=0, spacing=_MARGIN)
+        fill(QHBoxLayout(self), self.word, None, margins=0)
 
     def show_verdict(self, verdict: str, reasons: Sequence[str]) -> None:
         """Show a verdict, SURE or DOUBTFUL, with a sentence for each reason."""
@@ -99,12 +102,20 @@ class MatchResult(QWidget):
         self.warning.hide()
         self.cure = paragraph()
         self._make_buttons()
+        self.more, self.details = MoreButton(), QWidget()
+        self.details.hide()
+        self.more.toggled.connect(self.details.setVisible)
+        fill(
+            QVBoxLayout(self.details),
+            self.verdict.reasons, self.condition, self.figures, self.paste,
+            margins=0, spacing=4,
+        )  # fmt: skip
         fill(
             QVBoxLayout(self),
             # Most photographers look for the cure, so it is visible without scrolling.
-            self.verdict, self.warning, self.condition, self.cure,
-            (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft), self.figures, self.paste,
-            fill(QHBoxLayout(), self.apply, self.save, None), None,
+            self.verdict, self.warning, self.cure,
+            (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft),
+            fill(QHBoxLayout(), self.apply, self.save, None), self.more, self.details, None,
             margins=0, spacing=4,
         )  # fmt: skip
 

@@ -6,6 +6,7 @@ from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QObject
 
 from occ_gui.background.task import Task
+from occ_gui.photo.fitted_stripes import FittedStripes
 from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController, cure_of_match
@@ -82,6 +83,7 @@ class PhotoPane(Pane[ShownPhoto]):
         works = (photos.work, self.matching, self.lamps, *self.works)
         self.tasks = (*(work.task for work in works), self.many.runner)
         self.outlines = LampOutlines(image.photo.box)
+        self.stripes = FittedStripes(image.photo.box)
         self._shown = ShownPhoto(scenes.scene, None, photos.choice)
         self._comparison_inputs = comparison_inputs(self._shown)
         view.show_scene(scenes.scene)
@@ -166,8 +168,10 @@ class PhotoPane(Pane[ShownPhoto]):
             is_own = part.outcome is not None and not part.outcome.is_listed
             own_path = part.photo.path if part.photo is not None and is_own else None
             view.many.rows.mark_earlier(own_path)
+            self.stripes.show_match(part.match)
         if part.match is not None and (is_new or part.validity != last.validity):
             view.show_match_outdated(*part.validity)
+            self.stripes.show_valid(not part.validity[0])
         running = (part.is_matching, part.refusal)
         is_other_photo = part.photo is not last.photo
         if is_new or is_other_photo or running != (last.is_matching, last.refusal):

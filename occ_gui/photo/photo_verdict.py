@@ -11,12 +11,10 @@ from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import Badge, State
 from occ_model.errors import inflect, one_line
-from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
+from occ_model.results.match_sentence import describe_match
 from occ_model.results.photo_table import SURE, PhotoRow
-from occ_model.scene.parameters import quantity
-from occ_model.scene.units import PERCENT
 
 STEPS = {
     "open": ("Open", "Open a photo of a rolling-shutter camera."),
@@ -174,14 +172,14 @@ class PhotoVerdictBar(StateBar):
         return self._judge_match(self._match)
 
     def _judge_match(self, match: Match) -> tuple[State, tuple[str, ...]]:
-        description = self._describe_match(match)
-        if match.verdict == SURE and not match.exposure_reasons:
-            return State.GOOD, ("Photo: sure match", description)
+        sentence = self._describe_match(match)
         if match.verdict == SURE:
-            title = "Photo: sure, but for the exposure"
-            return State.GOOD, (title, " ".join((*match.all_reasons, description)), description)
-        reason = _shorten_reasons(match.all_reasons)
-        return State.DOUBTFUL, ("Photo: doubtful match", f"{reason} {description}", reason)
+            title = "Photo: sure match"
+            if match.only_exposure_is_doubtful:
+                title = "Photo: sure, but for the exposure"
+            return State.GOOD, (title, sentence)
+        reason = _shorten_reasons(match.reasons)
+        return State.DOUBTFUL, ("Photo: doubtful match", f"{sentence} {reason}", reason)
 
     def caption(self) -> str:
         """Return a figure's caption: the photo's name, its verdict and the estimates."""
@@ -190,13 +188,8 @@ class PhotoVerdictBar(StateBar):
         name = f"photo {one_line(self._photo.path.name)}"
         if self._match is None or self._outdated_reason or self._refusal:
             return f"{name}, not matched"
-        verdict = self._match.verdict
-        if self._match.only_exposure_is_doubtful:
-            verdict = f"{verdict} but for the exposure time"
-        description = self._describe_match(self._match)
-        if self._is_applied:
-            return f"{name}, the match is {verdict}. {description}"
-        return f"{name}; its match is {verdict}, but not this scene's. {description}"
+        whose = "" if self._is_applied else ", whose match is not this scene's"
+        return f"{name}{whose}. {self._describe_match(self._match)}"
 
     def _judge_row(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return the state and the sentences for the table's result."""
@@ -207,20 +200,7 @@ class PhotoVerdictBar(StateBar):
         return state, (title, f"{row.note} {advice}".strip(), row.note or advice)
 
     def _describe_match(self, match: Match) -> str:
-        parts = []
-        for name in (match.estimate, "exposure_time"):
-            declared, spread = quantity(name), match.uncertainties.get(name)
-            value = estimate_text(declared, getattr(match, name), spread)
-            if name == "readout_time":
-                value = f"{value} a line"
-            if name == "exposure_time" and match.only_exposure_is_doubtful:
-                value = f"{value} (doubtful)"
-            parts.append(f"{declared.in_sentence} {value}")
-        duty, error = match.duty, match.uncertainties.get("duty")
-        if duty is not None and error is not None:
-            parts.append(f"duty {PERCENT.format_estimate(duty, error)}")
-        description = condition_of(match, self._certain) + ", ".join(parts)
-        return f"{description[0].upper()}{description[1:]}."
+        return describe_match(match, condition_of(match, self._certain))
 
 
 def _shorten_reasons(reasons: Sequence[str]) -> str:

@@ -8,20 +8,31 @@ from PySide6.QtWidgets import QToolButton, QVBoxLayout, QWidget
 from occ_gui.widgets.building import fill, heading_font, paragraph
 
 
+class MoreButton(QToolButton):
+    """A button that shows and hides what stands below it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setText("More")
+        self.setToolTip("Why, and what else follows.")
+        self.setCheckable(True)
+        self.setAutoRaise(True)
+        self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.toggled.connect(self._point)
+        self._point(False)
+
+    def _point(self, unfolds: bool) -> None:
+        self.setArrowType(Qt.ArrowType.DownArrow if unfolds else Qt.ArrowType.RightArrow)
+
+
 class Answer(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.line, self.details = (paragraph(is_selectable=True) for _ in range(2))
         self.line.setFont(heading_font(self.font()))
-        self.more = QToolButton()
-        self.more.setText("More")
-        self.more.setToolTip("Why, and what else follows.")
-        self.more.setCheckable(True)
-        self.more.setAutoRaise(True)
-        self.more.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.more.toggled.connect(self._unfold)
+        self.more = MoreButton()
+        self.more.toggled.connect(self.details.setVisible)
         fill(QVBoxLayout(self), self.line, self.more, self.details, margins=0, spacing=4)
-        self._unfold(False)
         self.show_answer("")
 
     def show_answer(self, line: str, details: Iterable[str] = ()) -> None:
@@ -30,7 +41,3 @@ class Answer(QWidget):
         self.details.setText(text)
         self.more.setVisible(bool(text))
         self.details.setVisible(bool(text) and self.more.isChecked())
-
-    def _unfold(self, unfolds: bool) -> None:
-        self.more.setArrowType(Qt.ArrowType.DownArrow if unfolds else Qt.ArrowType.RightArrow)
-        self.details.setVisible(unfolds)

@@ -27,6 +27,7 @@ from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading, Match, known_parameter
+from occ_model.results.match_sentence import describe_match
 from occ_model.results.photo_table import assumption
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.parameters import quantity
@@ -171,7 +172,11 @@ def _assumption_of_match(match: Match, scene: Scene, options: argparse.Namespace
 def _report_lines(match: Match, assumption: str, noted: float | None) -> list[str]:
     """Describe a match in lines; ``noted`` is the exposure time in seconds by the camera."""
     verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
-    return [*verdict, *format_facts(match_facts(match, assumption, noted))]
+    return [
+        describe_match(match, assumption),
+        *verdict,
+        *format_facts(match_facts(match, assumption, noted)),
+    ]
 
 
 _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")

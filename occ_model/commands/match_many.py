@@ -11,9 +11,9 @@ from occ_model.errors import ParameterError, inflect, one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
-from occ_model.photo.match_facts import estimate_text
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.results.match import known_parameter, known_value
+from occ_model.results.match_sentence import estimate_text
 from occ_model.results.photo_table import (
     DOUBTFUL,
     SURE,

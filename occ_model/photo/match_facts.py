@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from occ_model.photo.many.other_programs import frame_of_match
 from occ_model.results.fact import Fact
 from occ_model.results.match import Alternative, Match
-from occ_model.scene.parameter_kinds import Quantity
+from occ_model.results.match_sentence import estimate_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import PERCENT, Unit
 
@@ -42,9 +42,6 @@ LABELS = {
 
 _NUMBERS = {2: "two", 3: "three", 4: "four", 8: "eight"}
 _DIGITS = 4
-
-_LARGEST_ERROR = 0.5  # relative standard deviation above which only an upper limit is stated
-_LIMIT_DEVIATIONS = 2.0  # number of standard deviations by which the limit exceeds the estimate
 
 
 def match_facts(match: Match, condition: str = "", noted: float | None = None) -> tuple[Fact, ...]:
@@ -153,15 +150,3 @@ def _alternative(alternative: Alternative, estimated: str, condition: str) -> st
         f"{text}; {condition}{parameter.in_sentence} {parameter.format(value, _DIGITS)}, exposed "
         f"for {exposure}"
     )
-
-
-def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
-    """Format an estimate in SI units, with its deviation if any, to the significant digits.
-
-    An exposure time with a large error is stated as an upper limit, since the value minus its error
-    would be close to zero or negative.
-    """
-    text = quantity.unit.format_estimate(value, deviation)
-    if quantity.name != "exposure_time" or deviation is None or deviation <= _LARGEST_ERROR * value:
-        return text
-    return f"below {quantity.format(value + _LIMIT_DEVIATIONS * deviation, 2)} ({text})"

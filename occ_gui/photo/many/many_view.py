@@ -19,8 +19,9 @@ from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import inflect
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
-from occ_model.photo.match_facts import LABELS, estimate_text
+from occ_model.photo.match_facts import LABELS
 from occ_model.results.match import known_parameter, known_value
+from occ_model.results.match_sentence import estimate_text
 from occ_model.results.photo_table import (
     VERDICTS,
     CombinedEstimate,

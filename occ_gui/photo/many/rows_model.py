@@ -17,7 +17,8 @@ from PySide6.QtGui import QGuiApplication, QPalette
 from occ_gui.photo.match_result import SIGNS
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import ParameterError, one_line
-from occ_model.photo.match_facts import LABELS, estimate_text
+from occ_model.photo.match_facts import LABELS
+from occ_model.results.match_sentence import estimate_text
 from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable
 from occ_model.scene.parameters import quantity
 from occ_model.scene.refusal import refusal_of

@@ -62,6 +62,7 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     match = replace(match, scene=match.scene.replace(columns=1000))
     view.show_matched(match)
     paste = view.result.paste
+    view.result.more.setChecked(True)
     assert view.result.condition.text() == "These values hold only if f = 2 kHz."
     assert view.result.figures.labels["frame"].text() == "14.57770 ± 0.00027 ms"
     assert (paste.lines, paste.reason.isVisible()) == ({}, True)
@@ -106,9 +107,25 @@ def test_what_was_not_estimated_is_not_shown(view: LiveView, match: Match) -> No
     estimated = replace(match, uncertainties={"gamma": 0.05}, other_exposures=(1e-3, 2e-3))
     for shown, there in ((match, False), (estimated, True)):
         view.show_matched(shown)
+        view.result.more.setChecked(True)
         titles = [label.text() for label in view.result.findChildren(QLabel) if label.isVisible()]
         assert ("Gamma" in titles) == there
         assert ("1 ms or 2 ms" in titles) == there
+
+
+def test_reasons_and_values_are_behind_a_button_that_stays_pressed(
+    view: LiveView, match: Match
+) -> None:
+    doubtful = replace(match, reasons=("Few periods.",))
+    view.show_matched(doubtful)
+    result = view.result
+    folded = (result.verdict.reasons, result.figures, result.condition)
+    assert not any(part.isVisible() for part in folded)
+    for is_open in (True, False, True):
+        result.more.setChecked(is_open)
+        assert all(part.isVisible() == is_open for part in folded)
+    view.show_matched(replace(doubtful, gamma=2.0))
+    assert all(part.isVisible() for part in folded)
 
 
 def test_without_a_match_there_is_nothing_to_apply(
@@ -136,6 +153,7 @@ def test_a_result_that_depends_on_an_assumed_value_says_so_until_it_is_confirmed
 ) -> None:
     view.show_scene(match.scene.replace(switching_frequency=2e3))
     view.show_matched(match)
+    view.result.more.setChecked(True)
     assumed = ["14.57770 ± 0.00027 µs", "2 kHz (assumed)", "62.50 ± 0.21 µs"]
     assert estimates(view) == assumed
     assert view.result.condition.isVisible()
@@ -193,7 +211,8 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
 ) -> None:
     view.show_matched(match)
     result, steps, bar = view.result, view.steps, view.verdict
-    assert result.verdict.geometry().bottom() < result.figures.geometry().top()
+    result.more.setChecked(True)
+    assert result.more.geometry().bottom() < result.details.geometry().top()
     for why in ("of another part of the photo", ""):
         is_present = not why
         view.show_match_outdated(why, usable=is_present)
@@ -210,5 +229,5 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
             ["Match: done", "Apply: done"] if is_present else ["Match: next step", "Apply"]
         )
         assert bar.state is (State.GOOD if is_present else State.WAITING)
-        assert (why or "readout time") in bar.accessibleDescription()
+        assert (why or "reads a line in") in bar.accessibleDescription()
         assert result.mark.text == why or is_present

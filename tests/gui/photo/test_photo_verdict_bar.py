@@ -51,14 +51,13 @@ def test_a_sure_match_says_what_was_found_and_what_it_depends_on(
 ) -> None:
     view.show_matched(match)
     said = bar.accessibleDescription()
-    assert "readout time 14.57770 ± 0.00027 µs" in said
-    assert "exposure time 62.50 ± 0.21 µs" in said
-    assert "If f = 2 kHz" in said
+    assert "If f = 2 kHz: your camera reads a line in 14.57770 ± 0.00027 µs; " in said
+    assert "; exposed for 62.50 ± 0.21 µs; sure." in said
     view.show_matched(match_of_lamp())  # named by the lamp's own frequency
-    assert "If it is a lamp of 1 kHz: readout" in bar.accessibleDescription()
+    assert "If it is a lamp of 1 kHz: your camera reads" in bar.accessibleDescription()
     dimmed = match_of_lamp(0.6, uncertainties={**match.uncertainties, "duty": 0.01})
     view.show_matched(dimmed)
-    assert ", duty 60.0 ± 1.0 %." in bar.accessibleDescription()
+    assert "; lit for 60.0 ± 1.0 % of the time; exposed for " in bar.accessibleDescription()
     view.show_matched(replace(match, reasons=REASONS))
     assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
     assert f"{REASONS[0]} And 1 more reason." in bar.accessibleDescription()
@@ -71,10 +70,10 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
     assert (bar.state, bar.heading) == (
         State.GOOD, "Photo: sure, but for the exposure",
     )  # fmt: skip
-    told = bar.accessibleDescription()
-    assert f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}" in told
-    assert "exposure time 62.50 ± 0.21 µs (doubtful)" in told
-    assert "sure but for the exposure time" in bar.caption()
+    for told in (bar.accessibleDescription(), bar.caption()):
+        assert "exposed for 62.50 ± 0.21 µs (doubtful); sure otherwise." in told
+    why = f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}"
+    assert why in view.result.verdict.reasons.text()
 
 
 def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
@@ -88,8 +87,8 @@ def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
             said = view.result.condition.text().removeprefix("These values hold only ").rstrip(".")
             condition = f"{said.lower()}: " if is_assumed else ""
             told = bar.accessibleDescription().lower()
-            assert f"{condition}readout time" in told
-            assert ("if " in told) == view.result.condition.isVisible() == is_assumed
+            assert f"{condition}your camera reads a line" in told
+            assert ("if " in told) == (not view.result.condition.isHidden()) == is_assumed
 
 
 def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
@@ -135,11 +134,11 @@ def test_the_caption_of_a_figure_names_the_photo_and_the_verdict_on_its_match(
     view.open(photo)
     assert bar.caption() == "photo stripes.png, not matched"
     view.show_matched(match)
-    assert bar.caption().startswith("photo stripes.png, the match is sure. If f = 2 kHz: readout")
-    assert "exposure time 62.50 ± 0.21 µs" in bar.caption()
+    assert bar.caption().startswith("photo stripes.png. If f = 2 kHz: your camera reads a line in")
+    assert "exposed for 62.50 ± 0.21 µs; sure." in bar.caption()
     bar.show_applied(False)  # the picture in the figure is of another scene
     assert bar.caption().startswith(
-        "photo stripes.png; its match is sure, but not this scene's. If f"
+        "photo stripes.png, whose match is not this scene's. If f = 2 kHz"
     )
     view.show_match_outdated("of another part of the photo: match again", usable=False)
     assert bar.caption() == "photo stripes.png, not matched"

@@ -119,6 +119,7 @@ def test_the_accuracy_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf)
 
 def test_a_doubtful_match_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
     view = gallery.show(MatchResult(), 360, 460)
+    view.more.setChecked(True)
     other = Alternative("the scene's chips", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
     match = match_with(
         scene=small_scene,

@@ -81,7 +81,7 @@ def test_a_difference_is_printed_times_its_gain_where_both_overlap_and_listed_wi
 
 
 def test_the_sentence_about_the_photo_is_below_it_and_in_the_table() -> None:
-    about = "photo of $10.png, the match is sure. If f = 2 kHz: readout time 7.00 ± 0.02 µs a line."
+    about = "photo of $10.png. If f = 2 kHz: your camera reads a line in 7.00 ± 0.02 µs; sure."
     profile = Comparison(0, FRAME.profile, FRAME.profile, 1.0)
     drawings = (
         picture_drawing(FRAME, None, PHOTO, about=about),

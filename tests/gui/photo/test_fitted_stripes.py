@@ -1,0 +1,31 @@
+"""The fitted stripes lie over those of the photo that they explain."""
+
+import numpy as np
+import pyqtgraph as pg
+from matches import match_of_lamp
+from PySide6.QtCore import QRectF
+from PySide6.QtWidgets import QApplication
+
+from occ_gui.photo.fitted_stripes import FittedStripes, stripes_of
+
+
+def test_they_cover_the_columns_of_the_region_and_a_third_of_its_rows(qapp: QApplication) -> None:
+    box, match = pg.ViewBox(), match_of_lamp()
+    stripes = FittedStripes(box)
+    assert not any(item.isVisible() for item in stripes.items)
+    stripes.show_match(match)
+    region = match.region
+    expected = QRectF(
+        region.first_column - 0.5,
+        region.first_row - 0.5,
+        region.columns,
+        max(1, round(region.rows / 3)),
+    )
+    assert stripes.frame.rect() == stripes.picture.boundingRect() == expected
+    assert all(item.isVisible() for item in stripes.items)
+    assert stripes.picture.image.shape == (1, len(match.profile))
+    assert np.abs(stripes_of(match)[0] - match.profile).max() <= 0.5
+    stripes.show_valid(False)
+    assert not any(item.isVisible() for item in stripes.items)
+    stripes.show_match(None)
+    assert not any(item.isVisible() for item in stripes.items)

@@ -10,7 +10,13 @@ import numpy as np
 from occ_model.errors import MatchError, ParameterError, inflect
 from occ_model.photo.camera.bars_fit import BarsFit, fit_bars, search_bars
 from occ_model.photo.camera.quotient import LineValues, quotient_of_lines
-from occ_model.photo.camera.verdict import LEAST_FOR_ANY, doubts, refuse, tilt_of
+from occ_model.photo.camera.verdict import (
+    LEAST_FOR_ANY,
+    doubts,
+    refuse,
+    stated_deviation,
+    tilt_of,
+)
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.camera import CameraMeasurement
@@ -79,7 +85,8 @@ def _result(best: "_Along", mains_frequency: float) -> CameraMeasurement:
     fit, lines, is_single = best.fit, best.lines, best.is_single
     frequency = MAINS_HARMONIC * mains_frequency
     frame = fit.bars / frequency
-    relative = math.hypot(fit.deviation / fit.bars, _MAINS_ERROR)
+    deviation = stated_deviation(fit)
+    relative = math.hypot(deviation / fit.bars, _MAINS_ERROR)
     waves = np.log((1.0 + fit.clipped_waves) / (1.0 - fit.clipped_waves))
     depth = _depth(waves)
     return CameraMeasurement(
@@ -88,7 +95,7 @@ def _result(best: "_Along", mains_frequency: float) -> CameraMeasurement:
         readout_time=frame / lines.lines,
         frame_readout_time=frame,
         uncertainties={
-            "bars": fit.deviation,
+            "bars": deviation,
             "readout_time": relative * frame / lines.lines,
             "frame_readout_time": relative * frame,
         },

@@ -22,6 +22,8 @@ _LARGEST_ERROR = 0.015  # relative
 _SAME = 0.03  # relative difference of two numbers of bars that are one
 _BENT, _PERHAPS_BENT = 15.0, 6.0  # a lens correction over none
 _MOST_MODULATION = 0.5
+# Relative deviations of answers that are doubtful for these reasons, from the same simulated pairs.
+_ERROR_OF_FEW, _ERROR_OF_CHANGING = 0.12, 0.08
 
 # Of one picture, in which the room's own pattern does not cancel:
 _MOST_TEXTURE = 0.1  # scatter along a line, and misfit, over the swing of the bars
@@ -99,6 +101,18 @@ def _alone(photo: Photo, axis: str) -> float | None:
     fit = fit_bars(search_bars(lines))
     is_strong = fit.gap_to_none > _LEAST_FOR_SURE
     return fit.bars if is_strong and tilt_of(lines, fit).is_level else None
+
+
+def stated_deviation(fit: BarsFit) -> float:
+    """Return the standard deviation of the number of bars, with what a doubt adds to it."""
+    parts = [fit.deviation]
+    if fit.bars < _FEWEST_SURE_BARS:
+        parts.append(_ERROR_OF_FEW * fit.bars)
+    if fit.scales.modulation > _MOST_MODULATION:
+        parts.append(_ERROR_OF_CHANGING * fit.bars)
+    if fit.gap < _LEAST_GAP:
+        parts.append(0.5 * abs(fit.other - fit.bars))
+    return math.hypot(*parts)
 
 
 def doubts(lines: LineValues, fit: BarsFit, *, is_single: bool) -> list[str]:

@@ -159,3 +159,12 @@ def test_a_match_of_mains_light_points_to_the_measurement(tmp_path: Path) -> Non
         said = error.reasons
     assert "occ-model camera --mains 50Hz" in said[-1]
     assert "chips" not in " ".join(said)
+
+
+def test_fewer_bars_than_two_are_doubtful_with_a_wide_error(tmp_path: Path) -> None:
+    measured = measured_along_lines(saved(tmp_path, wall(frame=14e-3), wall(0.4, frame=14e-3)))
+    error = measured.uncertainties["frame_readout_time"]
+    assert measured.verdict == "doubtful"
+    assert "at least 1.9 are needed" in measured.reasons[0]
+    assert measured.frame_readout_time == pytest.approx(14e-3, abs=2.0 * error)
+    assert error > 0.1 * measured.frame_readout_time

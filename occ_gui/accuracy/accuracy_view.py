@@ -120,12 +120,6 @@ class AccuracyView(QWidget):
             {"image": "picture", **{name: name for name in ("profile", "signal", "decision")}},
             is_fixed=True,
         )
-        self.noise = KeyedComboBox(
-            "Noise",
-            "Noise drawn for every pixel, or taken from a stored plane: much faster.",
-            {"reused": "reused", "exact": "exact"},
-            is_fixed=True,
-        )
         self.summary, self.ends = ElidedLabel(), ElidedLabel()
         self.ends.hide()
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
@@ -140,10 +134,9 @@ class AccuracyView(QWidget):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        controls = fill(QHBoxLayout(), (self.tolerance, 1), spacing=8)
-        for text, control in (("of the", self.observable), ("Noise", self.noise)):
-            controls.addWidget(QLabel(text))
-            controls.addWidget(control)
+        controls = fill(
+            QHBoxLayout(), (self.tolerance, 1), QLabel("of the"), self.observable, spacing=8
+        )
         second_row = fill(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
         fill(
             QVBoxLayout(self),
@@ -169,7 +162,6 @@ class AccuracyView(QWidget):
         self.tolerance.show_value(settings.tolerance)
         self.table.show_tolerance(settings.tolerance)
         self.observable.show_key(settings.observable)
-        self.noise.show_key(settings.noise)
         self.table.show_force(settings.force)
 
     def offer_decision(self, has_code: bool) -> None:

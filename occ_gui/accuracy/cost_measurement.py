@@ -30,10 +30,8 @@ class SceneCosts:
 
         Times measured in turn with other pictures replace them, because only those can be compared.
         """
-        measured, requested = self.request.settings, request.settings
         is_comparable = _comparison_key(request) == _comparison_key(self.request)
-        has_times = self.request.scene == request.scene and measured.noise == requested.noise
-        pictures = self.pictures if has_times else ()
+        pictures = self.pictures if self.request.scene == request.scene else ()
         same_pictures = (each for each in pictures if each.included == picture.included)
         return MeasuredCosts(
             next(same_pictures, picture),

@@ -148,7 +148,6 @@ class AccuracyPane(PiecesPane):
         self.measures = (self.study,)
         view.tolerance_edited.connect(settings.set_tolerance)
         view.observable.chosen.connect(settings.set_observable)
-        view.noise.chosen.connect(settings.set_noise)
         view.table.switched.connect(scenes.force)
         view.refused.connect(self.status_message)
         view.accepted.connect(self.accepted)

@@ -93,7 +93,7 @@ def make_parser() -> argparse.ArgumentParser:
     add_scene_options(parser)
     add_simulation_options(parser)
     # Noise that is fast enough for sliders; a preset that is named replaces the last session.
-    parser.set_defaults(noise="reused", preset=DefaultOption(DEFAULT_PRESET))
+    parser.set_defaults(preset=DefaultOption(DEFAULT_PRESET))
     parser.add_argument(
         "files", nargs="*", type=Path, metavar="FILE", help="open a scene (.toml) or photos"
     )

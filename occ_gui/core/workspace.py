@@ -13,8 +13,8 @@ from occ_model.results.sweep_request import ShownQuantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene, SimulationSettings
 
-FIRST_SETTINGS = SimulationSettings(noise="reused")
-"""The first settings of the window, with noise that is fast enough for sliders."""
+FIRST_SETTINGS = SimulationSettings()
+"""The first settings of the window."""
 
 
 @dataclass(frozen=True, slots=True)

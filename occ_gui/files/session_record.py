@@ -37,7 +37,6 @@ from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import DECLARED, FRAME_RATE
 from occ_model.scene.scene import (
-    NOISE_SOURCES,
     OBSERVABLES,
     TOLERANCE,
     Scene,
@@ -323,13 +322,12 @@ def _read_scene(text: Any) -> Scene:
 
 def _read_settings(values: Any) -> SimulationSettings:
     force = _read_force(values["force"])
-    _require(values["observable"] in OBSERVABLES and values["noise"] in NOISE_SOURCES)
+    _require(values["observable"] in OBSERVABLES)
     check_seed(values["seed"])
     return SimulationSettings(
         tolerance=TOLERANCE.check(values["tolerance"]),
         observable=values["observable"],
         force={name: on for name, on in force.items() if name in NAMES},
-        noise=values["noise"],
         seed=values["seed"],
     )
 

@@ -71,7 +71,7 @@ def make_picture(source: PictureSource, report: TaskReporter) -> RoomPicture:
     if source.photo is not None:
         return _read_photo(source, source.photo, report)
     room = source.room
-    image = render_room(room, noise="reused").camera_image
+    image = render_room(room).camera_image
     picture = RoomPicture(source, room, image, _reduce(image), None)
     report(picture)
     return replace(picture, reading=read_room(image, room))

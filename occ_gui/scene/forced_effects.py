@@ -45,24 +45,17 @@ def _tolerance_text(settings: SimulationSettings) -> str:
 
 
 def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> Badge | None:
-    """Return the status line's badge; None if nothing is set by hand and the noise is exact."""
-    by_hand, is_reused = describe_accuracy(settings, labels), settings.noise == "reused"
+    """Return the status line's badge; None if nothing is set by hand."""
+    by_hand = describe_accuracy(settings, labels)
+    if not by_hand:
+        return None
     count = len(settings.force)
     forced = forced_text(settings.force, labels)
     if count > _MOST_NAMED:
         forced = f"{inflect(count, 'effect')} by hand"
-    parts = (_tolerance_text(settings), forced, "reused noise" if is_reused else "")
-    text = " · ".join(part for part in parts if part)
-    if not text:
-        return None
-    meanings = [f"{by_hand}."] if by_hand else []
-    if is_reused:
-        meanings.append(
-            "The noise is read from a stored plane, which is much faster than drawing new noise."
-        )
-    meanings.append("The mode Effects shows what this changes.")
-    state = State.DOUBTFUL if by_hand else State.NEUTRAL
-    return Badge("accuracy", text, "\n".join(meanings), state)
+    text = " · ".join(part for part in (_tolerance_text(settings), forced) if part)
+    meaning = f"{by_hand}.\nThe mode Effects shows what this changes."
+    return Badge("accuracy", text, meaning, State.DOUBTFUL)
 
 
 class ForcedEffects(QWidget):

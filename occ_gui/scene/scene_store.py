@@ -15,7 +15,6 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import refusal_of
 from occ_model.scene.scene import (
     TOLERANCE,
-    NoiseSource,
     Observable,
     Scene,
     SimulationSettings,
@@ -50,9 +49,6 @@ class SettingsStore(QObject):
 
     def set_observable(self, observable: Observable) -> None:
         self._put(replace(self.settings, observable=observable))
-
-    def set_noise(self, noise: NoiseSource) -> None:
-        self._put(replace(self.settings, noise=noise))
 
     def _put(self, settings: SimulationSettings) -> None:
         self._store.put(replace(self._store.workspace, settings=settings))
@@ -112,7 +108,7 @@ class SceneStore(QObject):
     def _planned_settings(self) -> SimulationSettings:
         """Return the settings with all effects left to the plan, and the usual tolerance."""
         settings = self.settings.settings
-        return replace(FIRST_SETTINGS, noise=settings.noise, seed=settings.seed)
+        return replace(FIRST_SETTINGS, seed=settings.seed)
 
     def begin(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
         """Replace the scene in one step, and leave all effects to the plan."""

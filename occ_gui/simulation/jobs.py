@@ -106,9 +106,7 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
     camera = request.scene.camera
     if camera.rows * camera.columns <= SMALL_PICTURE or is_fast(planned):
         return None
-    # Exact noise would be no closer to that of the picture, for which it is drawn anew.
-    settings = replace(request.settings, noise="reused")
-    return render_with(request.scene, settings, request.draft_step, planned=planned)
+    return render_with(request.scene, request.settings, request.draft_step, planned=planned)
 
 
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:

@@ -17,7 +17,6 @@ from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_f
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import (
-    NOISE_SOURCES,
     OBSERVABLES,
     Scene,
     SimulationSettings,
@@ -154,10 +153,9 @@ def add_switches(parser: argparse.ArgumentParser) -> None:
 
 
 def add_noise_options(parser: argparse.ArgumentParser) -> None:
-    defaults = SimulationSettings()
-    meaning = "exact: random numbers for each pixel; reused: stored ones, many times faster"
-    add_option(parser, "--noise", defaults.noise, meaning, choices=NOISE_SOURCES)
-    add_option(parser, "--seed", defaults.seed)
+    # Of former versions, and ignored: noise is always drawn for every pixel.
+    parser.add_argument("--noise", help=argparse.SUPPRESS)
+    add_option(parser, "--seed", SimulationSettings().seed)
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:
@@ -167,7 +165,7 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
     return SimulationSettings(
-        options.tolerance, options.observable, forced_effects(options), options.noise, options.seed
+        options.tolerance, options.observable, forced_effects(options), seed=options.seed
     ).check(NAMES)
 
 

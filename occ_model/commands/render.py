@@ -76,7 +76,7 @@ def _add_plan(commands: Commands) -> None:
     add_scene_options(parser)
     add_plan_options(parser)
     defaults = SimulationSettings()
-    parser.set_defaults(command=_list_effects, noise=defaults.noise, seed=defaults.seed)
+    parser.set_defaults(command=_list_effects, seed=defaults.seed)
 
 
 def _list_effects(options: argparse.Namespace) -> int:

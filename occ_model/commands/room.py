@@ -146,7 +146,7 @@ def _run_render(options: argparse.Namespace) -> int:
 def _render_with_settings(room: Room, settings: SimulationSettings) -> RoomFrame:
     return render_room(
         room, tolerance=settings.tolerance, seed=settings.seed, observable=settings.observable,
-        force=settings.force, noise=settings.noise,
+        force=settings.force,
     )  # fmt: skip
 
 

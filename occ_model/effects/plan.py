@@ -12,7 +12,6 @@ from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.results.frame import Decision, EffectSet, Plan
 from occ_model.scene.scene import (
     TOLERANCE,
-    NoiseSource,
     Observable,
     Scene,
     SimulationSettings,
@@ -191,7 +190,7 @@ def effect_sets_of(scene: Scene, settings: SimulationSettings) -> tuple[EffectSe
 
 def _sets_of(view: PaperView, settings: SimulationSettings) -> EffectSets:
     force = tuple(sorted(settings.force.items()))
-    return _cached_sets(view, settings.observable, force, settings.noise)
+    return _cached_sets(view, settings.observable, force)
 
 
 @lru_cache(maxsize=4)  # a picture, its forecast and its decoding ask for the same sets
@@ -199,9 +198,8 @@ def _cached_sets(
     view: PaperView,
     observable: Observable,
     force: tuple[tuple[str, bool], ...],
-    noise: NoiseSource,
 ) -> EffectSets:
-    settings = SimulationSettings(observable=observable, force=dict(force), noise=noise)
+    settings = SimulationSettings(observable=observable, force=dict(force))
     return EffectSets.of(estimates_of(view, settings), view, settings)
 
 

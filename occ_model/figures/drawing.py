@@ -142,7 +142,6 @@ def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
     observable = settings.observable
     return (
         f"tolerance {settings.tolerance:g} {unit_of(observable)} of the {observable}",
-        f"noise {settings.noise}",
         f"by hand: {forced or 'nothing'}",
     )
 

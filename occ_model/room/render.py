@@ -24,7 +24,6 @@ from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import LampView, lamps_in_view
 from occ_model.scene.scene import (
     TOLERANCE,
-    NoiseSource,
     Observable,
     Pose,
     Scene,
@@ -93,7 +92,7 @@ def render_room(
     seed: int = 1,
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,
-    noise: NoiseSource = "exact",
+    noise: object = None,  # noqa: ARG001 - of former versions
 ) -> RoomFrame:
     """Simulate the picture that a room's camera takes.
 
@@ -112,7 +111,7 @@ def render_room(
     ProjectionError
         A lamp in the picture reaches behind the camera, or the picture would be too large.
     """
-    settings = SimulationSettings(tolerance, observable, force or {}, noise, seed).check(NAMES)
+    settings = SimulationSettings(tolerance, observable, force or {}, seed=seed).check(NAMES)
     check_size(room.scene.camera)
     timer = StageTimer()
     lamp_views = lamps_in_view(room)

@@ -3,7 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 from typing import Any, Literal, Self, TypeAlias
 
 from occ_model.errors import ParameterError, SceneFileError, one_line, quote
@@ -37,12 +37,6 @@ def unit_of(observable: Observable) -> str:
     return "margins" if observable == "decision" else LEVEL.symbol
 
 
-NoiseSource: TypeAlias = Literal["exact", "reused"]
-"""Source of noise: random numbers for every pixel, or one stored plane of noise used repeatedly."""
-
-NOISE_SOURCES: tuple[NoiseSource, ...] = ("exact", "reused")
-
-
 TOLERANCE = Quantity(
     "tolerance",
     "Tolerance",
@@ -66,7 +60,7 @@ class SimulationSettings:
     force
         Effects that the user has switched on (True) or off (False).
     noise
-        The source of noise.
+        Ignored: noise is always drawn for every pixel.
     seed
         Seed of all random numbers.
     """
@@ -74,7 +68,7 @@ class SimulationSettings:
     tolerance: float = TOLERANCE.default
     observable: Observable = "image"
     force: Mapping[str, bool] = field(default_factory=dict)
-    noise: NoiseSource = "exact"
+    noise: InitVar[object] = None
     seed: int = 1
 
     def check(self, effects: Sequence[str]) -> Self:
@@ -83,7 +77,6 @@ class SimulationSettings:
         ``effects`` are the names that ``force`` may have.
         """
         check_seed(self.seed)
-        check_choice("noise", self.noise, NOISE_SOURCES)
         tolerance = TOLERANCE.check(self.tolerance)
         check_choice("observable", self.observable, OBSERVABLES)
         force = check_switches(self.force, effects)

@@ -20,7 +20,6 @@ from occ_model.results.frame import Frame, Plan
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import (
     TOLERANCE,
-    NoiseSource,
     Observable,
     Scene,
     SimulationSettings,
@@ -61,7 +60,7 @@ def render(
     seed: int = 1,
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,
-    noise: NoiseSource = "exact",
+    noise: object = None,  # noqa: ARG001 - of former versions
     rows_step: int = 1,
 ) -> Frame:
     """Simulate the picture that the scene's camera takes.
@@ -77,7 +76,7 @@ def render(
         The quantity to which the tolerance refers, and effects that are switched on or off; see
         :func:`occ_model.plan`.
     noise
-        Ignored; noise is drawn for every pixel.
+        Ignored: noise is always drawn for every pixel.
     rows_step
         From 2 on, the frame is a draft: it has only every ``rows_step``-th row of the picture,
         equal to that row. A file is made of the draft's rows as if
@@ -87,15 +86,15 @@ def render(
     Raises
     ------
     ParameterError
-        The tolerance or the seed is negative or not a number; there is no such observable, effect
-        or source of noise; ``rows_step`` is less than 1 or more than the picture's rows; or the
-        picture is too large for a JPEG file, which the scene has.
+        The tolerance or the seed is negative or not a number; there is no such observable or
+        effect; ``rows_step`` is less than 1 or more than the picture's rows; or the picture is too
+        large for a JPEG file, which the scene has.
     ProjectionError
         Part of the panel is behind the camera, the lens folds the picture, or the image would be
         too large.
     """
     force = {} if force is None else force
-    settings = SimulationSettings(tolerance, observable, force, noise, seed)
+    settings = SimulationSettings(tolerance, observable, force, seed=seed)
     return render_with(scene, settings, rows_step)
 
 
@@ -109,7 +108,7 @@ class PlannedScene:
 
 
 def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:
-    """Plan the effects of a scene; seed and source of noise in the settings do not matter."""
+    """Plan the effects of a scene; the seed in the settings does not matter."""
     settings = settings.check(NAMES)
     check_size(scene.camera)
     timer = StageTimer()

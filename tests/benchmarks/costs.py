@@ -72,9 +72,7 @@ def film_decoding_cost() -> Row:
     with TemporaryDirectory() as folder:
         film, photo = Path(folder, "film.mp4"), Path(folder, "photo.jpg")
         count_of_frames = _RUN * (_RUNS + 2)
-        made = occ.render_video(
-            film_scene(), count_of_frames, settings=occ.SimulationSettings(noise="reused")
-        )
+        made = occ.render_video(film_scene(), count_of_frames, settings=occ.SimulationSettings())
         occ.write_video(made, film)
         write_image(photo, made.frame(0).image)
         opened = occ.load_video(film)

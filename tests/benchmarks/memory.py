@@ -58,7 +58,7 @@ def _after_each_frame(film: occ.Video) -> Iterator[int]:
 
 def of_growth() -> None:
     scene = occ.load_preset("phone-136us").replace(rows=240, columns=320, readout_time=25e-6)
-    film = occ.render_video(scene, _LATE, settings=occ.SimulationSettings(noise="reused"))
+    film = occ.render_video(scene, _LATE, settings=occ.SimulationSettings())
     simulated = _growth(film)
     with TemporaryDirectory() as folder:
         path = Path(folder, "film.mp4")

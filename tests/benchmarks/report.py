@@ -88,32 +88,19 @@ def tilted_frame_cost() -> Row:
     )
 
 
-def reused_noise_cost() -> Row:
+def noise_cost() -> Row:
     image = occ.render(_PAPER).image
-    a, b, exact = side_by_side(
-        lambda: occ.render(_PAPER, noise="reused"), image.copy, lambda: occ.render(_PAPER),
-        rounds=11,
-    )  # fmt: skip
-    return Row(
-        "the same with the sensor's noise from a reused plane",
-        f"{a / b:.0f} ({a:.1f} ms; drawn for each pixel {exact:.0f} ms)",
-        "at most 12",
+    return _ratio(
+        "the same with the sensor's noise", "at most 20", lambda: occ.render(_PAPER), image.copy
     )
 
 
 def complete_cost() -> Row:
     image = occ.render(_WITH_LENS).image
-    a, b, reused = side_by_side(
-        lambda: occ.render(_WITH_LENS, tolerance=0.0),
-        image.copy,
-        lambda: occ.render(_WITH_LENS, tolerance=0.0, noise="reused"),
-        rounds=5,
-    )
-    return Row(
-        "the same with all ten effects",
-        f"{a / b:.0f} ({a:.0f} ms; noise from a reused plane {reused / b:.0f}, {reused:.0f} ms)",
-        "at most 400; from a reused plane 200",
-    )
+    return _ratio(
+        "the same with all ten effects", "at most 100",
+        lambda: occ.render(_WITH_LENS, tolerance=0.0), image.copy,
+    )  # fmt: skip
 
 
 def draft_cost() -> Row:
@@ -123,7 +110,7 @@ def draft_cost() -> Row:
     def draft(rows_step: int) -> Frame:
         # Each time another scene, as while a slider moves.
         moved = _WITH_LENS.replace(start_time=1e-7 * next(start))
-        return occ.render(moved, tolerance=0.0, noise="reused", rows_step=rows_step)
+        return occ.render(moved, tolerance=0.0, rows_step=rows_step)
 
     a, b, finer, error = side_by_side(
         lambda: draft(9), image.copy, lambda: draft(5), lambda: draft(9).draft_error
@@ -243,7 +230,7 @@ _ALL = (
     profile_cost,
     frame_cost,
     tilted_frame_cost,
-    reused_noise_cost,
+    noise_cost,
     complete_cost,
     complete_memory,
     planning_cost,

@@ -33,9 +33,9 @@ _SIZES = ((1280, 800), (1920, 1080))
 
 CASES = {
     "noise-free": ("phone-136us", SimulationSettings(tolerance=math.inf)),
-    "noise from a reused plane": ("phone-136us", SimulationSettings(noise="reused")),
-    "phone-136us-real": ("phone-136us-real", SimulationSettings(noise="reused")),
-    "tablet-122us-real": ("tablet-122us-real", SimulationSettings(noise="reused")),
+    "phone-136us": ("phone-136us", SimulationSettings()),
+    "phone-136us-real": ("phone-136us-real", SimulationSettings()),
+    "tablet-122us-real": ("tablet-122us-real", SimulationSettings()),
 }
 """The preset of each case, and how it is simulated."""
 

@@ -161,7 +161,7 @@ def questions() -> dict[str, Callable[[Scene], object]]:
     }
     return {
         "draft": lambda scene: occ.render(
-            scene, tolerance=0.0, noise="reused", rows_step=min(5, scene.camera.rows)
+            scene, tolerance=0.0, rows_step=min(5, scene.camera.rows)
         ),
         "picture": lambda scene: occ.render(scene, tolerance=0.0),
         **{f"plan {each}": partial(occ.plan, observable=each) for each in OBSERVABLES},

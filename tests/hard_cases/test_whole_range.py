@@ -18,7 +18,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable, Scene
+from occ_model.scene.scene import OBSERVABLES, Observable, Scene
 
 Made = TypeVar("Made")
 
@@ -86,16 +86,14 @@ def test_every_bound_of_any_scene_is_a_number_and_not_negative(
 
 @cases(
     changes=CHANGES, tolerance=st.sampled_from([0.0, 0.5, math.inf]),
-    force=st.sampled_from([True, None]), noise=st.sampled_from(NOISE_SOURCES),
+    force=st.sampled_from([True, None]),
 )  # fmt: skip
 def test_any_scenes_picture_has_pixels_and_a_finite_profile(
-    changes: dict[str, float | int | str], tolerance: float, force: bool | None, noise: NoiseSource
+    changes: dict[str, float | int | str], tolerance: float, force: bool | None
 ) -> None:
     scene = Scene().replace(**changes)
     by_hand = dict.fromkeys(NAMES, force) if force else None
-    frame = given_or_refused(
-        lambda: occ.render(scene, tolerance=tolerance, force=by_hand, noise=noise)
-    )
+    frame = given_or_refused(lambda: occ.render(scene, tolerance=tolerance, force=by_hand))
     if isinstance(frame, str):
         assert frame.endswith(".")
         return

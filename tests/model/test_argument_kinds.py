@@ -88,7 +88,7 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, object]]] = {
     "load_preset": (occ.load_preset, {"name": "phone-68us"}),
     "match_photos": (occ.match_photos, {"photos": [], "scene": SCENE, "known": {}}),
     "plan": (occ.plan, {"scene": SCENE, "tolerance": 0.5, "observable": "image", "force": {}}),
-    "render": (occ.render, {"scene": SCENE, "seed": 1, "rows_step": 1, "noise": "exact"}),
+    "render": (occ.render, {"scene": SCENE, "seed": 1, "rows_step": 1}),
     "render_video": (occ.render_video, {"scene": SCENE, "frames": 2, "rows_step": 1}),
     "sweep": (
         occ.sweep,

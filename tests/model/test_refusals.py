@@ -89,7 +89,6 @@ ROWS: list[Row] = [
     *calls(
         in_scene(of=occ.render),
         ({"seed": -1}, "seed", "-1", WHOLE),
-        ({"noise": "white"}, "noise", "'white'", "exact, reused"),
         *(
             ({"rows_step": step}, "rows_step", repr(step), "a whole number from 1 to 20")
             for step in (0, -1, 21, 1.5, True)

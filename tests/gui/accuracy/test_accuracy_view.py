@@ -85,17 +85,16 @@ def test_each_mark_of_the_slider_has_a_plan_of_its_own(qtbot: QtBot, bench: Benc
     assert len(set(plans)) == len(plans)
 
 
-def test_effect_observable_and_noise_are_chosen(qtbot: QtBot, bench: Bench) -> None:
+def test_effect_and_observable_are_chosen(qtbot: QtBot, bench: Bench) -> None:
     for _ in range(2):  # auto, on, off
         qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Down)
         bench.simulate()
     assert bench.settings.settings.force == {"sensor-noise": False}
     assert "by hand" in bench.row("sensor-noise").reason
     qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Home)
-    for control in (bench.view.observable, bench.view.noise):
-        qtbot.keyClick(control, Qt.Key.Key_Down)
+    qtbot.keyClick(bench.view.observable, Qt.Key.Key_Down)
     settings = bench.settings.settings
-    assert (settings.force, settings.observable, settings.noise) == ({}, "profile", "exact")
+    assert (settings.force, settings.observable) == ({}, "profile")
 
 
 def test_both_ends_of_the_slider_are_the_bare_model_and_the_exact_one(bench: Bench) -> None:

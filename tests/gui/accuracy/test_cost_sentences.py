@@ -13,7 +13,7 @@ from occ_model.results.frame import Frame
 @pytest.fixture(scope="module")
 def frame() -> Frame:
     scene = occ.load_preset("phone-68us").replace(rows=30, columns=60, edge_time=5e-6)
-    return occ.render(scene, noise="reused")
+    return occ.render(scene)
 
 
 def fractions(milliseconds: float, *effects: str) -> TimeFractions:

@@ -102,10 +102,10 @@ def test_the_accuracy_plot_is_exported_once_it_is_measured(bench: Bench, tmp_pat
     assert not path.exists()
     plot = bench.shell.pane("accuracy").view.plot
     plot.show_study_begun()
-    plot.show_point(AccuracyPoint("noise", "exact", 0.125, 0.25, current=True), 1, 1)
+    plot.show_point(AccuracyPoint("draft", "exact", 0.125, 0.25, current=True), 1, 1)
     plot.show_study_finished()
     assert bench.export("accuracy", path) == f"Exported accuracy.csv into {tmp_path}"
-    assert "noise,exact,125.0,0.25,1" in path.read_text(encoding="utf-8")
+    assert "draft,exact,125.0,0.25,1" in path.read_text(encoding="utf-8")
     bench.simulate(iso=200.0)
     assert "not measured yet" in bench.export("accuracy", path)
 

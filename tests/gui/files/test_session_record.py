@@ -83,7 +83,6 @@ DAMAGED: list[tuple[tuple[str, ...], object]] = [
     (("settings", "observable"), []),
     (("settings", "force"), 3),
     (("settings", "force"), {"vignetting": 1}),
-    (("settings", "noise"), {}),
     (("settings", "seed"), -1),
 ]
 

@@ -248,7 +248,6 @@ def test_a_lesson_has_a_state_of_its_own_and_restores_the_users(
     bench: Lessons, guide: LessonView, small_scene: Scene
 ) -> None:
     bench.settings.set_tolerance(7.0)
-    bench.settings.set_noise("exact")
     bench.scenes.force("jpeg", True)
     own = bench.settings.settings
     guide.list.choices[0].click()

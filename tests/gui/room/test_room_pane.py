@@ -63,7 +63,7 @@ def cached_jobs(results: dict[tuple[object, ...], Any], monkeypatch: pytest.Monk
 def same_picture(cached_jobs: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Give every room the picture and reading of the first, which few tests depend on."""
     room_jobs: Any = jobs
-    frame = room_jobs.render_room(ROOM, noise="reused")
+    frame = room_jobs.render_room(ROOM)
     reading = room_jobs.read_room(frame.camera_image, ROOM)
     monkeypatch.setattr(jobs, "render_room", lambda *_, **__: frame)
     monkeypatch.setattr(jobs, "read_room", lambda *_: reading)

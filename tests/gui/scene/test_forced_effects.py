@@ -57,30 +57,26 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
 
 
 @pytest.mark.parametrize(
-    ("settings", "text", "is_doubtful"),
+    ("settings", "text"),
     [
-        ({}, "reused noise", False),
-        ({"tolerance": 10.0}, "tolerance 10 levels · reused noise", True),
-        ({"tolerance": 0.1, "noise": "exact"}, "tolerance 0.1 levels", True),
-        ({"tolerance": math.inf}, "bare paper model · reused noise", True),
+        ({"tolerance": 10.0}, "tolerance 10 levels"),
+        ({"tolerance": math.inf}, "bare paper model"),
         (
-            {"tolerance": 2.0, "observable": "decision", "noise": "exact"},
-            "tolerance 2 margins of the decision", True,
+            {"tolerance": 2.0, "observable": "decision"},
+            "tolerance 2 margins of the decision",
         ),
-        ({"force": {"jpeg": False}, "noise": "exact"}, "JPEG off by hand", True),
-        ({"force": {"jpeg": False, "flicker": True}}, "2 effects by hand · reused noise", True),
+        ({"force": {"jpeg": False}}, "JPEG off by hand"),
+        ({"force": {"jpeg": False, "flicker": True}}, "2 effects by hand"),
     ],
 )  # fmt: skip
-def test_what_is_set_by_hand_is_one_badge(
-    settings: dict[str, Any], text: str, is_doubtful: bool
-) -> None:
+def test_what_is_set_by_hand_is_one_badge(settings: dict[str, Any], text: str) -> None:
     labels = {effect.name: effect.label for effect in EFFECTS}
     badge = not_none(accuracy_badge(replace(FIRST_SETTINGS, **settings), labels))
     assert badge.text == text
-    assert badge.state is (State.DOUBTFUL if is_doubtful else State.NEUTRAL)
+    assert badge.state is (State.DOUBTFUL)
     for effect in settings.get("force", {}):
         assert labels[effect] in badge.meaning
-    assert accuracy_badge(replace(FIRST_SETTINGS, noise="exact"), labels) is None
+    assert accuracy_badge(FIRST_SETTINGS, labels) is None
 
 
 def test_the_badge_is_always_whole_on_the_screen(application: Application, user: User) -> None:
@@ -98,7 +94,7 @@ def test_the_badge_is_always_whole_on_the_screen(application: Application, user:
             window.readout.set_full_text("Picture: column 1234, row 1200, camera level 123")
             user.wait_until_idle()
             assert badge.isVisible()
-            assert badge.badge.text == "tolerance 10 levels · 3 effects by hand · reused noise"
+            assert badge.badge.text == "tolerance 10 levels · 3 effects by hand"
             assert badge.width() >= badge.sizeHint().width()
             place = QRect(badge.mapTo(window, badge.rect().topLeft()), badge.size())
             assert window.rect().contains(place)
@@ -119,17 +115,15 @@ def test_another_scene_is_simulated_within_the_usual_tolerance(
     ):
         application.settings.set_tolerance(10.0)
         application.settings.set_observable("signal")
-        application.settings.set_noise("exact")
         application.store.force("jpeg", False)
         begin()
         user.wait_until_idle()
-        # Exact noise leaves nothing out.
-        assert application.settings.settings == replace(FIRST_SETTINGS, noise="exact")
+        assert application.settings.settings == FIRST_SETTINGS
         assert not application.controls.forced.isVisible()
     application.settings.set_tolerance(10.0)
     assert application.controls.forced.text.text() == "Tolerance 10 levels"
     application.controls.forced.back.click()
-    assert application.settings.settings == replace(FIRST_SETTINGS, noise="exact")
+    assert application.settings.settings == FIRST_SETTINGS
 
 
 def test_a_click_a_preset_or_a_reset_ends_listed_forced_effects_in_one_step(

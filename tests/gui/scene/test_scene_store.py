@@ -244,13 +244,10 @@ def trial() -> SettingsTrial:
     return SettingsTrial()
 
 
-def test_noise_is_reused_at_first_and_setting_an_equal_value_emits_nothing(
-    trial: SettingsTrial,
-) -> None:
-    assert trial.store.settings == SimulationSettings(noise="reused")
+def test_setting_an_equal_value_emits_nothing(trial: SettingsTrial) -> None:
+    assert trial.store.settings == SimulationSettings()
     trial.store.set_tolerance(trial.store.settings.tolerance)
     trial.store.set_observable("image")
-    trial.store.set_noise("reused")
     trial.switch({})
     assert trial.changes == []
 
@@ -258,13 +255,12 @@ def test_noise_is_reused_at_first_and_setting_an_equal_value_emits_nothing(
 def test_each_change_is_emitted_once_and_keeps_the_other_settings(trial: SettingsTrial) -> None:
     trial.store.set_tolerance(2.0)
     trial.store.set_observable("profile")
-    trial.store.set_noise("exact")
     trial.switch({"jpeg": True})
     trial.switch({"jpeg": True, "flicker": False})
     trial.switch({"flicker": False})
-    assert trial.store.settings == SimulationSettings(2.0, "profile", {"flicker": False}, "exact")
+    assert trial.store.settings == SimulationSettings(2.0, "profile", {"flicker": False})
     assert trial.changes[-1] == trial.store.settings
-    assert len(trial.changes) == 6
+    assert len(trial.changes) == 5
 
 
 @pytest.mark.parametrize("tolerance", [-1.0, float("nan")])

@@ -24,7 +24,7 @@ from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation import render
 from occ_model.simulation.render import render_with
 
-SETTINGS = SimulationSettings(noise="reused")
+SETTINGS = SimulationSettings()
 
 
 def is_draft(picture: Picture) -> bool:

@@ -75,7 +75,7 @@ def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
     bench.wait_until_idle()
     assert snapshots == []
     assert messages[-1] == "Saved picture.png: the camera's picture"
-    image = occ.render(store.scene, noise=bench.settings.settings.noise).camera_image
+    image = occ.render(store.scene).camera_image
     assert np.array_equal(not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED)), image)
     present.ask(snapshots.append)
     assert len(snapshots) == 1

@@ -119,7 +119,7 @@ def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.Monkey
     scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
     for move in range(amount(8, 60)):
         moved = scene.replace(distance=1.0 + 0.01 * move)
-        occ.render(moved, tolerance=0.0, noise="reused", rows_step=1 + 8 * (move % 5 > 0))
+        occ.render(moved, tolerance=0.0, rows_step=1 + 8 * (move % 5 > 0))
         assert MEMORY.size <= limit
     held = sum(size for _, size in MEMORY.entries.values())
     assert held == MEMORY.size > limit / 2

@@ -19,17 +19,16 @@ def use_threads(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
     monkeypatch.setattr("os.cpu_count", lambda: 8)
 
 
-@pytest.mark.parametrize("noise", ["exact", "reused"])
 @pytest.mark.parametrize("rows_step", [1, 3])
 def test_a_picture_is_the_same_in_any_number_of_threads(
-    noise: str, rows_step: int, monkeypatch: pytest.MonkeyPatch
+    rows_step: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=900, columns=300)
     frames = []
     for count in (1, 2, 7):
         use_threads(monkeypatch, count)
         assert threads() == count
-        frames.append(occ.render(scene, tolerance=0.0, noise=noise, rows_step=rows_step))  # type: ignore[arg-type]
+        frames.append(occ.render(scene, tolerance=0.0, rows_step=rows_step))
     for frame in frames[1:]:
         np.testing.assert_array_equal(frame.image, frames[0].image)
         np.testing.assert_array_equal(frame.profile, frames[0].profile)
@@ -148,7 +147,6 @@ def scene() -> Scene:
     """A picture with all ten effects, of five million pixels."""
     scene = occ.load_preset("phone-136us-real").replace(columns=1152)
     occ.render(scene.replace(rows=200), tolerance=0.0)  # load everything that is loaded once
-    occ.render(scene.replace(rows=200), tolerance=0.0, noise="reused")
     return scene
 
 
@@ -160,12 +158,12 @@ def traced() -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("traced")
-@pytest.mark.parametrize(("noise", "turn"), [("exact", {"roll": 0.3}), ("reused", {})])
+@pytest.mark.parametrize("turn", [{"roll": 0.3}, {}])
 def test_a_picture_takes_six_bytes_a_pixel_beside_itself(
-    scene: Scene, noise: str, turn: dict[str, float]
+    scene: Scene, turn: dict[str, float]
 ) -> None:
     before, _ = tracemalloc.get_traced_memory()
     tracemalloc.reset_peak()
-    image = occ.render(scene.replace(**turn), tolerance=0.0, noise=noise).image  # type: ignore[arg-type]
+    image = occ.render(scene.replace(**turn), tolerance=0.0).image
     _, peak = tracemalloc.get_traced_memory()
     assert image.nbytes <= peak - before <= 7 * image.nbytes

@@ -77,7 +77,7 @@ def test_a_slow_change_is_shown_on_the_whole_panel() -> None:
 
 @pytest.mark.parametrize("tolerance", [0.0, 3.0, np.inf])
 def test_the_times_of_a_picture_add_up_to_the_pictures_time(scene: Scene, tolerance: float) -> None:
-    frame = occ.render(scene, tolerance=tolerance, noise="reused")
+    frame = occ.render(scene, tolerance=tolerance)
     fractions = TimeFractions.of(frame)
     assert fractions.seconds == pytest.approx(sum(frame.timings.values()), rel=1e-12)
     assert fractions.other_seconds >= 0.0
@@ -89,8 +89,8 @@ def test_the_times_of_a_picture_add_up_to_the_pictures_time(scene: Scene, tolera
 
 
 def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
-    settings = SimulationSettings(3.0, noise="reused")
-    measured = TimeFractions.of(occ.render(scene, tolerance=3.0, noise="reused"))
+    settings = SimulationSettings(3.0)
+    measured = TimeFractions.of(occ.render(scene, tolerance=3.0))
     found = forecast(scene, settings, MeasuredCosts(measured))
     assert found.seconds == pytest.approx(measured.seconds, rel=1e-12)
 
@@ -98,9 +98,9 @@ def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
 def test_a_forecast_adds_switched_effects_and_gives_none_if_one_is_not_measured(
     scene: Scene, differences: dict[str, EffectDifference]
 ) -> None:
-    complete = TimeFractions.of(occ.render(scene, tolerance=0.0, noise="reused"))
+    complete = TimeFractions.of(occ.render(scene, tolerance=0.0))
     bare = TimeFractions.of(occ.render(scene, tolerance=np.inf))
-    off = SimulationSettings(0.0, force={"jpeg": False}, noise="reused")
+    off = SimulationSettings(0.0, force={"jpeg": False})
     found = forecast(scene, off, MeasuredCosts(complete, (), differences))
     assert found.error == pytest.approx(differences["jpeg"].error)
     assert not found.is_measured

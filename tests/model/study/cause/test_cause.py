@@ -104,7 +104,7 @@ def test_percentages_near_100_are_written_without_an_exponent() -> None:
 def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: str) -> None:
     """Stripes are clearly visible, but the receiver takes the whole picture for the panel."""
     scene = occ.load_preset("phone-68us").replace(panel_height=0.002, enhancement=enhancement)
-    picture = occ.render(scene, noise="reused").image
+    picture = occ.render(scene).image
     assert occ.decode(picture, scene).code is None
     cause = cause_of(scene, "threshold")
     assert cause.what == "the panel is not found"

@@ -6,7 +6,7 @@ with bars of its own, photon noise, demosaicing, tone curves, sharpening, resizi
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -66,29 +66,23 @@ def lamp_view(seed: int) -> LampView:
     )
 
 
-def plain_view(seed: int, **drawn: float) -> LampView:
-    """Draw a lamp with some values of its recipe given."""
-    random = np.random.default_rng([6703, seed])
-    recipe = replace(_recipe(random), **drawn)  # type: ignore[arg-type]
-    image = _taken(random, recipe, _light(random, recipe))
-    return LampView(
-        image, recipe.period * recipe.scale, recipe.duty, recipe.exposure, _classes(recipe)
-    )
-
-
 def _recipe(random: np.random.Generator) -> _Recipe:
     periods = _over_decades(random, 1.5, 40.0)
     columns = _over_decades(random, 70.0, _LONGEST)
-    period = max(columns / periods, 4.0)
     is_plain = random.random() < 0.4
     scale = float(random.uniform(0.4, 1.0)) if random.random() < 0.25 else 1.0
+    duty = 0.5 if is_plain else float(random.uniform(0.05, 0.95))
+    exposure = _over_decades(random, 0.02, 3.0)
+    lines = int(random.choice([1, 1, 1, 1, 1, 1, 1, 1, 2, 4])) if scale == 1.0 else 1
+    # Of fewer than two lines a period no camera tells a lamp from a slower one.
+    period = max(columns / periods, 4.0 * lines)
     return _Recipe(
         period=period / scale,
-        duty=0.5 if is_plain else float(random.uniform(0.05, 0.95)),
-        exposure=_over_decades(random, 0.02, 3.0),
+        duty=duty,
+        exposure=exposure,
         periods=min(periods, _LONGEST / period),
         rise=float(random.choice([0.0, 0.0, random.uniform(0.0, 0.01)])),
-        lines=int(random.choice([1, 1, 1, 1, 1, 1, 1, 1, 2, 4])) if scale == 1.0 else 1,
+        lines=lines,
         spots=int(random.integers(0, 4)),
         contrast=_over_decades(random, 1.2, 12.0),
         cut=bool(random.random() < 0.25),

@@ -38,6 +38,8 @@ class Cues:
         Deviation of the stripes between bands of rows from a straight shift, in columns.
     misfit
         Root mean square of the residual that repeats with the period, as a fraction of the swing.
+    unexplained
+        Root mean square of all of the residual, as a fraction of the swing.
     dips
         Times that the envelope falls and rises again.
     gamma
@@ -58,6 +60,7 @@ class Cues:
     drift_error: float
     rows_scatter: float
     misfit: float
+    unexplained: float
     dips: int
     gamma: float
     narrowest: float
@@ -82,7 +85,7 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
     return Cues(
         floor=abs(fit.floor - nearest),
         floor_expected=nearest,
-        blur=wave.blur,
+        blur=fit.model.blur(fit.values),
         ramp=wave.ramp_columns,
         period=wave.period,
         edges=len(shifts),
@@ -92,6 +95,7 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
         drift_error=error,
         rows_scatter=apart,
         misfit=_periodic_misfit(fit),
+        unexplained=math.sqrt(float(np.mean(fit.residual**2))) / max(fit.profile.swing, 1e-6),
         dips=_dips(fit),
         gamma=fit.gamma,
         narrowest=min(wave.width, 1.0 - wave.width) * wave.period,

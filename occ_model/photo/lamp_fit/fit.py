@@ -213,9 +213,8 @@ def _minimize(
             damped = products + np.diag(damping * np.diag(products) + 1e-9)
             step = np.clip(-np.linalg.solve(damped, gradient), -most, most)
             there = values + step
-            for place, end in ENDS.items():
-                there[place] = min(max(there[place], -end), end)
-            there[BLUR] = min(max(there[BLUR], -3.0), 2.0)
+            for place, (least, largest) in ENDS.items():
+                there[place] = min(max(there[place], least), largest)
             gain = here - (new := misfit(there))
             if gain > 0.0:
                 values, here, damping = there, new, max(0.2 * damping, 1e-7)

@@ -26,6 +26,9 @@ from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT, SECOND
 
+_SAME = 2.0  # deviations within which two duties are the same
+_NOTE_ERROR, _FAR_NOTE = math.log(1.3), math.log(1.6)
+"""Logarithms of how far a noted exposure may be from a lamp's, and from where that is doubted."""
 _CHIPS = "10"  # those of a cycle, which counts as two
 _MOST_DEVIATIONS, _DUTY_ERROR = 3.0, 0.02
 """Deviations between a known duty and that of the stripes above which it is doubtful, and what tone
@@ -131,7 +134,7 @@ def match_lamp(
             *doubts_by_fraction("exposure_time", unknown, DOUBTFUL_EXPOSURE_DEVIATION),
             *doubts_by_enhancement(photo),
             *_doubts_by_columns(reading),
-            *_doubts_by_readings(chosen, others, frequency),
+            *_doubts_by_readings(chosen, others, photo.exposure_time, frequency),
         ),
     )  # fmt: skip
 
@@ -139,20 +142,27 @@ def match_lamp(
 def _choose(
     reading: LampReading, duty: float | None, noted: float | None, frequency: float
 ) -> tuple[StripeReading, tuple[StripeReading, ...]]:
-    """Return the reading that the floor, and what is known, leave, and the other ones.
-
-    Where a duty is known or an exposure is noted there are no others.
-    """
+    """Return the duty and exposure that the floor, and what is known, leave, and others as good."""
     floor, most = reading.fit.floor, floor_limit(reading.cues)
-    every = readings_of(reading.width, reading.ramp)
-    possible = [each for each in every if abs(each.floor - floor) <= most] or list(every[:2])
-    if duty is not None:
-        return min(possible, key=lambda each: abs(each.duty - duty)), ()
-    if noted is not None:
-        wanted = noted * frequency
-        return min(possible, key=lambda each: abs(math.log(each.exposure / wanted))), ()
-    first, *others = possible
-    return first, tuple(others)
+    errors = reading.ramp_error, reading.width_error
+
+    def away(one: StripeReading) -> float:
+        known = 0.0
+        if duty is not None:
+            known = (one.duty - duty) / (_SAME * errors[one.is_width_of_pulses])
+        elif noted is not None:
+            known = math.log(one.exposure / (noted * frequency)) / _NOTE_ERROR
+        return math.hypot((one.floor - floor) / most, known)
+
+    possible = readings_of(reading.width, reading.ramp)
+    first, *others = sorted(possible, key=away)
+    alike = [
+        one
+        for one in others
+        if away(one) < away(first) + 1.0
+        and abs(one.exposure - first.exposure) > _SAME * max(errors)
+    ]
+    return first, tuple(alike)
 
 
 def _doubts_by_duty(reading: LampReading, chosen: StripeReading, known: float | None) -> list[str]:
@@ -181,19 +191,26 @@ def _doubts_by_columns(reading: LampReading) -> list[str]:
 
 
 def _doubts_by_readings(
-    chosen: StripeReading, others: tuple[StripeReading, ...], frequency: float
+    chosen: StripeReading, others: tuple[StripeReading, ...], noted: float | None, frequency: float
 ) -> list[str]:
-    if not others:
-        return []
-    words = [
-        f"a duty of {PERCENT.format(each.duty, 3)} exposed for "
-        f"{SECOND.format(each.exposure / frequency, 3)}"
-        for each in (chosen, *others[:2])
-    ]
-    return [
-        f"{' or '.join(words).capitalize()}: these make the same stripes, and the photo notes no "
-        "exposure time. If the duty is known, state that the scene's light is sent."
-    ]
+    found, seconds = [], SECOND.format(chosen.exposure / frequency, 3)
+    if others:
+        words = [
+            f"a duty of {PERCENT.format(each.duty, 3)} exposed for "
+            f"{SECOND.format(each.exposure / frequency, 3)}"
+            for each in (chosen, *others[:2])
+        ]
+        why = "notes no exposure time" if noted is None else "notes one that does not decide"
+        found.append(
+            f"{' or '.join(words).capitalize()}: these make the same stripes, and the photo {why}. "
+            "If the duty is known, state that the scene's light is sent."
+        )
+    if noted is not None and abs(math.log(chosen.exposure / (noted * frequency))) > _FAR_NOTE:
+        found.append(
+            f"The exposure time found, {seconds}, is far from the one that the camera noted, "
+            f"{SECOND.format(noted, 3)}."
+        )
+    return found
 
 
 def _uncertainties(

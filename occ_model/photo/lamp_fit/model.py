@@ -1,4 +1,4 @@
-"""The levels of a lamp's columns by its wave, envelope, floor and the camera's tone curve."""
+"""The levels of a lamp's columns by its wave, envelope, floor and the camera's processing."""
 
 import math
 from dataclasses import dataclass
@@ -10,11 +10,13 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.lamp_fit.tone import Tone
 from occ_model.photo.lamp_fit.wave import Wave
 
-PERIOD, PLACE, WIDTH, RAMP, BLUR, FLOOR, AMBIENT, GAMMA, TOE, BEND = range(10)
+PERIOD, PLACE, WIDTH, RAMP, BLUR, FLOOR, AMBIENT, GAMMA, TOE, BEND, NEAR, FAR = range(12)
 """Places of the parameters: logarithms of the period, blur, gamma and toe, logits of width and
-ramp, and the floor by a hyperbolic sine, so that it may be large and of either sign."""
+ramp, and the floor by a hyperbolic sine, so that it may be large and of either sign. NEAR and FAR
+are the parts of each level that go to the columns beside it and to the next ones: cameras blur and
+sharpen levels, not only light."""
 
-COUNT = 10  # parameters before those of the envelope
+COUNT = 12  # parameters before those of the envelope
 
 _FLOOR_SCALE = 0.05
 
@@ -23,19 +25,26 @@ _FLOOR_SCALE = 0.05
 _PRIORS = {
     WIDTH: (0.0, 3.0),
     RAMP: (0.0, 3.0),
-    BLUR: (math.log(0.45), 0.45),
+    BLUR: (math.log(0.4), 0.35),
     FLOOR: (0.0, 2.5),
     AMBIENT: (0.0, 0.01),
     GAMMA: (math.log(2.2), 0.18),
     TOE: (math.log(0.002), 1.2),
     BEND: (0.0, 0.2),
+    NEAR: (0.0, 0.1),
+    FAR: (0.0, 0.04),
 }
 _LINEAR = {GAMMA: (0.0, 1e-3), TOE: (math.log(0.002), 1e-2), BEND: (0.0, 1e-3)}
 
 _LARGEST_LOG = 25.0  # of an envelope's brightness, so that it stays finite
 
-ENDS = {WIDTH: 4.5, RAMP: 6.0, FLOOR: 6.0}  # largest magnitudes
-MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3])
+ENDS = {
+    WIDTH: (-4.5, 4.5), RAMP: (-6.0, 6.0), BLUR: (-3.0, 2.0), FLOOR: (-7.5, 7.5),
+    NEAR: (-0.3, 0.3), FAR: (-0.1, 0.1),
+}  # fmt: skip
+"""Least and largest values."""
+
+MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3, 0.1, 0.05])
 """Largest steps of the parameters; that of the place is in periods."""
 
 
@@ -65,7 +74,7 @@ class Levels:
 
     def levels(self, values: FloatArray) -> FloatArray:
         light = self._light(values, self.wave(values).values(self.columns))[0]
-        return self.tone(values).levels(light)
+        return self._processed(values, self.tone(values).levels(light))
 
     def ends(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the levels where the wave is 0 and where it is 1."""
@@ -80,6 +89,7 @@ class Levels:
         wave, by_wave = self.wave(values).slopes(self.columns)
         light, brightness, scale = self._light(values, wave)
         tone = self.tone(values)
+        levels = tone.levels(light)
         by_light, by_tone = tone.slopes(light)
         floor, steep = self.floor(values), _FLOOR_SCALE * math.cosh(values[FLOOR])
         by_floor = brightness * (scale - math.copysign(scale * scale, floor) * (wave + floor))
@@ -89,9 +99,22 @@ class Levels:
             (by_light * by_floor * steep)[None],
             by_light[None],
             by_tone,
+            _leaving(levels, 1)[None],
+            _leaving(levels, 2)[None],
             by_envelope * self.envelope.T,
         ])  # fmt: skip
-        return tone.levels(light), slopes.T
+        before = [*range(NEAR), *range(COUNT, len(slopes))]
+        slopes[before] = self._processed(values, slopes[before])
+        return self._processed(values, levels), slopes.T
+
+    def blur(self, values: FloatArray) -> float:
+        """Return the standard deviation of all blur, in columns; 0 where more is sharpened."""
+        moment = math.exp(2.0 * values[BLUR]) + 2.0 * values[NEAR] + 8.0 * values[FAR]
+        return math.sqrt(max(moment, 0.0))
+
+    def _processed(self, values: FloatArray, levels: FloatArray) -> FloatArray:
+        near, far = values[NEAR], values[FAR]
+        return levels + near * _leaving(levels, 1) + far * _leaving(levels, 2)
 
     def _light(self, values: FloatArray, wave: FloatArray) -> tuple[FloatArray, FloatArray, float]:
         log = np.clip(self.envelope @ values[COUNT:], -_LARGEST_LOG, _LARGEST_LOG)
@@ -113,6 +136,18 @@ class Levels:
         slopes[np.arange(len(places)), places] = 1.0 / deviations
         slopes[len(places) :, COUNT:] = self.bending
         return np.concatenate([means / deviations, np.zeros(bends)]), slopes
+
+
+def _leaving(levels: FloatArray, away: int) -> FloatArray:
+    """Return what columns gain if all levels of those so far away, on both sides, take their place.
+
+    Of shape as ``levels``, whose last axis counts the columns; beyond the ends levels go on.
+    """
+    padded = np.concatenate(
+        [levels[..., :1]] * away + [levels] + [levels[..., -1:]] * away, axis=-1
+    )
+    size = levels.shape[-1]
+    return np.asarray(padded[..., :size] + padded[..., 2 * away :] - 2.0 * levels)
 
 
 def envelope_basis(count: int, knots: int) -> FloatArray:

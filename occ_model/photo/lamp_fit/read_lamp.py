@@ -16,10 +16,12 @@ from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.verdict import doubts, refusals
 
 _OTHER_PERIOD = 0.03  # relative difference from which a fit has another period
-_EDGE_ERROR, _CLIPPED_ERROR = 0.05, 0.2
-"""Columns by which processing moves each edge, and by which white does if all columns have it.
-
-The former makes the errors of 65 simulated lamps hold (82, 94 and 100 % within 1, 2 and 3)."""
+_EDGE_ERROR, _EDGES_BEFORE = 0.03, 4.0
+"""Columns by which processing moves an edge, as is believed before, and of how many edges' weight
+that is. These, and the factors below, were set on 320 simulated lamps."""
+_PERIOD_FACTOR = 1.5  # of deviations, as what processing does is alike from one column to the next
+_WIDTH_ERROR, _RAMP_ERROR = 0.03, 0.13  # columns, by blur and sharpening that the model lacks
+_TONE_ERROR = 0.01  # of the ramp, by tone curves that the model lacks
 _LEAST_COLUMNS = 16
 _UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
 _PERIODS = 2  # of the likely ones, of which multiples are tried, too
@@ -120,13 +122,9 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
         if abs(other.wave.period / fit.wave.period - 1.0) > _OTHER_PERIOD
     ]
     gap, other_period = min(others, default=(math.inf, None))
-    period, edges = fit.wave.period, cues.edges
-    # Of few edges the scatter is known badly, as three parameters are fitted to them.
-    few = math.sqrt(edges / (edges - 3))
-    scale = few * max(1.0, cues.scatter / max(cues.scatter_noise, 1e-9))
-    edge_error = few * (_EDGE_ERROR + _CLIPPED_ERROR * float(profile.clipped.mean()))
-    of_edges = 2.0 * edge_error * math.sqrt(12.0 / (edges * (edges**2 - 1.0)))
-    deviations = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0)) * scale
+    deviations = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0))
+    scale = _scale(cues)
+    of_edges = _PERIOD_FACTOR * scale * deviations
     width_error, ramp_error = _shape_errors(fit, scale)
     return LampReading(
         place=place,
@@ -136,15 +134,12 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
         first=first,
         fit=fit,
         cues=cues,
-        period_error=math.hypot(period * float(deviations[PERIOD]), of_edges),
-        place_error=math.hypot(float(deviations[PLACE]), edge_error / math.sqrt(edges)),
+        period_error=fit.wave.period * float(of_edges[PERIOD]),
+        place_error=float(of_edges[PLACE]),
         width=fit.wave.width,
-        ramp=fit.wave.ramp_columns / period,
-        width_error=min(math.hypot(width_error, edge_error / period), _UNKNOWN),
-        ramp_error=min(
-            math.hypot(ramp_error, edge_error / period),
-            _UNKNOWN * min(fit.wave.width, 1.0 - fit.wave.width),
-        ),
+        ramp=fit.wave.ramp_columns / fit.wave.period,
+        width_error=width_error,
+        ramp_error=ramp_error,
         gap=gap,
         other_period=other_period,
     )
@@ -160,15 +155,33 @@ def _bands(place: LampPlace, step: int, first: int) -> FloatArray:
     return np.asarray(bands[:, first:last].reshape(len(bands), -1, step).mean(axis=2))
 
 
+def _scale(cues: Cues) -> float:
+    """Return the deviation of edges from even spacing, in those that their noise makes.
+
+    Of few edges it is known badly, so that it is joined with what is believed before.
+    """
+    freedom = max(cues.edges - 3, 1)
+    before = cues.scatter_noise**2 + _EDGE_ERROR**2
+    variance = freedom * cues.scatter**2 + _EDGES_BEFORE * before
+    return math.sqrt(variance / (freedom + _EDGES_BEFORE)) / max(cues.scatter_noise, 1e-9)
+
+
 def _shape_errors(fit: LampFit, scale: float) -> tuple[float, float]:
     """Return the deviations of width and ramp, as fractions of a period."""
-    width, ramp = fit.wave.width, fit.wave.ramp
+    wave = fit.wave
+    width, ramp = wave.width, wave.ramp
     smaller = min(width, 1.0 - width)
     slope = width * (1.0 - width)
     by_width = np.array([slope, 0.0])
     sign = 1.0 if width < 0.5 else -1.0
     by_ramp = np.array([sign * ramp * slope, smaller * ramp * (1.0 - ramp)])
     covariance: FloatArray = fit.covariance[np.ix_([WIDTH, RAMP], [WIDTH, RAMP])]
-    return tuple(  # type: ignore[return-value]
-        scale * math.sqrt(max(float(each @ covariance @ each), 0.0)) for each in (by_width, by_ramp)
+    of_tone = _TONE_ERROR * wave.ramp_columns
+    of_width, of_ramp = (
+        math.sqrt(
+            scale**2 * max(float(each @ covariance @ each), 0.0)
+            + (of_processing**2 + of_tone**2) / wave.period**2
+        )
+        for each, of_processing in ((by_width, _WIDTH_ERROR), (by_ramp, _RAMP_ERROR))
     )
+    return min(of_width, _UNKNOWN), min(of_ramp, _UNKNOWN * smaller)

@@ -11,6 +11,7 @@ _LEAST_BITS = 9.0
 _GAMMAS = (0.9, 6.0)
 _LEAST_PERIOD = 4.0  # columns
 _MOST_MISFIT = 0.06  # of the swing
+_MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # of the swing; of lamps 0.06 at most
 _LEAST_GAP = 6.0  # natural logarithms between the best period and the next
 _FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
 _LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap
@@ -34,6 +35,8 @@ def refusals(cues: Cues) -> list[str]:
         found.append(_floor_sentence(cues))
     if cues.misfit > _REFUSED_MISFIT:
         found.append(_misfit_sentence(cues))
+    if cues.unexplained > _REFUSED_UNEXPLAINED:
+        found.append(_unexplained_sentence(cues))
     if cues.scatter > max(_REFUSED_SCATTER * cues.period, _scatter_limit(cues)):
         found.append(_scatter_sentence(cues))
     if cues.narrowest < _REFUSED_STRIPE:
@@ -69,6 +72,8 @@ def _doubts_by_light(cues: Cues, has_note: bool) -> list[str]:
         found.append("The lamp is darker in its middle than at its ends, as by a wide dark stripe.")
     if cues.misfit > _MOST_MISFIT:
         found.append(_misfit_sentence(cues))
+    if cues.unexplained > _MOST_UNEXPLAINED:
+        found.append(_unexplained_sentence(cues))
     return found
 
 
@@ -133,4 +138,11 @@ def _misfit_sentence(cues: Cues) -> str:
     return (
         f"The stripes' shape differs by {100.0 * cues.misfit:.2g} % of their height from a lamp's; "
         f"at most {100.0 * _MOST_MISFIT:.0f} %."
+    )
+
+
+def _unexplained_sentence(cues: Cues) -> str:
+    return (
+        f"Columns differ by {100.0 * cues.unexplained:.2g} % of the stripes' height from those of "
+        f"a lamp; at most {100.0 * _MOST_UNEXPLAINED:.0f} %."
     )

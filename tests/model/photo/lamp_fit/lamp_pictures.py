@@ -1,7 +1,6 @@
-"""Pictures of lamps and of other regular things, made apart from the program."""
+"""Pictures of lamps, made apart from the program."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,36 +62,6 @@ def photo_of(image: ByteArray, jpeg: int = 0) -> occ.Photo:
         turned=False, channel="grey",
     )  # fmt: skip
 
-
-def brick_wall(random: np.random.Generator) -> occ.Photo:
-    """Draw rows of bricks with joints, every second row moved by half a brick."""
-    y, x = np.mgrid[0:240, 0:400]
-    row = y // 30
-    joint = ((x + 20 * (row % 2)) % 40 < 4) | (y % 30 < 4)
-    return _textured(random, np.where(joint, 0.45, 0.18))
-
-
-def slats(random: np.random.Generator) -> occ.Photo:
-    """Draw slats in perspective: lit from above, so that each is brighter at one side."""
-    y, x = np.mgrid[0:240, 0:400]
-    width = 22.0 + 0.02 * x + 0.01 * y
-    return _textured(random, 0.15 + 0.25 * (x / width % 1.0))
-
-
-def keys(random: np.random.Generator) -> occ.Photo:
-    """Draw a row of keys with rounded rims."""
-    _, x = np.mgrid[0:120, 0:420]
-    off = np.abs(x % 42 - 21.0)
-    return _textured(random, 0.5 / (1.0 + np.exp((off - 16.0) / 1.5)) + 0.12)
-
-
-def _textured(random: np.random.Generator, light: FloatArray) -> occ.Photo:
-    grain = cv2.GaussianBlur(random.normal(0.0, 1.0, light.shape), (0, 0), 2.0)
-    blurred = cv2.GaussianBlur(light * (1.0 + 0.3 * grain), (0, 0), 0.8)
-    return photo_of(srgb(np.clip(np.asarray(blurred, np.float64), 0.0, 1.0)), jpeg=90)
-
-
-OTHER_THINGS: tuple[Callable[[np.random.Generator], occ.Photo], ...] = (brick_wall, slats, keys)
 
 FREQUENCY = 1000.0
 

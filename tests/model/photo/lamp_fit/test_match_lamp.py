@@ -1,14 +1,11 @@
-"""Lamps are read by the shape of their stripes, and other regular things are not."""
+"""Lamps are read by the shape of their stripes."""
 
-from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from model.photo.lamp_fit.lamp_pictures import (
     FREQUENCY,
-    OTHER_THINGS,
     LampPicture,
     draw_lamp,
     is_near,
@@ -20,7 +17,9 @@ from model.photo.lamp_fit.lamp_pictures import (
 
 import occ_model as occ
 from occ_model.photo.lamp_fit.match import match_lamp
+from occ_model.photo.lamp_fit.place import find_place
 from occ_model.photo.lamp_fit.profile import LampProfile
+from occ_model.photo.lamp_fit.read_lamp import read_lamp
 from occ_model.photo.lamp_fit.readings import readings_of
 from occ_model.photo.match_facts import format_facts, match_facts
 from occ_model.photo.reading.load import region_within
@@ -65,17 +64,21 @@ def test_a_known_duty_or_a_noted_exposure_decides_between_the_readings() -> None
 
 def test_exchanging_duty_and_exposure_exchanges_their_errors() -> None:
     photo = draw_lamp(np.random.default_rng(6), duty=0.12, exposure=0.35, periods=9.0).photo
-    one, other = (
+    place = find_place(photo, region_within(photo, None))
+    assert place is not None
+    reading = read_lamp(place, is_linear=False)
+    short, long = (
         occ.match_photo(replace(photo, exposure_time=noted / FREQUENCY), SCENE)
-        for noted in (0.35, 0.12)
+        for noted in (0.12, 0.35)
     )
-    assert one.duty == pytest.approx(other.exposure_time * FREQUENCY, rel=0.05)
-    error, exchanged = (
-        each.uncertainties["duty"] / (each.uncertainties["exposure_time"] * FREQUENCY)
-        for each in (one, other)
-    )
-    assert error == pytest.approx(1.0 / exchanged)
-    assert abs(error - 1.0) > 0.05
+    assert short.duty == pytest.approx(long.exposure_time * FREQUENCY, rel=0.05)
+    for match, of_duty, of_exposure in (
+        (short, reading.width_error, reading.ramp_error),
+        (long, reading.ramp_error, reading.width_error),
+    ):
+        assert match.uncertainties["duty"] == pytest.approx(of_duty)
+        assert match.uncertainties["exposure_time"] == pytest.approx(of_exposure / FREQUENCY)
+    assert reading.width_error != pytest.approx(reading.ramp_error, rel=0.05)
 
 
 def test_the_scene_of_a_match_begins_where_the_photo_does() -> None:
@@ -109,17 +112,6 @@ def test_what_no_shutter_makes_of_a_lamp_is_doubted(photo: occ.Photo, said: str)
     assert any(said in reason for reason in match.reasons)
     upright = match_lamp(stripes(), SCENE, whole, estimate="readout_time", is_duty_known=False)
     assert upright.verdict == "sure"
-
-
-@pytest.mark.parametrize("draw", OTHER_THINGS)
-def test_other_regular_things_are_never_sure(
-    draw: Callable[[np.random.Generator], occ.Photo],
-) -> None:
-    photo = draw(np.random.default_rng(3))
-    verdict = "refused"
-    with suppress(occ.MatchError):
-        verdict = occ.match_photo(photo, SCENE).verdict
-    assert verdict in ("refused", "doubtful")
 
 
 @pytest.mark.parametrize(("together", "said"), [(2, "two"), (4, "four")])
@@ -167,6 +159,19 @@ def test_gamma_is_estimated_on_request(gamma: float) -> None:
     given = occ.match_photo(photo, SCENE)
     assert given.gamma == SCENE.camera.gamma
     assert "gamma" not in given.uncertainties
+
+
+@pytest.mark.parametrize(
+    ("columns", "shortest", "step"),
+    [(640, 500.0, 1), (641, 500.0, 2), (6400, 500.0, 10), (6400, 480.0, 10), (6400, 479.0, 9),
+     (6400, 95.0, 1), (6400, 96.0, 2), (100, 5.0, 1)],
+)  # fmt: skip
+def test_columns_are_averaged_while_periods_keep_enough_of_them(
+    columns: int, shortest: float, step: int
+) -> None:
+    """A profile keeps at most 640 columns, but at least 48 of a period."""
+    flat = np.zeros(columns)
+    assert LampProfile(flat, flat, flat > 0.0).reduction(shortest) == step
 
 
 def test_readings_make_the_same_stripes() -> None:

@@ -16,6 +16,8 @@ FREQUENCY = 1000.0
 WRONG = 0.03  # relative error of a period from which it is wrong
 KNOWN = ("duty known", "exposure noted", "neither")
 _NOTE_ERROR = 0.1
+_MISREAD = 6.0  # stated errors of an exposure from where it is another reading's
+_ALIKE = "these make the same stripes"
 _VERDICTS = ("sure", "doubtful", "refused")
 
 
@@ -25,7 +27,8 @@ class LampTrial:
 
     seed: int
     verdict: str
-    exposure_verdict: str = "refused"
+    shape_verdict: str = "refused"  # on duty and exposure
+    is_misread: bool = False  # the exposure is sure, and that of another reading
     off: dict[str, float] = field(default_factory=dict)
     stated: dict[str, float] = field(default_factory=dict)
     classes: dict[str, str] = field(default_factory=dict)
@@ -70,23 +73,27 @@ def trial_of(view: LampView, seed: int) -> LampTrial:
     )
     frequency = match.lamp_frequency or FREQUENCY
     off, stated = {"period": found / right - 1.0}, {"period": errors[name] / right}
-    exposure, exposure_error = match.exposure_time * frequency, errors["exposure_time"] * frequency
-    if known == "neither":
-        duty, error = match.duty or 0.0, errors["duty"]
-        alike = _nearest(view, duty / error, exposure / exposure_error, error, exposure_error)
-        off |= {"duty": duty - alike[0], "exposure": exposure - alike[1]}
-        stated |= {"duty": error, "exposure": exposure_error}
-    else:
-        off["exposure"], stated["exposure"] = exposure - view.exposure, exposure_error
-        if "duty" in errors:
-            off["duty"], stated["duty"] = (match.duty or 0.0) - view.duty, errors["duty"]
+    duty, exposure = match.duty or 0.0, match.exposure_time * frequency
+    stated["exposure"] = errors["exposure_time"] * frequency
+    alike = view.duty, view.exposure
+    if "duty" in errors:
+        stated["duty"] = errors["duty"]
+        alike = _nearest(view, duty / errors["duty"], exposure / stated["exposure"], stated)
+        off["duty"] = duty - alike[0]
+    off["exposure"] = exposure - alike[1]
+    # Which of the readings is right is another question than how near it is.
+    unsure = [why for why in match.exposure_reasons if _ALIKE not in why]
+    shape_verdict = "doubtful" if unsure or match.verdict != "sure" else "sure"
+    is_misread = match.exposure_verdict == "sure" and known != "neither" and (
+        abs(exposure - view.exposure) > _MISREAD * stated["exposure"]
+    )  # fmt: skip
     return LampTrial(
-        seed, match.verdict, match.exposure_verdict, off, stated, classes, match.all_reasons
+        seed, match.verdict, shape_verdict, is_misread, off, stated, classes, match.all_reasons
     )
 
 
 def _nearest(
-    view: LampView, duty: float, exposure: float, error: float, exposure_error: float
+    view: LampView, duty: float, exposure: float, stated: dict[str, float]
 ) -> tuple[float, float]:
     """Return which duty and exposure that make the same stripes are nearest to those found."""
     whole = math.floor(view.exposure)
@@ -96,7 +103,9 @@ def _nearest(
     every = [(one, other + more) for one, other in alike for more in range(4)]
     return min(
         every,
-        key=lambda one: math.hypot(duty - one[0] / error, exposure - one[1] / exposure_error),
+        key=lambda one: math.hypot(
+            duty - one[0] / stated["duty"], exposure - one[1] / stated["exposure"]
+        ),
     )
 
 
@@ -105,8 +114,7 @@ def coverage(trials: Iterable[LampTrial], name: str) -> tuple[int, float, float,
     sure = [
         one
         for one in trials
-        if (one.exposure_verdict if name == "exposure" else one.verdict) == "sure"
-        and name in one.off
+        if (one.verdict if name == "period" else one.shape_verdict) == "sure" and name in one.off
     ]
     away = np.abs([one.deviations(name) for one in sure])
     if not sure:
@@ -117,7 +125,10 @@ def coverage(trials: Iterable[LampTrial], name: str) -> tuple[int, float, float,
 
 def report(trials: Sequence[LampTrial]) -> list[str]:
     """Write verdicts, coverage of each error, and verdicts and coverage by class."""
-    lines = [f"{len(trials)} lamps: {_counts(trials)}; {sum(one.is_wrong for one in trials)} wrong"]
+    lines = [
+        f"{len(trials)} lamps: {_counts(trials)}; {sum(one.is_wrong for one in trials)} wrong, "
+        f"{sum(one.is_misread for one in trials)} misread"
+    ]
     lines += [_line(name, *coverage(trials, name)) for name in ("period", "duty", "exposure")]
     for kind in trials[0].classes:
         for value in sorted({one.classes[kind] for one in trials}, key=_order):

@@ -114,7 +114,7 @@ class Levels:
 
     def _processed(self, values: FloatArray, levels: FloatArray) -> FloatArray:
         near, far = values[NEAR], values[FAR]
-        return levels + near * _leaving(levels, 1) + far * _leaving(levels, 2)
+        return np.asarray(levels + near * _leaving(levels, 1) + far * _leaving(levels, 2))
 
     def _light(self, values: FloatArray, wave: FloatArray) -> tuple[FloatArray, FloatArray, float]:
         log = np.clip(self.envelope @ values[COUNT:], -_LARGEST_LOG, _LARGEST_LOG)

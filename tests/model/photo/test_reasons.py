@@ -127,7 +127,7 @@ def test_the_stripes_of_a_lamp_are_no_chips_that_are_read() -> None:
     photo = chips("10", 250, noise=10.0)
     match = occ.match_photo(photo, KNOWN)
     assert match.readout_time == pytest.approx(1e-5, rel=2e-3)
-    assert "Only 4 edges are in view" in match.reasons[-1]
+    assert match.verdict == "doubtful"
     plain, repeated, chance = refused(photo, KNOWN, sent="read")
     assert plain == PLAIN_STRIPES
     assert "They repeat after 100.0 columns and are bright for 50 % of them" in repeated

@@ -137,11 +137,8 @@ from .transmitter.scheme import (
     scheme_of as scheme_of,
 )
 from .version import __version__ as __version__
+from .video.decode_film import decode_frames as decode_frames, decode_video as decode_video
 from .video.file.write import write_video as write_video
 from .video.load import load_video as load_video
-from .video.reader import (
-    VideoReader as VideoReader,
-    decode_frames as decode_frames,
-    decode_video as decode_video,
-)
+from .video.reader import VideoReader as VideoReader
 from .video.render import render_video as render_video

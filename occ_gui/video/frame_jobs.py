@@ -16,8 +16,8 @@ from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.light_words import describe_light
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.video.decode_film import scene_of_frames
 from occ_model.video.read_frame import read_by_itself
-from occ_model.video.reader import scene_of_frames
 
 _MOST_DRAFT_PIXELS = 1_000_000  # up to this size, an exact picture takes no longer than a draft
 

@@ -16,7 +16,7 @@ from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.study.reading_facts import film_facts
-from occ_model.video.reader import reader_of
+from occ_model.video.decode_film import reader_of
 
 _INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
 _LIVE_INTERVAL = 0.03  # seconds between two reports of a camera, which also show its picture

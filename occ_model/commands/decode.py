@@ -37,8 +37,8 @@ from occ_model.scene.units import SECOND
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
 from occ_model.transmitter.scheme import check_code
+from occ_model.video.decode_film import decode_video
 from occ_model.video.load import load_video
-from occ_model.video.reader import decode_video
 
 
 def add_to(commands: Commands) -> None:

@@ -15,9 +15,9 @@ from occ_model.program import EXIT_FAILURE
 from occ_model.results.video_reading import Clock
 from occ_model.scene.scene import Scene
 from occ_model.study.reading_facts import clock_facts
+from occ_model.video.decode_film import decode_video
 from occ_model.video.known_timing import CRYSTAL_TOLERANCE
 from occ_model.video.load import load_video
-from occ_model.video.reader import decode_video
 
 _WIDTH = 18
 _FIRST = {"readout_time": "readout_time", "switching_frequency": "frequency"}

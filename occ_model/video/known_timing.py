@@ -2,8 +2,13 @@
 
 from dataclasses import dataclass, replace
 
+from occ_model.errors import ParameterError, quote
 from occ_model.results.video_reading import MeasuredValue
+from occ_model.scene.argument_checks import is_number
+from occ_model.scene.light_words import CYCLIC_LIGHTS, cycle_frequency
+from occ_model.scene.scene import Scene
 
+HALF_CYCLES = 2  # a lamp's phase is counted in half cycles, for which limits in chips are suitable
 READOUT_TOLERANCE = 0.05  # relative, of a rough readout time if nothing is known
 CRYSTAL_TOLERANCE = 1e-4  # relative, of a clock with a crystal, as that of a camera
 MOST_TOLERANCE = 0.5
@@ -91,3 +96,25 @@ class KnownTiming:
         off = (frequency / self.frequency - 1.0) / _USUAL_FREQUENCY_DEVIATION
         readout_off = (readout_time / self.readout_time - 1.0) / _USUAL_READOUT_DEVIATION
         return float((1.0 + off**2) * (1.0 + readout_off**2))
+
+
+def known_timing(
+    scene: Scene, readout_tolerance: float | None, frequency_tolerance: float | None
+) -> KnownTiming:
+    """Return what a scene and its tolerances say; refuse tolerances out of range."""
+    tolerances = {
+        "readout_tolerance": readout_tolerance,
+        "frequency_tolerance": frequency_tolerance,
+    }
+    for name, tolerance in tolerances.items():
+        if tolerance is None:
+            continue
+        if not is_number(tolerance) or not 0.0 < tolerance <= MOST_TOLERANCE:
+            raise ParameterError.of(name, quote(tolerance), f"above 0 up to {MOST_TOLERANCE:g}")
+    if readout_tolerance is None and frequency_tolerance is None:
+        readout_tolerance = READOUT_TOLERANCE
+    sent = scene.transmitter
+    cycles = cycle_frequency(sent) if sent.light in CYCLIC_LIGHTS else None
+    frequency = sent.switching_frequency if cycles is None else HALF_CYCLES * cycles
+    readout = scene.camera.readout_time
+    return KnownTiming(frequency, readout, frequency_tolerance, readout_tolerance)

@@ -1,6 +1,5 @@
-"""Read a film frame by frame as the frames arrive, and as a whole at the end."""
+"""Join the frames of a film as they arrive: its chips, its packets and its clock."""
 
-from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -13,15 +12,15 @@ from occ_model.receiver.decode import decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame, read_frame as read_soft_frame
 from occ_model.results.decoding import PAPER_DECODER, overexposed_text
 from occ_model.results.sent_packets import SentPackets
-from occ_model.results.video import LATEST_TIME, FilmTimes, Video, VideoFrame
+from occ_model.results.video import LATEST_TIME, FilmTimes, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
-from occ_model.scene.argument_checks import check_count, is_number
-from occ_model.scene.light_words import CYCLIC_LIGHTS, cycle_frequency
+from occ_model.scene.argument_checks import check_count
+from occ_model.scene.light_words import CYCLIC_LIGHTS
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.scheme import check_code, code_of
 from occ_model.video.frame_times import FrameTimes
-from occ_model.video.known_timing import MOST_TOLERANCE, READOUT_TOLERANCE, KnownTiming
+from occ_model.video.known_timing import KnownTiming, known_timing
 from occ_model.video.packets import count_packets
 from occ_model.video.payload_so_far import (
     NO_CLOCK,
@@ -34,142 +33,9 @@ from occ_model.video.payload_so_far import (
 from occ_model.video.period import SentPeriod
 from occ_model.video.placed_frames import PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import FrameReader
-from occ_model.video.without_packets import HALF_CYCLES, WithoutPackets
+from occ_model.video.without_packets import WithoutPackets
 
 _MIN_PLACED_FRACTION = 0.9  # of a lamp's frames, in which its edges give a more exact clock
-_INTERLACED = (
-    "The film is interlaced: each of its fields is read as a frame, whose columns are every other "
-    "line of the camera, so that its readout time is that of two lines."
-)
-
-
-def decode_video(
-    video: Video,
-    scene: Scene,
-    decoder: str = PAPER_DECODER,
-    *,
-    readout_tolerance: float | None = None,
-    frequency_tolerance: float | None = None,
-    progress: Callable[[FilmProgress], object] | None = None,
-) -> VideoReading:
-    """Read a film: its clock, its packets and the payload.
-
-    Parameters
-    ----------
-    scene
-        What the receiver knows: the scheme, the number of bits, and approximately the switching
-        frequency, the exposure time and the readout time. Of a lamp, flashes or the mains as its
-        light the clock alone is read.
-    decoder
-        The decoder that finds the chips in each frame.
-    readout_tolerance, frequency_tolerance
-        Maximum relative errors of the scene's readout time and frequency, None if one is only a
-        guess; clocks that imply larger ones are excluded. If both are None, the readout time is
-        taken to be right within 5 %. A known frequency (1e-4 for a lamp with a crystal) measures
-        the readout time, and shows slow motion.
-    progress
-        Called after each frame. An exception from it ends the reading.
-
-    Raises
-    ------
-    ParameterError
-        The decoder does not exist, a tolerance is out of range, the scheme cannot be used, or the
-        light is neither a code nor that of a lamp.
-    VideoError
-        The file cannot be read.
-    """
-    reader = reader_of(
-        video,
-        scene,
-        decoder,
-        readout_tolerance=readout_tolerance,
-        frequency_tolerance=frequency_tolerance,
-    )
-    for frame in video:
-        film_progress = reader.add(frame)
-        if progress is not None:
-            progress(film_progress)
-    return reader.reading()
-
-
-def reader_of(
-    video: Video,
-    scene: Scene,
-    decoder: str = PAPER_DECODER,
-    *,
-    readout_tolerance: float | None = None,
-    frequency_tolerance: float | None = None,
-) -> "VideoReader":
-    """Return a reader of a film's frames; arguments and errors as for :func:`decode_video`."""
-    reader = VideoReader(
-        scene_of_frames(video, scene),
-        decoder,
-        readout_tolerance=readout_tolerance,
-        frequency_tolerance=frequency_tolerance,
-        times=video.times,
-    )
-    if video.line_step > 1:
-        reader.notes = (_INTERLACED,)
-    return reader
-
-
-def scene_of_frames(video: Video, scene: Scene) -> Scene:
-    """Return a scene for the frames of a film: a field takes longer from line to line."""
-    if video.line_step == 1:
-        return scene
-    return scene.replace(readout_time=video.line_step * scene.camera.readout_time)
-
-
-def decode_frames(
-    frames: Iterable[VideoFrame],
-    scene: Scene,
-    decoder: str = PAPER_DECODER,
-    *,
-    readout_tolerance: float | None = None,
-    frequency_tolerance: float | None = None,
-) -> Iterator[FilmProgress]:
-    """Read frames as they arrive; yield what is known after each.
-
-    Parameters
-    ----------
-    frames
-        A film, or frames from a camera.
-    scene, decoder, readout_tolerance, frequency_tolerance
-        As for :func:`decode_video`.
-
-    Raises
-    ------
-    ParameterError
-        As for :func:`decode_video`, raised at once.
-    """
-    reader = VideoReader(
-        scene,
-        decoder,
-        readout_tolerance=readout_tolerance,
-        frequency_tolerance=frequency_tolerance,
-    )
-    return (reader.add(frame) for frame in frames)
-
-
-def _known_timing(
-    scene: Scene, readout_tolerance: float | None, frequency_tolerance: float | None
-) -> KnownTiming:
-    tolerances = {
-        "readout_tolerance": readout_tolerance,
-        "frequency_tolerance": frequency_tolerance,
-    }
-    for name, tolerance in tolerances.items():
-        if tolerance is None:
-            continue
-        if not is_number(tolerance) or not 0.0 < tolerance <= MOST_TOLERANCE:
-            raise ParameterError.of(name, quote(tolerance), f"above 0 up to {MOST_TOLERANCE:g}")
-    if readout_tolerance is None and frequency_tolerance is None:
-        readout_tolerance = READOUT_TOLERANCE
-    sent = scene.transmitter
-    cycles = cycle_frequency(sent) if sent.light in CYCLIC_LIGHTS else None
-    frequency = sent.switching_frequency if cycles is None else HALF_CYCLES * cycles
-    readout = scene.camera.readout_time
-    return KnownTiming(frequency, readout, frequency_tolerance, readout_tolerance)
 
 
 def _half_cycles_as_chips(scene: Scene, known: KnownTiming) -> Scene:
@@ -185,7 +51,7 @@ class VideoReader:
     Parameters
     ----------
     scene, decoder, readout_tolerance, frequency_tolerance
-        As for :func:`decode_video`.
+        As for :func:`occ_model.decode_video`.
     times
         What is known of the frames' times: how far they are rounded.
     """
@@ -204,7 +70,7 @@ class VideoReader:
         if not self._is_lamp:
             check_code(scene.transmitter)
         decoder_named(decoder)
-        known = _known_timing(scene, readout_tolerance, frequency_tolerance)
+        known = known_timing(scene, readout_tolerance, frequency_tolerance)
         if self._is_lamp:
             scene = _half_cycles_as_chips(scene, known)
         self._scene, self._frame_reader = scene, FrameReader(scene, decoder)

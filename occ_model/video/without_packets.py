@@ -17,10 +17,8 @@ from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.video.blinking import fit_blinking
 from occ_model.video.film_clock import FilmPhases, clock_of_lamp, describe_clock
 from occ_model.video.frame_times import FrameTimes
-from occ_model.video.known_timing import KnownTiming
+from occ_model.video.known_timing import HALF_CYCLES, KnownTiming
 from occ_model.video.phase_fit import FramePhases
-
-HALF_CYCLES = 2  # a lamp's phase is counted in half cycles, for which limits in chips are suitable
 
 _MIN_PERIODS = 3.0  # minimum in a frame, because two may be equal by chance
 _MAX_UNREPEATED = 0.1  # of the stripes' variance that a repeated wave may leave unexplained

@@ -28,6 +28,7 @@ _ERROR_OF_FEW, _ERROR_OF_CHANGING = 0.12, 0.08
 # Of one picture, in which the room's own pattern does not cancel:
 _MOST_TEXTURE = 0.1  # scatter along a line, and misfit, over the swing of the bars
 _MOST_TILT = 5e-4  # bars over lines, in radians: what people hang is level to about 1e-2
+_STEEPEST = 0.65  # of its swing by which light changes in a sixteenth of a cycle; lamps: 0.2 to 0.5
 _SLANTED = 0.08  # the same, above which lamps on other phases do not explain it
 
 
@@ -144,11 +145,20 @@ def _doubts_about_one(lines: LineValues, fit: BarsFit) -> list[str]:
     rough = max(lines.texture, fit.residual)
     if rough > _MOST_TEXTURE * swing:
         return [f"One picture does not tell bars of light from the room's own pattern. {_ANOTHER}"]
+    if _steepness(fit) > _STEEPEST:
+        return [f"The bars have sharp edges, as slats do, and exposed light hardly. {_ANOTHER}"]
     if not tilt_of(lines, fit).is_level:
         return [
             f"The bars are not exactly along the lines, as blinds or slats would be. {_ANOTHER}"
         ]
     return []
+
+
+def _steepness(fit: BarsFit) -> float:
+    """Return by how much of its swing the light changes in a sixteenth of a cycle, at most."""
+    step = max(1, round(fit.waves.shape[1] / fit.bars / 16.0))
+    changes = np.abs(fit.waves[:, step:] - fit.waves[:, :-step]).max(axis=1)
+    return float(np.median(changes / np.maximum(np.ptp(fit.waves, axis=1), 1e-9)))
 
 
 def tilt_of(lines: LineValues, fit: BarsFit) -> _Tilt:

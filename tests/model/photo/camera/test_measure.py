@@ -111,7 +111,7 @@ def test_bars_bent_by_a_lens_correction_are_refused_by_name(tmp_path: Path) -> N
         measured_along_lines(saved(tmp_path, *bent))
 
 
-@pytest.mark.parametrize("tilt", [0.01, -0.02])
+@pytest.mark.parametrize("tilt", [0.0, 0.01, -0.02])
 def test_slats_in_one_picture_are_never_sure(tmp_path: Path, tilt: float) -> None:
     place = np.arange(ROWS)[:, None] + tilt * np.arange(COLUMNS)[None, :]
     slats = np.where((place / 70.0) % 1.0 < 0.6, 150, 60).astype(np.uint8)

@@ -70,15 +70,15 @@ class PictureNoise:
         numbers = self._numbers.of(mean.rows, place, _CHUNK)
         shape = (min(_CHUNK, len(mean.rows)), self._columns)
         scratch, buffer = Scratch(shape), np.empty(shape, dtype=np.float32)
-        for start, chunk in zip(range(0, len(mean.rows), _CHUNK), numbers, strict=True):
-            part = slice(start, start + len(chunk))
-            drawn = buffer[: len(chunk)]
+        for start in range(0, len(mean.rows), _CHUNK):
+            part = slice(start, min(start + _CHUNK, len(mean.rows)))
+            drawn = buffer[: part.stop - start]
             self._vary(levels.crop(part), drawn)
             drawn += dither(mean.rows[part], self._columns)
             if self._is_bright:
                 np.minimum(drawn, np.float32(self._law.last), out=drawn)
             end_stage(FixedPattern.name)
-            self._table.draw(drawn, chunk, out[part], scratch)
+            self._table.draw(drawn, next(numbers), out[part], scratch)
             end_stage(SensorNoise.name)
 
     def vary(self, mean: Rows, end_stage: Callable[[str], object]) -> Pixels:

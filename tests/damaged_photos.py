@@ -68,7 +68,9 @@ def whole_files() -> dict[str, bytes]:
         "bmp-palette": saved(palette, "BMP"),
         "gif": saved(palette, "GIF", save_all=True, append_images=[Image.fromarray(STRIPES)]),
         "ppm": saved(COLOURS, "PPM"),
+        "ppm-16": b"P6 64 48 65535\n" + deep.astype(">u2").tobytes(),
         "jp2": saved(COLOURS, "JPEG2000"),
+        "jp2-16": with_opencv(deep, ".jp2"),
         "avif": saved(COLOURS, "AVIF", **noted),
         "heic": heic.getvalue(),
     }

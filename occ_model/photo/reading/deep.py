@@ -7,6 +7,7 @@ decoding cannot be cancelled.
 
 import io
 import re
+import struct
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from occ_model.errors import PhotoError
 from occ_model.photo.reading.levels import (
+    START_OF_JPEG_2000,
     Levels,
     full_range,
     grey_levels,
@@ -30,6 +32,11 @@ if TYPE_CHECKING:
 
 _LUMA_AND_CHROMA = re.compile(rb"colr\x01..\0\0\0\x12", re.DOTALL)
 """JPEG 2000's colour space of video, which OpenCV converts as if they had 16 bits."""
+
+_SIZE_OF_JPEG_2000 = 8  # bytes from the start of its code stream to its size
+
+_BYTES_OF_CHUNK = 12  # of a PNG, beside its content: its length, its name, and a check sum
+_MOST_CHUNKS = 1_000_000  # which are walked through in about a second
 
 _COMMENT = re.compile(rb"#[^\r\n]*")
 
@@ -75,7 +82,7 @@ def decode_deep(opened: Opened) -> Stored:
     if picture.format == "PPM":
         return _decode_ppm(picture, content)
     values = None
-    if picture.format != "JPEG2000" or _LUMA_AND_CHROMA.search(content) is None:
+    if _is_for_opencv(picture, content):
         with no_stderr():
             values = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
     if picture.format == "AVIF" and (values is None or values.ndim == 2):
@@ -93,6 +100,32 @@ def decode_deep(opened: Opened) -> Stored:
         stored = stored[..., :3]
     # OpenCV turns TIFF, and TIFF only.
     return Stored(stored, levels, True, picture.format == "TIFF")
+
+
+def _is_for_opencv(picture: "ImageFile", content: bytes | bytearray) -> bool:
+    if picture.format == "PNG":
+        return _has_whole_chunks(content)
+    return picture.format != "JPEG2000" or _is_usual_jpeg_2000(picture.size, content)
+
+
+def _has_whole_chunks(content: bytes | bytearray) -> bool:
+    """Return whether a PNG's chunks are in the file: OpenCV allocates what lengths they state."""
+    place = len(b"\x89PNG\r\n\x1a\n")
+    for _ in range(_MOST_CHUNKS):
+        end = place + _BYTES_OF_CHUNK + int.from_bytes(content[place : place + 4], "big")
+        if end > len(content):
+            return False
+        if content[place + 4 : place + 8] == b"IEND":
+            return True
+        place = end
+    return False
+
+
+def _is_usual_jpeg_2000(size: tuple[int, int], content: bytes | bytearray) -> bool:
+    """Return whether a JPEG 2000 has no luma and chroma, and its code stream the file's size."""
+    start = content.find(START_OF_JPEG_2000) + _SIZE_OF_JPEG_2000
+    width, height, left, top = struct.unpack_from(">4L", content, start)
+    return (width - left, height - top) == size and _LUMA_AND_CHROMA.search(content) is None
 
 
 def _decode_grey_avif(

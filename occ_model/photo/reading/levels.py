@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 _PHOTOMETRIC, _WHITE_IS_ZERO = 262, 0  # a tag of TIFF, and its value if white is stored as 0
 
-_START_OF_JPEG_2000 = b"\xff\x4f\xff\x51"  # the markers of its code stream and of its size
+START_OF_JPEG_2000 = b"\xff\x4f\xff\x51"  # the markers of its code stream and of its size
 _COMPONENTS = 42  # bytes from there to the first component's description, of three bytes
 
 _DEEP_COLOURS = re.compile("(LA|RGB|RGBA|RGBa|RGBX);16")  # raw modes
@@ -51,7 +51,7 @@ def bits_of(picture: "ImageFile", content: bytes | bytearray) -> int:
         flags = [place[2] for place in content.split(b"av1C")[1:] if len(place) > 2]
         return max((8 + 2 * (flag >> 6 & 1) + 2 * (flag >> 5 & 1) for flag in flags), default=8)
     if picture.format == "JPEG2000":  # ISO/IEC 15444-1, A.5.1
-        first = content.find(_START_OF_JPEG_2000) + _COMPONENTS
+        first = content.find(START_OF_JPEG_2000) + _COMPONENTS
         components = content[first : first + 3 * len(picture.getbands()) : 3]
         return max(((component & 0x7F) + 1 for component in components), default=8)
     is_deep = any(_DEEP_COLOURS.match(mode) for mode in raw_modes_of(picture))

@@ -1,5 +1,6 @@
 """Samples of 10, 12 and 16 bits are kept where the file has them, and its white is white."""
 
+import struct
 import zlib
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 import tifffile
 from numpy.typing import NDArray
-from photo_files import png, saved
+from photo_files import png, png_chunk, saved
 from PIL import Image
 from pillow_heif import from_bytes
 
@@ -165,3 +166,23 @@ def test_colours_of_limited_range_are_those_of_the_full_one(tmp_path: Path) -> N
     picture = Image.fromarray(of_bits(8).astype(np.uint8)).convert("RGB")
     path = saved(tmp_path, picture, "x.heic", quality=-1, full_range_flag=0)
     assert np.abs(load_photo(path, "columns").image - of_bits(8).astype(float)).max() <= 1
+
+
+def test_what_a_deep_file_promises_beyond_its_bytes_is_not_allocated(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """OpenCV would take tens of seconds for such files."""
+    monkeypatch.setattr(cv2, "imdecode", lambda *_: pytest.fail("OpenCV is asked"))
+    content = png(7, 6, bits=16, colours=2, more=png_chunk(b"tEXt", b"x"))
+    longer = content.replace(struct.pack(">L", 1) + b"tEXt", struct.pack(">L", 2**30) + b"tEXt")
+    assert longer != content
+    # Pillow refuses most by itself, so that the chunk is behind what it reads.
+    end = content.index(b"IEND") - 4
+    behind = content[:end] + struct.pack(">L", 2**30) + b"tEXt" + content[end:]
+    other = (FILES / "ramp_12_bits.jp2").read_bytes()
+    place = other.index(b"\xff\x4f\xff\x51") + 8
+    wider = other[:place] + struct.pack(">LL", 30_000, 30_000) + other[place + 8 :]
+    for name, damaged in (("x.png", longer), ("y.png", behind), ("x.jp2", wider)):
+        (tmp_path / name).write_bytes(damaged)
+        with pytest.raises(PhotoError, match="damaged"):
+            load_photo(tmp_path / name)

@@ -9,11 +9,12 @@ import numpy as np
 
 from occ_model.errors import MatchError, ParameterError, inflect
 from occ_model.photo.camera.bars_fit import BarsFit, fit_bars, search_bars
-from occ_model.photo.camera.quotient import LineValues, quotient_of_lines
+from occ_model.photo.camera.quotient import TILES, LineValues, quotient_of_lines
 from occ_model.photo.camera.verdict import (
     LEAST_FOR_ANY,
     doubts,
     refuse,
+    refuse_unseen,
     stated_deviation,
     tilt_of,
 )
@@ -28,6 +29,7 @@ _MAINS_ERROR = 4e-4
 """Relative standard deviation of a mains' frequency: 20 mHz of 50 Hz in continental Europe."""
 
 MOST_PICTURES = 2
+_FEWEST_LINES = 40  # on which eight bars could still be seen
 
 
 def measure_camera(
@@ -69,10 +71,11 @@ def measure_camera(
     quantity("mains_frequency").check(mains_frequency)
     loaded = _load(photos)
     report(0.2)
-    axes = [scan_axis] if scan_axis != SCAN_AXES[0] else list(SCAN_AXES[1:])
+    axes = _axes(loaded[0], scan_axis)
     found = []
     for number, axis in enumerate(axes, 1):
         lines = quotient_of_lines(loaded, axis)
+        refuse_unseen(lines)
         found.append(_Along(axis, lines, fit_bars(search_bars(lines)), len(loaded) == 1))
         report(0.2 + 0.7 * number / len(axes))
     best = max(found, key=_Along.credit)
@@ -145,6 +148,20 @@ def _load(photos: Sequence[Photo | str | Path]) -> list[Photo]:
             f"{second[1]:,} columns; allowed: two of the same size, by the same camera."
         )
     return loaded
+
+
+def _axes(photo: Photo, scan_axis: str) -> list[str]:
+    """Return the axes along which a picture is large enough, of that one or of both."""
+    lines, columns = _upright_size(photo)
+    sizes = {"lines": (lines, columns), "columns": (columns, lines)}
+    wanted = [scan_axis] if scan_axis in sizes else list(sizes)
+    axes = [axis for axis in wanted if sizes[axis][0] >= _FEWEST_LINES and sizes[axis][1] >= TILES]
+    if not axes:
+        raise MatchError(
+            f"The picture has {lines:,} lines and {columns:,} columns; allowed: at least "
+            f"{_FEWEST_LINES} that are read one by one, of at least {TILES} pixels."
+        )
+    return axes
 
 
 def _upright_size(photo: Photo) -> tuple[int, int]:

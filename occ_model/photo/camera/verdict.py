@@ -52,13 +52,17 @@ class _Tilt:
         return self.largest < _MOST_TILT
 
 
-def refuse(photos: list[Photo], axes: list[str], lines: LineValues, fit: BarsFit) -> None:
-    """Raise MatchError with the reason if the pictures show no bars that can be measured."""
+def refuse_unseen(lines: LineValues) -> None:
+    """Raise MatchError with the reason if too little of the pictures can be used for a fit."""
     if lines.seen < _LEAST_SEEN:
         raise MatchError(
             f"Only {PERCENT.format(lines.seen, 2)} of the picture can be used; the rest is too "
             "dark or too bright. Take it with another exposure."
         )
+
+
+def refuse(photos: list[Photo], axes: list[str], lines: LineValues, fit: BarsFit) -> None:
+    """Raise MatchError with the reason if the pictures show no bars that can be measured."""
     if fit.gap_to_none < LEAST_FOR_ANY:
         raise MatchError(*_why_none(photos, axes))
     if len(photos) == 1 and tilt_of(lines, fit).largest > _SLANTED:

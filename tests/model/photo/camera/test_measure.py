@@ -141,6 +141,24 @@ def test_wrong_arguments_are_refused(tmp_path: Path) -> None:
         occ.measure_camera(paths[:2])
 
 
+@pytest.mark.parametrize(
+    ("shape", "level", "said"),
+    [
+        ((60, 80), 0, "Only 0 % of the picture can be used"),
+        ((60, 80), 255, "Only 0 % of the picture can be used"),
+        ((60, 80), 90, "do not differ by bars"),
+        ((1, 1), 90, "at least 40 that are read one by one"),
+        ((400, 3), 90, "at least 40 that are read one by one"),
+    ],
+)
+def test_pictures_that_show_nothing_are_refused(
+    tmp_path: Path, shape: tuple[int, int], level: int, said: str
+) -> None:
+    empty = np.full(shape, level, np.uint8)
+    with pytest.raises(occ.MatchError, match=said):
+        occ.measure_camera(saved(tmp_path, empty, empty))
+
+
 def test_the_result_is_kept_as_json_and_answers_in_a_sentence(tmp_path: Path) -> None:
     measured = measured_along_lines(saved(tmp_path, wall()))
     kept = json.loads(json.dumps(measured.to_dict()))

@@ -19,6 +19,7 @@ from .errors import (
     SceneFileError as SceneFileError,
     VideoError as VideoError,
 )
+from .photo.camera.flash import measure_flash as measure_flash
 from .photo.camera.measure import measure_camera as measure_camera
 from .photo.chips.read import read_chips as read_chips
 from .photo.comparison import compare as compare
@@ -45,6 +46,7 @@ from .results.decoding import (
     DecodeResult as DecodeResult,
     Region as Region,
 )
+from .results.flash import FlashMeasurement as FlashMeasurement
 from .results.frame import (
     Decision as Decision,
     Frame as Frame,

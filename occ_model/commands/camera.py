@@ -1,20 +1,23 @@
-"""The command ``occ-model camera``: measure a camera by bars of lamps on the mains."""
+"""The command ``occ-model camera``: measure a camera by lamps on the mains, or by a flash."""
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.options import Commands, add_option, progress_bar
 from occ_model.errors import ParameterError
+from occ_model.photo.camera.flash import measure_flash
 from occ_model.photo.camera.measure import MOST_PICTURES, measure_camera
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.results.camera import CameraMeasurement
+from occ_model.results.flash import FlashMeasurement
 from occ_model.scene.parameters import quantity
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
-        "camera", help="measure a camera's readout time by lamps on the mains, without equipment"
+        "camera", help="measure a camera's readout time by lamps on the mains, or by one flash"
     )
     parser.add_argument(
         "files",
@@ -24,13 +27,37 @@ def add_to(commands: Commands) -> None:
         help="two pictures of a room at 1/1000 s, or a short and a long exposure; or one of an "
         "even wall; not cropped, without lens correction",
     )
-    add_option(parser, "--mains", "50Hz", "frequency of the mains", metavar="FREQUENCY")
+    light = parser.add_mutually_exclusive_group()
+    add_option(light, "--mains", "50Hz", "frequency of the mains", metavar="FREQUENCY")
+    light.add_argument(
+        "--flash",
+        metavar="LENGTH",
+        help="the one picture shows the band of a flash of this length, such as 1ms",
+    )
     add_option(parser, "--scan-axis", SCAN_AXES[0], choices=SCAN_AXES)
     parser.add_argument("--json", action="store_true", help="print the result as JSON, in SI units")
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
+    measured = _by_mains(options) if options.flash is None else _by_flash(options)
+    if options.json:
+        print(json.dumps(measured.to_dict(), indent=2))
+    else:
+        print("\n".join(report_lines(measured)))
+    return 0
+
+
+def _by_flash(options: argparse.Namespace) -> FlashMeasurement:
+    if len(options.files) > 1:
+        raise ParameterError.of(
+            "PICTURE", f"{len(options.files)} times", "one picture of a flash", verb="is given"
+        )
+    length = replace(quantity("exposure_time"), name="--flash").parse(options.flash)
+    return measure_flash(options.files[0], length, scan_axis=options.scan_axis)
+
+
+def _by_mains(options: argparse.Namespace) -> CameraMeasurement:
     if len(options.files) > MOST_PICTURES:
         raise ParameterError.of(
             "PICTURE",
@@ -39,20 +66,15 @@ def _run(options: argparse.Namespace) -> int:
             verb="is given",
         )
     with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
-        measured = measure_camera(
+        return measure_camera(
             options.files,
             quantity("mains_frequency").parse(options.mains),
             scan_axis=options.scan_axis,
             progress=lambda fraction: bar.update(fraction - bar.n),
         )
-    if options.json:
-        print(json.dumps(measured.to_dict(), indent=2))
-    else:
-        print("\n".join(report_lines(measured)))
-    return 0
 
 
-def report_lines(measured: CameraMeasurement) -> list[str]:
+def report_lines(measured: CameraMeasurement | FlashMeasurement) -> list[str]:
     """Describe a measurement in lines, the answer first."""
     facts = [f"  {fact.label:22}{fact}" for fact in measured.facts]
     return [

@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -48,3 +49,25 @@ def test_wrong_command_lines_are_refused(
 ) -> None:
     assert main(["camera", wall, *words]) == 2
     assert said in capsys.readouterr().err
+
+
+def test_a_flash_of_known_length_measures_a_camera(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Lines of 20 us, of which a flash of 2 ms and an exposure of 0.5 ms light 125."""
+    line = np.arange(400)
+    shared = np.minimum(line * 20e-6 + 5e-4, 4.9e-3) - np.maximum(line * 20e-6, 2.9e-3)
+    light = 0.02 + 0.6 * np.maximum(shared, 0.0) / 5e-4
+    values = np.rint(255.0 * light ** (1 / 2.2)).astype(np.uint8)
+    path = str(tmp_path / "flash.png")
+    Image.fromarray(np.repeat(values[:, None], 60, axis=1)).save(path)
+    assert main(["camera", "--flash", "2ms", path]) == 0
+    assert "the exposure is longer than the flash" in capsys.readouterr().out
+    assert main(["camera", "--flash", "2ms", path, "--json"]) == 0
+    kept = json.loads(capsys.readouterr().out)
+    error = kept["uncertainties"]["readout_time"]
+    assert kept["readout_time"] == pytest.approx(20e-6, abs=3.0 * error)
+    assert main(["camera", "--flash", "2ms", path, path]) == 2
+    assert "one picture of a flash" in capsys.readouterr().err
+    assert main(["camera", "--flash", "2 parsecs", path]) == 2
+    assert "--flash" in capsys.readouterr().err

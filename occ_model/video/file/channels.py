@@ -20,6 +20,7 @@ _FULL_IF_UNSTATED = ("ffv1", "ffvhuff", "huffyuv", "png", "rawvideo")
 """Codecs whose grey pictures are of full range unless stated; the standards of others disagree."""
 
 _LIMITED_BLACK, _LIMITED_WHITE = 16, 235  # of 8 bits: ITU-R BT.601 and BT.709
+_LINES_AT_ONCE = 32
 _LINES_OF_HD = 720  # from which colours are by BT.709 where nothing is stated
 _BT709, _BT601, _UNSTATED = 1, 6, 2  # ISO/IEC 23091-2, matrix coefficients
 
@@ -56,7 +57,12 @@ class ChannelReader:
             return np.ascontiguousarray(samples)
         if bits == 8:
             return np.asarray(cv2.LUT(samples, table), np.uint8)
-        return np.take(table, samples, mode="clip")
+        levels = np.empty(samples.shape, table.dtype)
+        # In parts, because numpy makes numbers of eight bytes of what it looks up.
+        for start in range(0, len(samples), _LINES_AT_ONCE):
+            part = slice(start, start + _LINES_AT_ONCE)
+            np.take(table, samples[part], out=levels[part], mode="clip")
+        return levels
 
     def _is_full(self, frame: VideoFrame) -> bool:
         if frame.color_range != ColorRange.UNSPECIFIED:

@@ -5,6 +5,7 @@ frame anywhere. Only a separate process can be limited and ended whatever a file
 messages on the standard streams do not mix with those of the program.
 """
 
+import gc
 import json
 import os
 import signal
@@ -117,6 +118,7 @@ class _Responder:
         if request["do"] in ("open", "close") and self._source is not None:
             self._source.close()
             self._source = None
+            gc.collect()  # PyAV's frames and their side data refer to each other
         if request["do"] == "close":
             return {}, None
         if request["do"] == "open":

@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 from gui.starts import UNMEASURED, Starts
 from PIL import Image
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QPoint, QTimer
 
 import occ_model as occ
+from occ_gui.accuracy.accuracy_plot import COLOURS
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import main, make_parser, take_screenshot, wait_until_shown
 from occ_gui.app.system_libraries import find_missing_libraries
@@ -22,7 +23,7 @@ REGION = (0xE6, 0x9F, 0x00)
 SMALL = "--set=rows=200"
 """Option for a picture that is simulated quickly."""
 
-NOISE = (0xCC, 0x79, 0xA7)
+DRAFT = COLOURS["draft"].getRgb()[:3]
 """Colour of the last points of an accuracy study."""
 
 
@@ -66,9 +67,13 @@ def test_a_screenshot_waits_for_the_visible_study_and_the_rates_at_the_sliders(
     timer.start(20)
     take_screenshot(application, tmp_path / "w.png")
     assert states.count(True) > 2
+    plot = application.view("accuracy").plot.plot
+    corner = plot.mapTo(application.window, QPoint(0, 0))
+    box = (corner.x(), corner.y(), corner.x() + plot.width(), corner.y() + plot.height())
     with Image.open(tmp_path / "w.png") as image:
-        colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
-    assert NOISE in colours, "the picture was taken before the last points were shown"
+        drawn = image.convert("RGB").crop(box)
+        colours = {colour for _, colour in drawn.getcolors(2**24) or []}
+    assert DRAFT in colours, "the picture was taken before the last points were shown"
 
 
 @pytest.mark.parametrize("name", ["photo.png", "link.png"])

@@ -92,7 +92,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     report = _Progress(progress or (lambda _fraction: None))
     report(0.0)
     if _is_lamp(scene, sent):
-        within = region.region if isinstance(region, Lamp) else region_within(photo, region)
+        within = region_within(photo, region.region if isinstance(region, Lamp) else region)
         advice = mains_advice(scene) if estimate == ESTIMATES[0] else ()
         try:
             match = match_lamp(

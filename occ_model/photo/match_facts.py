@@ -129,7 +129,7 @@ def _lamp(match: Match) -> dict[str, tuple[str, str]]:
 def _duty(match: Match) -> tuple[str, str]:
     deviation, duty = match.uncertainties.get("duty"), match.duty or 0.0
     if deviation is None:
-        return PERCENT.format(duty, 3), "assumed" if match.exposure_reasons else "given"
+        return PERCENT.format(duty, 3), "given"
     note = "doubtful" if match.only_exposure_is_doubtful else ""
     return PERCENT.format_estimate(duty, deviation), note
 

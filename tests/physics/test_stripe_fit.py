@@ -90,6 +90,28 @@ def test_dark_stripes_show_a_short_exposure_of_a_square_wave() -> None:
     assert match.other_exposures == pytest.approx((200e-6,), rel=0.01)  # of a pulse of 60 us
 
 
+@pytest.mark.parametrize("seed", [2, 5])
+def test_a_code_of_few_chips_is_read_under_a_hot_spot(seed: int) -> None:
+    """By levels of one polynomial these were refused: they follow no hot spot."""
+    random, columns = np.random.default_rng([5, seed]), 600
+    pattern = "11010011" if seed % 2 else "1101001110"
+    chips = np.array([int(chip) for chip in pattern], dtype=np.uint8)
+    step = random.uniform(1.6, 2.4) * len(chips) / columns
+    timing = Timing(step, random.uniform(0.1, 0.9), random.uniform(0.0, 8.0), 1.0)
+    place = np.linspace(-1.0, 1.0, columns)
+    middle, size, height = (random.uniform(*ends) for ends in ((-0.4, 0.4), (0.25, 0.5), (1, 5)))
+    hot = 1.0 + height * np.exp(-0.5 * ((place - middle) / size) ** 2)
+    light = 0.002 + 0.9 * timing.lit_fraction(Waveform(chips), columns) * hot / hot.max()
+    levels = 255.0 * light ** (1.0 / 2.2) + random.normal(0.0, 2.0, (60, columns))
+    photo = photo_of(np.clip(np.rint(levels), 0.0, 255.0).astype(np.uint8))
+    scene = occ.load_preset("phone-68us").replace(pattern=pattern, switching_frequency=1e4)
+    match = occ.match_photo(photo, scene, sent="scene")
+    assert match.verdict == "sure"
+    off = match.readout_time - step / 1e4
+    assert abs(off) < 3.0 * match.uncertainties["readout_time"]
+    assert abs(off) < 1e-3 * match.readout_time
+
+
 @pytest.mark.parametrize("seed", sample_of(6, 0))
 def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> None:
     scene = random_scene(seed).replace(pattern="10", vignetting_exponent=4.0)

@@ -1,17 +1,10 @@
 """Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
 
-import math
-from dataclasses import dataclass
-
-import numpy as np
-
-from occ_model.arrays import FloatArray
 from occ_model.errors import distinct_texts
 from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
 from occ_model.photo.fit.chip_runs import chips_if_longer, runs_of
 from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes
-from occ_model.scene.units import PERCENT
 
 _LEAST_PERIODS = 1.5  # minimum periods in view of a long pattern that is given
 _LEAST_PERIODS_OF_OTHERS = 3.0  # the same of a short one, or of one that was read
@@ -32,31 +25,11 @@ _MOST_SATURATED_FOR_EXPOSURE = 0.4
 """Saturated fraction above which the exposure time is doubtful: of 34 exposures of such photographs
 two standard deviations covered 79 % only (seeds 700000 to 700599)."""
 
-_MOST_AMPLITUDE = 0.02  # maximum amplitude of a periodic residual, in heights of the stripes
-
-_LEAST_LINE_RATIO = 50.0
-"""Minimum ratio of a line's power to that of the noise: among a thousand bins of noise the
-strongest one exceeds it once in 10^18 times."""
-
-_LEAST_LINE_FRACTION = 0.15  # minimum fraction of the residual's power in one line
-
-_OWN_HARMONICS = 2  # harmonics of the pattern itself, in numbers of its chips
-_LINE_BINS = 2  # half-width of a spectral line in bins: that of a Hann window
-
-_NEIGHBOURS = (-4, -3, 3, 4)
-"""Distances to the harmonics that a harmonic is compared with: an error at the edges appears in all
-of them. The nearest ones may be sidebands of a light that the pattern modulates."""
-
-_MOST_POWER_RATIO = 4.0  # ratio of powers up to which neighbouring harmonics have the same cause
-_LEAST_COLUMNS = 64  # minimum number of columns for a spectrum
-_LEAST_CYCLES = 6  # minimum number of periods in view; slower changes are uneven light
-
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
     return [
         *_doubts_by_extent(found),
         *_doubts_by_quality(found, stripes.saturated, rows_alike),
-        *_doubts_by_residual(found, stripes),
         *(_doubts_by_reading(found, stripes) if found.was_read else ()),
     ]
 
@@ -127,25 +100,6 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
     return reasons
 
 
-def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
-    """Name the period of what repeats in the residual: another light, or the lamp's own."""
-    line = strongest_line(
-        found.residual(stripes.profile),
-        found.fit.swing,
-        len(found.chips) / found.fit.timing.step,
-        len(found.chips),
-    )
-    if line is None or line.above_noise < _LEAST_LINE_RATIO:
-        return []
-    if line.amplitude < _MOST_AMPLITUDE or line.fraction < _LEAST_LINE_FRACTION:
-        return []
-    return [
-        f"What is left of the stripes repeats after {line.period:.3g} columns, by "
-        f"{PERCENT.format(line.amplitude, 2)} of their height: the stripes explained may be "
-        "another light's, or the mains'."
-    ]
-
-
 def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     if found.read_again:
         return [
@@ -173,61 +127,3 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
             f"{limit} % are allowed."
         )
     return reasons
-
-
-@dataclass(frozen=True, slots=True)
-class Repetition:
-    """The strongest line in the spectrum of a residual."""
-
-    period: float
-    # Half the difference of its crests and troughs, as a fraction of the stripes' swing.
-    amplitude: float
-    above_noise: float  # its power over that of the noise around it
-    fraction: float  # its fraction of the residual's power
-
-
-def strongest_line(
-    residual: FloatArray, swing: FloatArray, pattern_period: float, chips: int
-) -> Repetition | None:
-    """Find the strongest line of a residual beside the explained pattern's own harmonics.
-
-    The swing is the height of the stripes, the pattern's period is in columns. There is no line
-    where there are too few columns, or where nothing is left.
-
-    The periodogram of white noise has an exponential distribution (Schuster, Terrestrial Magnetism
-    3:13, 1898), whose median is ln 2 times its mean: from it the noise around a line is known. A
-    sine of the amplitude A has the peak (A sum(w) / 2)^2 under the window w.
-    """
-    columns = len(residual)
-    if columns < _LEAST_COLUMNS:
-        return None
-    window = np.hanning(columns)
-    relative = residual / np.maximum(swing, 1.0)
-    power = np.abs(np.fft.rfft(window * (relative - relative.mean()))) ** 2
-    possible = np.arange(len(power)) >= _LEAST_CYCLES
-    for place, beside in _harmonics(power, columns / pattern_period, _OWN_HARMONICS * chips):
-        around = slice(max(0, place - _LINE_BINS), place + _LINE_BINS + 1)
-        possible[around] &= power[around] > beside
-    if not power[possible].any():
-        return None
-    line = int(np.where(possible, power, 0.0).argmax())
-    around = slice(max(1, line // 2), 2 * line + 2 * _LEAST_CYCLES)
-    noise = max(float(np.median(power[around])) / math.log(2.0), 1e-12)
-    amplitude = 2.0 * float(np.sqrt(power[line])) / float(window.sum())
-    own = float(power[max(0, line - _LINE_BINS) : line + _LINE_BINS + 1].sum())
-    fraction = own / max(float(power.sum()), 1e-300)
-    return Repetition(columns / line, amplitude, float(power[line] / noise), fraction)
-
-
-def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, float]]:
-    """Return the bin of each harmonic of the pattern, and the power that it may have by itself."""
-    places = [round(number * first) for number in range(1, int((len(power) - 1) / first) + 1)]
-    strongest = [
-        float(power[max(0, place - _LINE_BINS) : place + _LINE_BINS + 1].max()) for place in places
-    ]
-
-    def beside(at: int) -> float:
-        near = (strongest[at + step] for step in _NEIGHBOURS if at + step < len(places))
-        return _MOST_POWER_RATIO * max(near, default=0.0)
-
-    return [(place, np.inf if at < own else beside(at)) for at, place in enumerate(places)]

@@ -39,9 +39,8 @@ deviation of a hundred of its scales."""
 
 _SINGULAR = 1e-13  # fraction of the largest sum of squares below which one is rounding error
 
-_CHIPS_PER_SHAPE = 6  # number of chips in view for each polynomial of a level
-
-_MOST_SHAPES = 8
+_CHIPS_PER_SHAPE, _SHAPES = 6, (4, 8)
+"""Chips in view for each polynomial of a level, and limits of their number: hot spots need four."""
 
 _UNKNOWN_BLUR = 0.4  # standard deviation in columns of the blur that this model does not fit
 _LEAST_DARK_LEVEL = -0.1  # minimum dark level relative to the swing: pixel values are not negative
@@ -187,9 +186,9 @@ def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
     return usual > 0.0 and float(np.median(low)) > _LEAST_DARK_LEVEL * usual
 
 
-def level_freedom(counted: float) -> int:
+def level_freedom(in_view: float) -> int:
     """Return the number of parameters of either level, for the chips in view."""
-    return int(np.clip(counted / _CHIPS_PER_SHAPE, 1, _MOST_SHAPES))
+    return int(np.clip(in_view / _CHIPS_PER_SHAPE, *_SHAPES))
 
 
 def exposure_deviation(variance: float, exposure: float) -> float:

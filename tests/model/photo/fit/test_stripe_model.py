@@ -49,7 +49,7 @@ def test_columns_at_white_are_left_out_while_enough_are_not() -> None:
 
 
 def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
-    assert [level_freedom(chips) for chips in (0.0, 6.0, 23.9, 24.0, 1e6)] == [1, 1, 3, 4, 8]
+    assert [level_freedom(chips) for chips in (0.0, 24.0, 29.9, 30.0, 1e6)] == [4, 4, 4, 5, 8]
 
 
 def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
@@ -57,7 +57,7 @@ def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
     flat = 40.0 + 100.0 * LIT + 12.0 * np.random.default_rng(4).normal(size=COLUMNS)
     fit = StripeModel(flat, CHIPS, tone, 0.01).described(TRUE, np.zeros((4, 4)))
     expected = np.corrcoef(flat, 40.0 + 100.0 * LIT)[0, 1]
-    assert fit.correlation == pytest.approx(expected, abs=1e-9)
+    assert expected < fit.correlation < expected + 1e-3  # levels follow some of the noise
     assert fit.residual == pytest.approx(float(((flat - fit.profile) ** 2).sum()))
 
 

@@ -11,6 +11,9 @@ _CLIPPED = 0.98  # of white, from where samples are clipped
 _CLIPPED_PART = 0.02  # of a column's samples, from which its mean is too dark
 _GROUPS = (8, 4, 3, 2)  # lines that a sensor may read together
 _LEAST_STEP_RATIO = 0.35  # of steps within a group to steps between groups, below which it is one
+_NOTABLE_STEP, _LEAST_RAMPS = 0.1, 4
+"""Part of the largest step from which one is notable, and how many must follow another one: edges
+without ramps can be whole groups apart by chance."""
 _MOST_COLUMNS = 640  # of a profile that is fitted
 _LEAST_PERIOD = 48.0  # columns that a period keeps
 
@@ -57,7 +60,10 @@ class LampProfile:
             means = steps[:whole].reshape(-1, count).mean(axis=0)
             largest = int(means.argmax())
             others = np.delete(means, largest)
-            if others.max() < _LEAST_STEP_RATIO**2 * means[largest]:
+            between = steps[largest:whole:count]
+            notable = between > _NOTABLE_STEP**2 * between.max()
+            has_ramps = np.count_nonzero(notable[1:] & notable[:-1]) >= _LEAST_RAMPS
+            if has_ramps and others.max() < _LEAST_STEP_RATIO**2 * means[largest]:
                 return count, (largest + 1) % count
         return 1, 0
 

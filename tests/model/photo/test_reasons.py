@@ -206,21 +206,18 @@ def test_why_an_explanation_is_refused_is_what_speaks_against_it(name: str) -> N
     assert said is None or said in reasons[0]
 
 
-def test_a_running_light_is_not_said_to_be_steady() -> None:
+def test_a_lamp_without_stripes_is_told_by_what_its_columns_differ() -> None:
     image = np.full((120, 300), 16.0)
-    for pulse in range(17):  # each bar is lit for a fifth of the time, in turn
-        rows = slice(24 * (pulse % 5) + 8, 24 * (pulse % 5) + 16)
-        image[rows, 18 * pulse : 18 * pulse + 18] = 187.0
-    matched = occ.match_lamps(photo_of(image.astype(np.uint8)), KNOWN)
-    assert len(matched) > 5
-    for lamp, why in matched:
-        assert not lamp.modulated
-        columns = image[lamp.region.first_row : lamp.region.last_row]
-        inside = columns[:, lamp.region.first_column : lamp.region.last_column].mean(axis=0)
-        assert str(why) == (
-            f"No stripes were found in it: its {lamp.region.columns} columns differ by "
-            f"{np.ptp(inside):.2g} grey levels."
-        )
+    image[32:88, 60:240] = 187.0 + np.arange(180) / 30.0
+    image = image.astype(np.uint8)
+    ((lamp, why),) = occ.match_lamps(photo_of(image), KNOWN)
+    assert not lamp.modulated
+    rows = image[lamp.region.first_row : lamp.region.last_row]
+    inside = rows[:, lamp.region.first_column : lamp.region.last_column].mean(axis=0)
+    assert str(why) == (
+        f"No stripes were found in it: its {lamp.region.columns} columns differ by "
+        f"{np.ptp(inside):.2g} grey levels."
+    )
 
 
 @pytest.mark.parametrize(

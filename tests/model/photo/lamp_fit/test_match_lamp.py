@@ -136,6 +136,16 @@ def test_lines_that_a_sensor_reads_together_are_averaged_and_told(together: int,
     assert "lines" not in [fact.key for fact in match_facts(one)]
 
 
+@pytest.mark.parametrize("period", [60, 90])
+def test_sharp_edges_whole_groups_apart_are_no_lines_that_are_read_together(period: int) -> None:
+    """Nothing but their distances, which are even, would say so."""
+    on = np.arange(720) % period < period // 5
+    pixels = np.tile(np.where(on, 0.7, 0.05), (40, 1))
+    noise = np.random.default_rng(6).normal(0.0, 1e-3, pixels.shape)
+    for seen in (pixels, pixels + noise):
+        assert LampProfile.of(seen, np.ones(seen.shape, dtype=bool)).lines_at_once() == (1, 0)
+
+
 def test_a_known_duty_that_is_not_the_stripes_own_is_doubted() -> None:
     photo = stripes()
     own, other = (

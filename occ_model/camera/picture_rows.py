@@ -72,16 +72,6 @@ class Rows:
             values[:, rim.columns] = rim.values
         return values
 
-    def combine(
-        self, operation: np.ufunc, target: Pixels, nodes: Pixels, rims: Sequence[Pixels]
-    ) -> None:
-        """Combine ``target`` in place with values given at the nodes and on the rims."""
-        places = [rim.columns for rim in self.rims]
-        results = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
-        operation(target, self._expand(nodes), out=target)
-        for at, values in zip(places, results, strict=True):
-            target[:, at] = values
-
     def expand_rows(self) -> "Rows":
         """Return the rows without weights: each row becomes a node, unless all are equal."""
         if self.weights is None:

@@ -22,10 +22,6 @@ class StageTimer:
         self._add(stage, now - self._last)
         self._last = now
 
-    def begin(self) -> None:
-        """Skip the time since the last stage ended, as another thread takes over."""
-        self._last = self._now()
-
     def end_parallel_stages(self, timers: Sequence[Self]) -> None:
         """Divide the time since the last stage ended among parallel ones, by their thread time."""
         now = self._now()

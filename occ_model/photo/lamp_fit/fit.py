@@ -22,7 +22,7 @@ from occ_model.photo.lamp_fit.model import (
     Levels,
     envelope_basis,
 )
-from occ_model.photo.lamp_fit.products import products_of
+from occ_model.photo.lamp_fit.products import least_squares, products_of
 from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.wave import Wave
 
@@ -153,11 +153,10 @@ def _start(profile: LampProfile, model: Levels, period: float) -> FloatArray:
     padded = np.pad(light, reach, mode="edge")
     brightest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
     bends = 0.05 * np.diff(np.eye(model.envelope.shape[1]), 2, axis=0)
-    brightness = np.linalg.lstsq(
+    brightness = least_squares(
         np.vstack([model.envelope, bends]),
         np.concatenate([np.log(brightest), np.zeros(len(bends))]),
-        rcond=None,
-    )[0]
+    )
     own = np.zeros(COUNT)
     own[PERIOD], own[PLACE], own[RAMP] = math.log(period), place, -0.4
     for each in (BLUR, GAMMA, TOE):
@@ -234,8 +233,10 @@ def _equations(
     slopes = slopes / noise[:, None]
     slopes[profile.clipped & (off == 0.0)] = 0.0
     beliefs, of_beliefs = model.beliefs(values)
-    products = products_of(slopes) + products_of(of_beliefs)
-    return products, slopes.T @ off + of_beliefs.T @ beliefs
+    both = products_of(np.column_stack([slopes, off])) + products_of(
+        np.column_stack([of_beliefs, beliefs])
+    )
+    return both[:-1, :-1], both[:-1, -1]
 
 
 def _described(fit: LampFit) -> LampFit:
@@ -252,5 +253,8 @@ def _described(fit: LampFit) -> LampFit:
     stiff = np.linalg.slogdet(model.bending.T @ model.bending + 1e-3 * np.eye(len(values) - COUNT))
     score = likelihood / inflation - 0.5 * float(beliefs @ beliefs)
     score += 0.5 * float(stiff[1] - np.linalg.slogdet(products)[1])
-    covariance = np.asarray(inflation * np.linalg.pinv(products), dtype=np.float64)
+    covariance = np.asarray(
+        inflation * np.linalg.solve(products + 1e-9 * np.eye(len(products)), np.eye(len(products))),
+        dtype=np.float64,
+    )
     return replace(fit, covariance=covariance, score=score)

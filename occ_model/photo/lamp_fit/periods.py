@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.lamp_fit.products import products_of
+from occ_model.photo.lamp_fit.products import least_squares
 
 _LEAST_PERIOD = 3.0  # columns
 _LEAST_PERIODS = 1.3  # in view
@@ -47,7 +47,7 @@ def likely_periods(values: FloatArray, count: int) -> list[float]:
 def _near_peaks(values: FloatArray, trends: FloatArray, frequencies: FloatArray) -> FloatArray:
     """Return the frequencies near the highest peaks of the spectrum, and near parts of them."""
     length = len(values)
-    slow = np.linalg.lstsq(trends, values, rcond=None)[0]
+    slow = least_squares(trends, values)
     power = np.abs(np.fft.rfft((values - trends @ slow) * np.hanning(length), 4 * length))
     highest = np.flatnonzero((power[1:-1] >= power[:-2]) & (power[1:-1] >= power[2:])) + 1
     own = highest[np.argsort(-power[highest])][:_PEAKS] / (4.0 * length)
@@ -71,8 +71,5 @@ def _gain(values: FloatArray, trends: FloatArray, frequency: float) -> float:
 
 
 def _residual(values: FloatArray, parts: FloatArray) -> float:
-    # The normal equations are fast, and exact enough to rank periods.
-    products = products_of(parts)
-    products.flat[:: len(products) + 1] *= 1.0 + 1e-9
-    off = np.asarray(values - parts @ np.linalg.solve(products, parts.T @ values), np.float64)
+    off = values - parts @ least_squares(parts, values)
     return float(np.sum(off * off))

@@ -176,11 +176,13 @@ class Clock(ClockSolution):
 
     @property
     def is_sure(self) -> bool:
-        """Whether no other clock fits equally well."""
-        return not self.alternatives
+        """Whether the phases fit this clock, and no other one equally well."""
+        return not self.alternatives and self.timing_noise is not None
 
     def is_sure_of(self, name: str) -> bool:
         """Return whether all clocks that fit agree on a value within its error."""
+        if self.timing_noise is None:
+            return False
         value: MeasuredValue = getattr(self, name)
         bound = _AGREEING_ERRORS * value.error
         others: list[MeasuredValue] = [getattr(other, name) for other in self.alternatives]

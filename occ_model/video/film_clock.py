@@ -244,7 +244,8 @@ def clock_of_lamp(film: FilmPhases, reason: str, chips_of_cycle: int) -> Clock |
         frames=len(film.phases.times),
         problems=(
             *film.times.problems,
-            f"The readout time rests on the known frequency alone: {reason}",
+            "The readout time rests on the frequency of the lamp alone, which may be another one: "
+            f"{reason}",
         ),
         chips_of_cycle=chips_of_cycle,
     )

@@ -19,7 +19,7 @@ UNKNOWN = "·"  # stands for a letter, byte or bit that no frame shows
 
 _MIN_CERTAINTY = 0.9  # minimum probability that all bits are correct for a payload to be read
 
-NO_CLOCK = "The film gives no clock, so that packets are not counted"
+NO_CLOCK = "The film gives no clock"
 
 
 def known_bits(joined: JoinedChips, period: SentPeriod) -> IndexArray:

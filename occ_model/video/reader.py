@@ -16,6 +16,7 @@ from occ_model.results.video import LATEST_TIME, FilmTimes, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.light_words import CYCLIC_LIGHTS
+from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.scheme import check_code, code_of
@@ -40,7 +41,9 @@ _MIN_PLACED_FRACTION = 0.9  # of a lamp's frames, in which its edges give a more
 
 def _half_cycles_as_chips(scene: Scene, known: KnownTiming) -> Scene:
     """Return a lamp as alternating chips, in which a few of its cycles are recognized as well."""
-    return scene.replace(light="code", pattern="10", switching_frequency=known.frequency)
+    declared = quantity("switching_frequency")
+    frequency = min(max(known.frequency, declared.low), declared.high)
+    return scene.replace(light="code", pattern="10", switching_frequency=frequency)
 
 
 class VideoReader:
@@ -132,7 +135,9 @@ class VideoReader:
             failure += self._describe_overexposure()
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
         times, clock, no_clock = placed.times(), placed.clock, placed.no_clock
-        is_followed = placed.placed >= _MIN_PLACED_FRACTION * len(placed.frames)
+        is_followed = clock is not None and placed.placed >= _MIN_PLACED_FRACTION * len(
+            placed.frames
+        )
         if placed.columns and (placed.placed == 0 or (self._is_lamp and not is_followed)):
             lamp_clock, no_lamp_clock = self._without_packets.fit_clock(times, placed.columns)
             if lamp_clock is not None or clock is None:
@@ -171,7 +176,8 @@ class VideoReader:
         problems = () if times is None else times.problems
         if times is None and len(self._placed.frames) > 1:
             problems = ("The frame times do not increase.",)
-        return (*problems, f"{NO_CLOCK}: {no_clock}") if no_clock else problems
+        no_packets = "" if self._is_lamp else ", so that packets are not counted"
+        return (*problems, f"{NO_CLOCK}{no_packets}: {no_clock}") if no_clock else problems
 
     def _check_frame(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
         """Return a frame in bytes and the value of white; refuse one unlike the earlier frames."""

@@ -1,9 +1,11 @@
 """Do the stated errors of films' clocks hold? For each container, and for what is known.
 
 python tests/benchmarks/clock_coverage.py 600      # films of each kind: about half an hour
+python tests/benchmarks/clock_coverage.py 200 GIF AVI    # these containers alone
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +17,8 @@ from film_clocks import KNOWN, RESOLUTIONS, judged_clocks
 NAMES = ("switching_frequency", "readout_time", "gap", "frame_period")
 
 
-def main(count: int) -> None:
-    for container in RESOLUTIONS:
+def main(count: int, containers: Sequence[str]) -> None:
+    for container in containers or RESOLUTIONS:
         for known in KNOWN:
             judged = list(judged_clocks(container, known, count))
             found = [one for one in judged if one.clock.fits]
@@ -34,4 +36,4 @@ def main(count: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), sys.argv[2:])

@@ -106,6 +106,34 @@ def test_what_only_a_photo_has_is_refused_for_a_film(
     assert f"{option.partition('=')[0]} is given with a film; allowed: with a photo." in said
 
 
+def test_a_lamp_that_the_film_cannot_show_is_not_measured(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["match", str(folder / "lamp.mkv"), "--led-frequency", "0.01Hz"]) == 1
+    printed, problems = capsys.readouterr()
+    assert printed == ""
+    assert "The film gives no clock: " in problems
+
+
+@pytest.mark.parametrize("frequency", ["1013Hz", "1GHz"])
+def test_a_frequency_that_the_phases_contradict_gives_nothing_sure(
+    frequency: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["match", str(folder / "lamp.mkv"), "--led-frequency", frequency])
+    printed, problems = capsys.readouterr()
+    assert "not sure" in printed.splitlines()[0]
+    assert "rests on the frequency of the lamp alone, which may be another one" in problems
+
+
+def test_a_film_of_something_else_than_the_scene_sends_is_no_success(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["match", str(folder / "lamp.mkv"), "--set", "readout_time=25us"]) == 1
+    printed, problems = capsys.readouterr()
+    assert "not sure" in printed.splitlines()[0]
+    assert "No frame contains packets as the scene sends them." in problems
+
+
 def test_a_film_without_stripes_fails_with_a_sentence(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -224,11 +224,15 @@ def _phase_at_zero(best: FilmFit, part: Part) -> MeasuredValue:
 
 
 def clock_of_lamp(film: FilmPhases, reason: str, chips_of_cycle: int) -> Clock | None:
-    """Return what a known frequency alone tells where no clock fits; None if it is not known."""
+    """Return what a known frequency alone tells where no clock fits.
+
+    None if it is not known, or if the columns would take longer than a frame period.
+    """
     known, period = film.known, film.times.period
-    if known.frequency_tolerance is None:
-        return None
     step, step_error = mean_step(film.phases)
+    low, high = known.frequency_range(step, period, film.columns)
+    if known.frequency_tolerance is None or low >= high:
+        return None
     relative = known.frequency_error
     readout = step / known.frequency
     readout_error = readout * math.hypot(step_error / step, relative)

@@ -92,9 +92,12 @@ def test_the_mains_are_measured_by_the_light_of_a_wall(
     occ.write_video(occ.render_video(scene, 60, Recording(frame_rate=29.97)), film)
     known = ["--set", "light=mains", "--set", "readout_time=25.5us"]
     assert main(["match", film, "--estimate", "switching_frequency", *known]) == 0
-    value, error = measured(capsys.readouterr().out.splitlines()[0][18:])
+    printed = capsys.readouterr().out
+    value, error = measured(printed.splitlines()[0][18:])
     assert abs(value - 100.06) < 4.0 * error
-    assert error < 0.001
+    assert error < 0.002
+    readout, error = measured(lines_of(printed)["readout time"])
+    assert abs(readout - 25.0) < 2.0 * error
 
 
 @pytest.mark.parametrize("option", ["--lamps", "--chips", "--region=0:9,0:9", "--fit-gamma"])

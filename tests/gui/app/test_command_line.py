@@ -23,7 +23,7 @@ REGION = (0xE6, 0x9F, 0x00)
 SMALL = "--set=rows=200"
 """Option for a picture that is simulated quickly."""
 
-DRAFT = COLOURS["draft"].getRgb()[:3]
+DRAFT = tuple(getattr(COLOURS["draft"], part)() for part in ("red", "green", "blue"))
 """Colour of the last points of an accuracy study."""
 
 

@@ -218,7 +218,7 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
     camera = occ.decode(film.frame(3).image, request_of.scene.replace(enhancement="none"))
     assert reading.results["threshold"].threshold == camera.threshold
     assert "frame 4, read by itself, not enhanced: code " in shown.story.title
-    dim = occ.load_preset("phone-136us").replace(switching_frequency=14.21e3, rows=1152)
+    dim = occ.load_preset("phone-136us").replace(switching_frequency=13.9e3, rows=1152)
     enhanced = process_frame(replace(request_of, index=0, scene=dim))
     assert enhanced.story is not None
     assert "read by itself, enhanced: code " in enhanced.story.title

@@ -361,7 +361,7 @@ def near_the_null(frequency: float) -> occ.Scene:
 
 
 def test_if_the_enhanced_picture_is_read_so_is_the_film() -> None:
-    scene = near_the_null(14.21e3)
+    scene = near_the_null(13.9e3)
     as_the_camera_gives_it = scene.replace(enhancement="none")
     assert occ.decode(occ.render(scene).image, scene).code == scene.transmitter.code
     assert occ.decode(occ.render(as_the_camera_gives_it).image, scene).code is None

@@ -9,7 +9,8 @@ unknown chips, 1.5 to 20 periods in view, half of them saturated.
 ``known`` (the default): 500 simulated photos with noise, vignetting, blur and JPEG of quality 60 to
 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three. ``lamps``: how many lamps
 are found in 200 pictures of one to eight (seeds below 1000 were looked at while the search was
-made); ``hot-lamps``: of lamps with hot spots, halos and slopes, at exposures of 0.05 to 8 chips.
+made); ``hot-lamps``: of lamps with hot spots, halos and slopes, at exposures of 0.05 to 8 chips;
+``rooms``: of small lamps in dark rooms.
 ``--plot FILE`` draws the errors of ``coverage`` beside their Cramer-Rao bounds.
 """
 
@@ -39,6 +40,7 @@ from photo_trials import (
 from photo_world.hot_lamps import hot_lamp_scene
 from photo_world.lamp_scenes import LampScene, lamp_scene
 from photo_world.lamp_scores import score_of
+from photo_world.rooms import room_scene
 from photo_world.trials import SATURATION_THIRDS, WORLDS, Trial
 
 HEAD = (
@@ -207,6 +209,7 @@ WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterable[Any]], Callable[..
     "known": (500, round_trips, report),
     "lamps": (200, partial(lamps_of, lamp_scene), list),
     "hot-lamps": (200, partial(lamps_of, hot_lamp_scene), list),
+    "rooms": (200, partial(lamps_of, room_scene), list),
 }
 """The full number of photographs, how they are matched, and how the result is written."""
 

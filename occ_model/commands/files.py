@@ -18,6 +18,7 @@ INPUTS = {  # options that name files to read, with the files' names in messages
     "photo": "the file of --photo",
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",
+    "offset_to": "the film of --offset-to",
 }
 
 OUTPUTS = {  # options that name a file or folder to write

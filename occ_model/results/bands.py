@@ -35,7 +35,8 @@ class BandDepth:
     columns
         Depth of the light of the picture's columns, before the tone curve.
     pixel
-        Depth of the columns' pixel values, after the tone curve, saturation and the full well.
+        Depth of the columns' pixel values, after the tone curve, saturation and the full well, and
+        without noise, by which columns of a few electrons are darker in the mean.
     frequency
         Frequency in Hz of the strongest component of the light that the columns show; 0 for none.
     period

@@ -53,6 +53,7 @@ def of_objects() -> Iterator[tuple[str, str]]:
         for argument, declared in inspect.signature(getattr(occ, name)).parameters.items():
             said = str(declared.annotation)
             is_ours = any(one in said for one in OURS) and "Sequence" not in said
+            is_ours = is_ours and "Path" not in said  # else the file's reader refuses it
             if (is_ours and "Iterable" not in said) or "Callable" in said:
                 yield name, argument
 

@@ -6,7 +6,7 @@ each of its slopes has min(F, t) / r.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -63,7 +63,7 @@ def measure_flash(
     PhotoError
         The file cannot be read.
     """
-    quantity("exposure_time").check(flash)
+    replace(quantity("exposure_time"), name="flash").check(flash)
     loaded = photo if isinstance(photo, Photo) else load_photo(photo, scan_axis)
     fit = _fit(np.asarray(loaded.profile, dtype=np.float64), _find_band(loaded.profile))
     band, edge = fit.band, fit.edge

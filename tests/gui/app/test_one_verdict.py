@@ -62,6 +62,8 @@ def test_a_picture_that_studies_may_contradict_states_what_it_leaves_out(
     application.store.put(scene, "another scene")
     user.wait_until_idle()
     label = application.view("decode").omissions
+    application.settings.set_tolerance(3.0)
+    user.wait_until_idle()
     assert label.isHidden()
     application.settings.set_observable("profile")  # its means hide what the signal shows
     user.wait_until_idle()

@@ -269,7 +269,7 @@ def test_overexposure_is_the_heading_where_it_is_the_cause_and_else_a_badge(
     read = snapshot_of(exposure_time=136e-6, iso=6400.0)
     bar.show_reading(read)
     assert bar.heading == "Code 718 read, all bits right"
-    assert texts(bar)["overexposed"].startswith("overexposed: 7")
+    assert texts(bar)["overexposed"].startswith("overexposed: 66 %")
     white = snapshot_of(exposure_time=136e-6, iso=12800.0)
     bar.show_reading(white)
     assert bar.heading == "No code: overexposed"
@@ -311,7 +311,7 @@ def test_before_the_cause_is_known_no_symptom_is_the_title(
 def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
     bar: VerdictBar, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
-    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=5e3))
+    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=5.5e3))
     assert bar.step.isHidden()
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
     assert bar.state is State.GOOD

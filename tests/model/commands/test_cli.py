@@ -60,7 +60,7 @@ def test_overexposure_is_named_first_if_it_is_the_cause(command: Command, tmp_pa
     command("render", *other, "-o", path)
     read = command("decode", path, *other)
     assert read.code == 0
-    assert read.err.startswith("Overexposed: 7")
+    assert read.err.startswith("Overexposed: 66 %")
     fast = (*other, "--set", "switching_frequency=20kHz")
     command("render", *fast, "-o", path)
     symptom, fact = command("decode", path, *fast).err.splitlines()

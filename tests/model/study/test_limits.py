@@ -164,7 +164,8 @@ def test_the_papers_decoder_reads_from_two_packets_to_the_null() -> None:
     least = theory.two_packets_frequency(scene)
     assert 0.7 * least < found.lowest.value < 1.1 * least
     longest = search_range(scene, "exposure_time", images=1).highest
-    assert longest.value == pytest.approx(2.0 / scene.transmitter.switching_frequency, rel=0.03)
+    null_exposure = 2.0 / scene.transmitter.switching_frequency
+    assert 0.95 * null_exposure < longest.value < 1.01 * null_exposure
 
 
 def test_an_end_rests_on_reproducible_success_rates() -> None:
@@ -276,7 +277,8 @@ def test_for_a_scene_that_is_too_slow_the_range_lies_above_it() -> None:
     assert occ.success_rate(slow, 3) < 99.0
     found = search_range(slow, images=1)
     assert found.lowest.value > 2e3 * STEP
-    assert found.highest.value == pytest.approx(theory.null_frequency(slow), rel=0.03)
+    null = theory.null_frequency(slow)
+    assert 0.95 * null < found.highest.value < 1.01 * null
 
 
 def test_advice_contains_both_ends_found_and_the_limits_of_theory(decoding: Decoding) -> None:

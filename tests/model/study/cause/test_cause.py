@@ -36,7 +36,7 @@ NULL = "the null at 14.7 kHz"
         ),
         ({"iso": 6400.0, "illuminance": 30e3}, "threshold", "overexposed"),
         ({"iso": 12800.0}, "threshold", "overexposed"),
-        ({"iso": 6400.0}, "matched", "overexposed"),
+        ({"iso": 12800.0}, "matched", "overexposed"),
         ({"iso": 6400.0, "enhancement": "none"}, "equalizer", "overexposed"),
         ({"full_well": 100.0, "enhancement": "none"}, "sequence", "overexposed"),
         (
@@ -113,7 +113,7 @@ def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: st
     )
     helped = scene.replace(**cause.remedy.changes)
     assert occ.decode(picture, helped).code == scene.transmitter.code
-    assert cause_of(scene.replace(panel_height=0.08), "threshold") is None
+    assert cause_of(scene.replace(panel_height=0.2), "threshold") is None
 
 
 def test_chips_are_stated_as_needed_only_if_no_picture_is_read_with_fewer() -> None:

@@ -3,10 +3,12 @@
 import math
 
 import pytest
+from amount import amount
 from photo_world.lamp_trials import LampTrial, coverage, lamp_trial
 from photo_world.regular_things import verdict_on
 
-SEEDS = range(3000, 3040)
+SEEDS = range(3000, 3000 + amount(16, 40))
+_OTHERS = range(3000, 3000 + amount(12, 30))
 _DEVIATIONS = 3.0
 
 
@@ -25,12 +27,12 @@ def test_stated_errors_hold_and_are_no_larger_than_they_must_be(
     trials: list[LampTrial], name: str
 ) -> None:
     count, within_one, within_two, *_ = coverage(trials, name)
-    assert count >= 5
+    assert count >= 4
     for found, right in ((within_one, 0.68), (within_two, 0.95)):
         assert abs(found - right) <= _DEVIATIONS * math.sqrt(right * (1.0 - right) / count)
 
 
-def test_of_thirty_regular_things_none_is_surely_a_lamp() -> None:
-    verdicts = [verdict_on(seed) for seed in range(3000, 3030)]
-    assert len({kind for kind, _ in verdicts}) == 12
+def test_of_regular_things_none_is_surely_a_lamp() -> None:
+    verdicts = [verdict_on(seed) for seed in _OTHERS]
+    assert len({kind for kind, _ in verdicts}) >= 8
     assert not [kind for kind, verdict in verdicts if verdict == "sure"]

@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
+from occ_model.camera.interpolation import Places, divide_weights, interpolate_at, split_levels
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_noise import GREYS, PixelNoise
 
@@ -62,9 +63,7 @@ class GreyLaw:
     def moments(self, values: FloatArray, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return mean and standard deviation of ``curve`` over pixels, as :meth:`mean` does."""
         places = self._places(values)
-        mean, square = (
-            self._interpolate_at(self._mean_of(each), places) for each in (curve, curve**2)
-        )
+        mean, square = (interpolate_at(self._mean_of(each), places) for each in (curve, curve**2))
         return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
 
     @cached_property
@@ -103,10 +102,7 @@ class GreyLaw:
 
     def histogram(self, values: FloatArray, weights: FloatArray) -> FloatArray:
         """Return the expected number of pixels of each of 256 grey levels, by their weights."""
-        place, fraction = self._places(values)
-        above = weights * fraction
-        levels = np.bincount(place, weights - above, len(self.below))
-        levels[1:] += np.bincount(place, above, len(self.below))[:-1]
+        levels = divide_weights(weights, self._places(values), len(self.below))
         used = np.flatnonzero(levels)
         counts: FloatArray = np.zeros(GREYS)
         counts[self.greys] = np.maximum(levels[used] @ self._fractions[used], 0.0)
@@ -114,19 +110,12 @@ class GreyLaw:
 
     def interpolate(self, of_levels: FloatArray, values: FloatArray) -> FloatArray:
         """Interpolate a quantity, given for each level, at mean pixel values."""
-        return self._interpolate_at(of_levels, self._places(values))
+        return interpolate_at(of_levels, self._places(values))
 
-    def _places(self, values: FloatArray) -> tuple[IndexArray, FloatArray]:
+    def _places(self, values: FloatArray) -> Places:
         levels = self.to_white * (np.maximum(values, 0.0) / WHITE) ** self.power
         np.minimum(levels, self.last, out=levels)
-        place = levels.astype(np.int64)
-        return place, levels - place
-
-    def _interpolate_at(
-        self, of_levels: FloatArray, places: tuple[IndexArray, FloatArray]
-    ) -> FloatArray:
-        place, fraction = places
-        return np.asarray(of_levels[place] + fraction * np.diff(of_levels)[place])
+        return split_levels(levels)
 
     def _mean_of(self, curve: FloatArray) -> FloatArray:
         """Return the mean of a curve at each level."""

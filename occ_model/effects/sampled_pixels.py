@@ -7,6 +7,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
+from occ_model.camera.interpolation import Places, divide_weights, interpolate_at
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
     fast_power,
@@ -28,7 +29,7 @@ from occ_model.effects.effect import (
     PixelEffect,
 )
 from occ_model.effects.file_change import FileChange
-from occ_model.effects.level_table import LevelTable, Places
+from occ_model.effects.level_table import LevelTable
 from occ_model.effects.noisy_pixels import NoisyPixels
 from occ_model.effects.normal_noise import (
     rounding_growth,
@@ -210,7 +211,7 @@ class SampledPixels:
 
     def interpolate_at_pixels(self, table: FloatArray) -> FloatArray:
         """Interpolate a table at the pixels with all effects."""
-        return self.table.interpolate_at(table, self._places)
+        return interpolate_at(table, self._places)
 
     def mean_over_pixels(self, table: FloatArray) -> float:
         """Return the mean of a table at the pixels with all effects."""
@@ -218,7 +219,8 @@ class SampledPixels:
 
     @cached_property
     def _weights_of_levels(self) -> FloatArray:
-        return self.table.divide_weights(self.sample.pixel_weights, self._places)
+        weights = self.sample.pixel_weights
+        return divide_weights(weights, self._places, len(self.table.levels))
 
     @cached_property
     def file(self) -> FileChange | None:

@@ -141,7 +141,6 @@ class PictureNumbers:
 
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 _DITHERED_ROWS = 32
-_ROW_STRIDE = 89  # numbers from a row to the next one: their golden parts are evenly spread
 
 
 def dither(rows: range, columns: int) -> Pixels:

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.results.fact import Fact
+from occ_model.results.line_readout import LineReadout
 from occ_model.scene.light_words import MAINS_HARMONIC
 from occ_model.scene.units import HERTZ, NONE, PERCENT, SECOND
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class CameraMeasurement:
+class CameraMeasurement(LineReadout):
     """How fast a camera reads its lines, by bars of lamps on the mains.
 
     Parameters
@@ -59,27 +60,9 @@ class CameraMeasurement:
     other_bars: float | None = None
 
     @property
-    def verdict(self) -> str:
-        """``"sure"``, or ``"doubtful"`` if there is a reason to doubt the measurement."""
-        return "doubtful" if self.reasons else "sure"
-
-    @property
     def light_frequency(self) -> float:
         """Cycles of the light a second: twice those of the mains."""
         return MAINS_HARMONIC * self.mains_frequency
-
-    def _estimate(self, name: str) -> str:
-        unit = NONE if name == "bars" else SECOND
-        return unit.format_estimate(getattr(self, name), self.uncertainties[name])
-
-    @property
-    def sentence(self) -> str:
-        """The answer in one sentence."""
-        return (
-            f"Your camera reads {'a line' if self.scan_axis == 'lines' else 'a column'} in "
-            f"{self._estimate('readout_time')}, and a frame of {self.lines:,} in "
-            f"{self._estimate('frame_readout_time')}: {self.verdict}."
-        )
 
     @property
     def assumption(self) -> str:
@@ -98,7 +81,7 @@ class CameraMeasurement:
         rows = [
             Fact("readout_time", "Readout time", self._estimate("readout_time")),
             Fact("frame_readout_time", "Frame's readout", self._estimate("frame_readout_time")),
-            Fact("bars", "Bars a frame", f"{self._estimate('bars')}, of light at {light}"),
+            Fact("bars", "Bars a frame", f"{self._estimate('bars', NONE)}, of light at {light}"),
             Fact("scan_axis", "Read one by one", f"{self.lines:,} {self.scan_axis}"),
             Fact("depth", "Depth of the bars", f"{PERCENT.format(self.depth, 2)} in {of_what}"),
         ]

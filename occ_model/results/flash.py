@@ -4,11 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from occ_model.results.fact import Fact
+from occ_model.results.line_readout import LineReadout
 from occ_model.scene.units import SECOND, Unit
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class FlashMeasurement:
+class FlashMeasurement(LineReadout):
     """How fast a camera reads its lines, by the band of one flash.
 
     Parameters
@@ -45,23 +46,6 @@ class FlashMeasurement:
     lines: int
     reasons: tuple[str, ...] = ()
     other_readout_time: float | None = None
-
-    @property
-    def verdict(self) -> str:
-        """``"sure"``, or ``"doubtful"`` if there is a reason to doubt the measurement."""
-        return "doubtful" if self.reasons else "sure"
-
-    def _estimate(self, name: str) -> str:
-        return SECOND.format_estimate(getattr(self, name), self.uncertainties[name])
-
-    @property
-    def sentence(self) -> str:
-        """The answer in one sentence."""
-        return (
-            f"Your camera reads {'a line' if self.scan_axis == 'lines' else 'a column'} in "
-            f"{self._estimate('readout_time')}, and a frame of {self.lines:,} in "
-            f"{self._estimate('frame_readout_time')}: {self.verdict}."
-        )
 
     @property
     def assumption(self) -> str:

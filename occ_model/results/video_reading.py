@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 
@@ -127,6 +128,16 @@ class Clock(ClockSolution):
     alternatives: tuple[ClockSolution, ...] = ()
     problems: tuple[str, ...] = ()
     chips_of_cycle: int = 0
+
+    def widen_readout(self, relative_error: float, columns: int) -> Self:
+        """Add an error to the readout time, and to the gap after as many columns."""
+        readout, gap = self.readout_time, self.gap
+        added = relative_error * readout.value
+        return replace(
+            self,
+            readout_time=MeasuredValue(readout.value, math.hypot(readout.error, added)),
+            gap=MeasuredValue(gap.value, math.hypot(gap.error, columns * added)),
+        )
 
     @property
     def lamp_frequency(self) -> MeasuredValue | None:

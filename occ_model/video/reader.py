@@ -1,6 +1,5 @@
 """Join the frames of a film as they arrive: its chips, its packets and its clock."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +13,7 @@ from occ_model.receiver.sequence.soft_frame import SoftFrame, read_frame as read
 from occ_model.results.decoding import PAPER_DECODER, overexposed_text
 from occ_model.results.sent_packets import SentPackets
 from occ_model.results.video import LATEST_TIME, FilmTimes, VideoFrame
-from occ_model.results.video_reading import Clock, FilmProgress, MeasuredValue, VideoReading
+from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.light_words import CYCLIC_LIGHTS
 from occ_model.scene.parameters import quantity
@@ -45,18 +44,6 @@ def _half_cycles_as_chips(scene: Scene, known: KnownTiming) -> Scene:
     declared = quantity("switching_frequency")
     frequency = min(max(known.frequency, declared.low), declared.high)
     return scene.replace(light="code", pattern="10", switching_frequency=frequency)
-
-
-def _with_unmeasured_readout(clock: Clock, columns: int) -> Clock:
-    """Return a clock of the mains, whose few and soft stripes show only phases exactly."""
-    readout = clock.readout_time
-    error = math.hypot(readout.error, READOUT_TOLERANCE * readout.value)
-    gap_error = math.hypot(clock.gap.error, columns * READOUT_TOLERANCE * readout.value)
-    return replace(
-        clock,
-        readout_time=MeasuredValue(readout.value, error),
-        gap=MeasuredValue(clock.gap.value, gap_error),
-    )
 
 
 class VideoReader:
@@ -159,7 +146,8 @@ class VideoReader:
         if self._is_lamp and clock is not None:
             failure = None
             if self._scene_light == "mains":
-                clock = _with_unmeasured_readout(clock, placed.columns)
+                # Its few and soft stripes show only phases exactly.
+                clock = clock.widen_readout(READOUT_TOLERANCE, placed.columns)
         number = self._completing_frame if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),

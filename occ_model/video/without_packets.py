@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_fraction
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
-from occ_model.results.video_reading import Clock, MeasuredValue
+from occ_model.results.video_reading import Clock
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.video.blinking import fit_blinking
 from occ_model.video.film_clock import FilmPhases, clock_of_lamp, describe_clock
@@ -77,14 +77,7 @@ class WithoutPackets:
         if clock is None:
             return None, clocks.reason
         # The lamp's shape shifts the stripes of all frames equally, which causes no scatter.
-        readout, shared_error = clock.readout_time, self._period_error(frames)
-        error = math.hypot(readout.error, shared_error * readout.value)
-        gap_error = math.hypot(clock.gap.error, columns * shared_error * readout.value)
-        return replace(
-            clock,
-            readout_time=MeasuredValue(readout.value, error),
-            gap=MeasuredValue(clock.gap.value, gap_error),
-        ), ""
+        return clock.widen_readout(self._period_error(frames), columns), ""
 
     @staticmethod
     def _period_error(repeating: Sequence[_FrameStripes]) -> float:

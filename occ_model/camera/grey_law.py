@@ -42,7 +42,8 @@ class GreyLaw:
         flat = np.maximum(values, np.float32(0.0)).reshape(len(values), -1)
         levels = np.asarray(cv2.pow(flat, self.power), dtype=np.float32)
         levels *= np.float32(self.to_white / WHITE**self.power)
-        return np.minimum(levels, np.float32(self.last), out=levels).reshape(values.shape)
+        np.minimum(levels, np.float32(self.last), out=levels)
+        return levels.reshape(values.shape)
 
     def level_of(self, value: float) -> float:
         """Return the level of one value, however bright."""

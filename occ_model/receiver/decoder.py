@@ -1,7 +1,7 @@
 """The interface of decoders, and what they share: reading the payload and explaining failures."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from occ_model.arrays import FloatArray
@@ -24,6 +24,9 @@ class Decoder:
     read
         Function that reads a signal, the mean grey level of each column, shape (columns,), with the
         parameters of a scene that a receiver knows. The caller adds the region to the result.
+    read_many
+        The same function of several signals and of a scene for each, where it is faster than one
+        call after the other; its results are the same.
     is_quick
         Whether it takes a few milliseconds and imports nothing slow, so that a live view can read
         every picture.
@@ -35,6 +38,7 @@ class Decoder:
     name: str
     title: str
     read: Callable[[FloatArray, Scene], DecodeResult]
+    read_many: Callable[[Sequence[FloatArray], Sequence[Scene]], list[DecodeResult]] | None = None
     is_quick: bool = True
     searched_chips: float = math.inf
 

@@ -143,17 +143,18 @@ def _histogram(who: str, histogram: object, columns: int) -> RunHistogram:
     return RunHistogram(counts, split)
 
 
-def _read_sequence(signal: FloatArray, scene: Scene) -> DecodeResult:
+def _read_sequences(signals: Sequence[FloatArray], scenes: Sequence[Scene]) -> list[DecodeResult]:
     # Imported when first needed, because most signals are read without it.
-    from occ_model.receiver.sequence.decoder import read_signal
+    from occ_model.receiver.sequence.decoder import read_signals
 
-    return read_signal(signal, scene)
+    return read_signals(signals, scenes)
 
 
 SEQUENCE = Decoder(
     "sequence",
     "Sequence: the most likely chips",
-    _read_sequence,
+    lambda signal, scene: _read_sequences([signal], [scene])[0],
+    _read_sequences,
     is_quick=False,
     # A picture takes 0.02 s up to 7 chips, 0.1 s at 10 chips and several seconds at 14.
     searched_chips=8.0,

@@ -19,6 +19,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
+from occ_model.products import row_products
 from occ_model.receiver.decoder import Decoder, add_bits
 from occ_model.receiver.light import PER_CHIP, convert_to_light, light_of_chips
 from occ_model.receiver.signal import MAX_UNEXPLAINED, explain_flat, unexplained_fraction
@@ -142,7 +143,7 @@ def _least_unexplained(light: FloatArray, models: FloatArray) -> float:
     centred = light - light.mean()
     models = models - models.mean(axis=1, keepdims=True)
     energies = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
-    fits = models @ centred
+    fits = row_products(models, centred[None])[:, 0]
     best = int(np.argmax(np.maximum(fits, 0.0) ** 2 / energies))
     residual = centred - max(float(fits[best]), 0.0) / energies[best] * models[best]
     return unexplained_fraction(light, residual)

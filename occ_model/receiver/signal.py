@@ -7,6 +7,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT_SPAN
+from occ_model.products import dot
 from occ_model.results.decoding import Location, Region
 
 _BINS = 256
@@ -92,8 +93,8 @@ def unexplained_fraction(signal: FloatArray, residual: FloatArray) -> float:
     Noise is independent from value to value; a correlation of neighbours is not noise.
     """
     centred_residual, centred_signal = residual - residual.mean(), signal - signal.mean()
-    return float(centred_residual[1:] @ centred_residual[:-1]) / max(
-        float(centred_signal @ centred_signal), _MIN_VARIANCE * len(signal)
+    return dot(centred_residual[1:], centred_residual[:-1]) / max(
+        dot(centred_signal, centred_signal), _MIN_VARIANCE * len(signal)
     )
 
 

@@ -135,7 +135,7 @@ def test_taps_are_the_overlaps_of_exposure_and_chips(
     exposure: float, start: float, fractions: list[float]
 ) -> None:
     last, found = taps(RowTiming(exposure, 0.1), np.array([start]))
-    in_time = found[0, ::-1][-int(last[0]) - 1 :]
+    in_time = found[::-1, 0][-int(last[0]) - 1 :]
     np.testing.assert_allclose(in_time[: len(fractions)], fractions, atol=1e-12)
     assert found.sum() == pytest.approx(1.0)
 

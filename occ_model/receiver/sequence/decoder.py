@@ -6,11 +6,13 @@ average of them, which the Viterbi algorithm undoes.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.products import dot
 from occ_model.receiver.decoder import (
     add_bits,
     blame_short_chips,
@@ -34,6 +36,7 @@ from occ_model.receiver.sequence.fit import (
     guess_brightness,
     improve,
 )
+from occ_model.receiver.sequence.requests import Reading, run_readings
 from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.signal import MAX_UNEXPLAINED, explain_flat
@@ -63,6 +66,15 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     The result contains the chips, the light of each column and of the chips' model, and the
     probability that each bit is correct.
     """
+    return read_signals([signal], [scene])[0]
+
+
+def read_signals(signals: Sequence[FloatArray], scenes: Sequence[Scene]) -> list[DecodeResult]:
+    """Read several signals, each with its own scene, and search for their chips together."""
+    return run_readings([_read(*both) for both in zip(signals, scenes, strict=True)])
+
+
+def _read(signal: FloatArray, scene: Scene) -> Reading[DecodeResult]:
     result = DecodeResult("sequence", signal=signal, failure=explain_flat(signal))
     if result.failure is not None:
         return result
@@ -73,7 +85,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if refusal is not None:
         return replace(result, failure=refusal)
     code = find_code_words(transmitter, timing.memory)
-    fit, light = _fit(signal, scene, timing, code.words)
+    fit, light = yield from _fit(signal, scene, timing, code.words)
     result = _add_steps(result, fit, light)
     if transmitter.pattern:
         return replace(
@@ -103,25 +115,24 @@ def _explain_refusal(timing: RowTiming, rows: int, scene: Scene) -> str | None:
 
 def _fit(
     signal: FloatArray, scene: Scene, timing: RowTiming, words: tuple[Word, ...]
-) -> tuple[SequenceFit, Light]:
+) -> Reading[tuple[SequenceFit, Light]]:
     """Detect the chips; if they explain too little, refine their timing and detect them again."""
     light = convert_to_light(signal, scene)
     brightness = guess_brightness(light.values, expected_light(scene), timing, PER_CHIP)
-    nominal_timing = find_phase(light.values, timing, brightness, words)
-    fit_and_light = _improve_rounds(
-        signal, scene, detect(light.values, nominal_timing, brightness, words), light, words
-    )
+    nominal_timing = yield from find_phase(light.values, timing, brightness, words)
+    fit = yield from detect(light.values, nominal_timing, brightness, words)
+    fit_and_light = yield from _improve_rounds(signal, scene, fit, light, words)
     if fit_and_light[0].unexplained() <= _DOUBTFUL_FRACTION:
         return fit_and_light
-    refined_timing = follow_timing(light.values, nominal_timing, brightness, words)
-    fit = detect(light.values, refined_timing, brightness, words)
-    refined = _improve_rounds(signal, scene, fit, light, words)
+    refined_timing = yield from follow_timing(light.values, nominal_timing, brightness, words)
+    fit = yield from detect(light.values, refined_timing, brightness, words)
+    refined = yield from _improve_rounds(signal, scene, fit, light, words)
     return refined if refined[0].unexplained() < fit_and_light[0].unexplained() else fit_and_light
 
 
 def _improve_rounds(
     signal: FloatArray, scene: Scene, fit: SequenceFit, light: Light, words: tuple[Word, ...]
-) -> tuple[SequenceFit, Light]:
+) -> Reading[tuple[SequenceFit, Light]]:
     """Improve timing, brightness and light by the detected chips, and detect them again."""
     for _ in range(_MAX_ROUNDS):
         if light.is_estimated:
@@ -136,11 +147,10 @@ def _improve_rounds(
                 light.values,
             )
             light = replace(light, values=unclipped)
-        previous, fit = fit, detect(light.values, *improve(light.values, fit), words)
+        previous = fit
+        fit = yield from detect(light.values, *improve(light.values, fit), words)
         is_unchanged = np.array_equal(fit.chips.values, previous.chips.values)
-        is_settled = (
-            is_unchanged and not light.is_estimated
-        ) or fit.noise > _MAX_NOISE_RATIO * previous.noise
+        is_settled = is_unchanged or fit.noise > _MAX_NOISE_RATIO * previous.noise
         if is_settled and fit.unexplained() <= MAX_UNEXPLAINED:
             break
     return fit, light
@@ -152,7 +162,7 @@ def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeRe
     positions = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
     starts = np.asarray(positions / fit.timing.step, dtype=np.float64)
     centred, model = lit_fraction - lit_fraction.mean(), fit.model - fit.model.mean()
-    energy = math.sqrt(float(centred @ centred) * float(model @ model))
+    energy = math.sqrt(dot(centred, centred) * dot(model, model))
     is_visible = (starts > -1.0 / fit.timing.step) & (starts < count)
     return replace(
         result,
@@ -160,7 +170,7 @@ def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeRe
         chips=fit.chips.values[is_visible],
         chip_starts=starts[is_visible],
         chip_likelihoods=probability(fit.ratios())[is_visible],
-        correlation=float(centred @ model) / energy if energy > 0.0 else 0.0,
+        correlation=dot(centred, model) / energy if energy > 0.0 else 0.0,
         light=lit_fraction,
         light_model=fit.model,
     )

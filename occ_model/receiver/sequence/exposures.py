@@ -7,10 +7,11 @@ rectangular filter, sampled at the line rate.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
 _KINDS = 4  # kinds of chips in an exposure: the latest, completely covered ones, the two earliest
 
@@ -33,82 +34,72 @@ class RowTiming:
         return np.asarray(self.phase + self.step * np.arange(rows), dtype=np.float64)
 
 
-def taps(timing: RowTiming, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
+def taps(
+    timing: RowTiming, starts: FloatArray, ages: IndexArray | None = None
+) -> tuple[IndexArray, FloatArray]:
     """Return the chip in which each exposure ends, and the fractions of it and of earlier chips.
 
-    The fractions have the shape (..., memory + 1), with the latest first; their sum is 1.
+    ``ages``: how many chips before the last one each begins, by default all from 0 to ``memory``.
+    The fractions have the shape (ages, ...); the sum of all is 1.
     """
-    ends = starts + timing.exposure
-    last = np.floor(ends)
-    begins = last[..., None] - np.arange(timing.memory + 1)
-    overlap = np.minimum(ends[..., None], begins + 1.0) - np.maximum(starts[..., None], begins)
-    return last.astype(np.int64), np.maximum(overlap, 0.0) / timing.exposure
+    if ages is None:
+        ages = np.arange(timing.memory + 1)
+    last = np.floor(starts + timing.exposure)
+    start = starts - last
+    # An exposure covers a chip up to the chip's end, and the last one up to its own end.
+    covered = np.subtract.outer(1.0 - ages, start)
+    covered[ages == 0] = start + timing.exposure
+    # Short exposures differ from their ends by no more than the rounding of their starts.
+    np.clip(covered, 0.0, min(1.0, timing.exposure), out=covered)
+    covered /= timing.exposure
+    return last.astype(np.int64), covered
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipStatistics:
     """Statistics that determine the squared distance of rows from chips, for each last chip.
 
-    The squared distance of the rows that end in a chip from the light of chips c is c' G c - 2 v'
-    c, plus a number that does not depend on the chips.
+    All chips of an exposure between the last one and the two earliest have the same fraction, and
+    thus are of one kind: with k_i lit chips of kind i, the squared distance of the rows that end in
+    a chip is sum_ij S_ij k_i k_j - 2 sum_i V_i k_i, plus a number that does not depend on the
+    chips. V_i sums the rows' light times the kind's fraction, S_ij the products of fractions.
     """
 
     first: int  # The first chip in which a row ends
-    # Shape (chips, features): v, the diagonal of G, and twice the entries of its upper triangle
-    features: FloatArray
+    sums: FloatArray  # Shape (weights, chips): V, then the upper triangle of S with its diagonal
     energy: FloatArray  # Shape (chips,): the number that does not depend on the chips
 
 
-def features_of(words: FloatArray) -> FloatArray:
-    """Return the weight of each feature in the distance from some chips, shape (..., features)."""
-    upper, lower = _pairs(words.shape[-1])
-    return np.concatenate([-2.0 * words, words, words[..., upper] * words[..., lower]], axis=-1)
+def weights_of(words: ByteArray) -> FloatArray:
+    """Return the factor of each of the sums in the squared distance, shape (weights, ...).
 
-
-@lru_cache(maxsize=32)
-def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
-    return np.triu_indices(count, 1)
-
-
-@lru_cache(maxsize=32)
-def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
-    """Group the chips of an exposure that have the same sums over rows into kinds.
-
-    All chips between the first and the last ones have the same fraction. Returns one chip of each
-    kind, the two kinds of each product of fractions, and the index of each feature's sum: first
-    come the sums of a kind times the light, then those of the products.
+    ``words``: the chips of exposures with the latest first, shape (..., memory + 1).
     """
-    kind = np.clip(np.arange(reach), None, 1)
-    kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
-    examples = np.unique(kind, return_index=True)[1]
-    kinds = len(examples)
-    first_kind, second_kind = np.triu_indices(kinds)
-    product = np.zeros((kinds, kinds), dtype=np.int64)
-    product[first_kind, second_kind] = product[second_kind, first_kind] = kinds + np.arange(
-        len(first_kind)
-    )
-    upper, lower = _pairs(reach)
-    sums = np.concatenate([kind, product[kind, kind], product[kind[upper], kind[lower]]])
-    return examples, first_kind, second_kind, sums
+    ages, first, second = _kinds(words.shape[-1])
+    bounds = np.append(ages, words.shape[-1])
+    lit = np.stack([words[..., a:b].sum(axis=-1) for a, b in pairwise(bounds)]).astype(np.float64)
+    products = lit[first] * lit[second]
+    products[first != second] *= 2.0
+    return np.concatenate([-2.0 * lit, products])
+
+
+@lru_cache(maxsize=32)
+def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray]:
+    """Return the age of each kind's latest chip, and the two kinds of each product."""
+    ages = np.arange(reach) if reach <= _KINDS else np.array([0, 1, reach - 2, reach - 1])
+    return (ages, *np.triu_indices(len(ages)))
 
 
 def gather(light: FloatArray, timing: RowTiming) -> ChipStatistics:
     """Sum up rows, given as fractions of full light, for each chip in which rows end."""
-    last, fractions = taps(timing, timing.starts(len(light)))
-    first, reach = int(last[0]), fractions.shape[1]
-    examples, first_kind, second_kind, sums = _kinds(reach)
-    kind_fractions = np.ascontiguousarray(fractions[:, examples].T)
-    # Differences of running sums are exact enough, as no sum exceeds the number of rows.
-    running_sums = np.zeros((len(examples) + len(first_kind) + 1, len(light) + 1))
-    terms = running_sums[:, 1:]
-    np.multiply(kind_fractions, light, out=terms[: len(examples)])
-    np.multiply(
-        kind_fractions[first_kind], kind_fractions[second_kind], out=terms[len(examples) : -1]
-    )
+    ages, first, second = _kinds(timing.memory + 1)
+    last, fractions = taps(timing, timing.starts(len(light)), ages)
+    kinds, products = len(ages), len(first)
+    terms = np.empty((kinds + products + 1, len(light)))
+    np.multiply(fractions, light, out=terms[:kinds])
+    np.multiply(fractions[first], fractions[second], out=terms[kinds:-1])
     np.multiply(light, light, out=terms[-1])
-    np.cumsum(terms, axis=1, out=terms)
-    edges = np.searchsorted(last, np.arange(first, int(last[-1]) + 2))
-    chip_sums = np.diff(running_sums[:, edges], axis=1)
-    features = chip_sums[sums]
-    features[2 * reach :] *= 2.0
-    return ChipStatistics(first, features.T, chip_sums[-1])
+    edges = np.searchsorted(last, np.arange(last[0], last[-1] + 2))
+    sums = np.add.reduceat(terms, edges[:-1], axis=1)
+    sums[:, np.diff(edges) == 0] = 0.0  # where a step is a whole chip, rounding may skip one
+    return ChipStatistics(int(last[0]), sums[:-1], sums[-1])

@@ -15,10 +15,11 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.receiver.sequence.code_words import MOST_STATES
-from occ_model.receiver.sequence.exposures import ChipStatistics, RowTiming, gather, taps
-from occ_model.receiver.sequence.search import Chips, find_best_chips, least_distances, search_beam
-from occ_model.receiver.sequence.trellis import Word, count_paths, make_trellis
+from occ_model.products import dot, row_products
+from occ_model.receiver.sequence.exposures import RowTiming, gather, taps
+from occ_model.receiver.sequence.requests import Reading, Request, is_searched_completely
+from occ_model.receiver.sequence.search import Chips
+from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.signal import unexplained_fraction
 
 _PHASES = 8  # number of phases tried, evenly spaced over one chip
@@ -57,7 +58,7 @@ class SequenceFit:
     def noise(self) -> float:
         """Variance of the rows about the model, in squared fractions of full light."""
         degrees_of_freedom = max(1, len(self.residual) - len(self.chips.values))
-        return max(float(self.residual @ self.residual) / degrees_of_freedom, _MIN_NOISE)
+        return max(dot(self.residual, self.residual) / degrees_of_freedom, _MIN_NOISE)
 
     def noise_of_sums(self) -> float:
         """Return the variance per row of the residual's sum over an exposure.
@@ -79,14 +80,13 @@ class SequenceFit:
 
 def lit_fractions(chips: Chips, timing: RowTiming, rows: int) -> tuple[FloatArray, FloatArray]:
     """Return the lit fraction of each row's exposure, and its derivative by the phase."""
-    starts = timing.starts(rows)
-    last, fractions = taps(timing, starts)
-    index = last[:, None] - np.arange(fractions.shape[1]) - chips.first
-    lit = chips.values[np.clip(index, 0, len(chips.values) - 1)].astype(np.float64)
-    model = np.einsum("ij,ij->i", fractions, lit)
+    last, fractions = taps(timing, timing.starts(rows))
+    index = last - np.arange(len(fractions))[:, None] - chips.first
+    lit = chips.values.take(index, mode="clip").astype(np.float64)
     # The exposure gains the chip in which it ends and loses the one in which it starts.
-    first = np.clip(np.floor(starts).astype(np.int64) - chips.first, 0, len(chips.values) - 1)
-    return model, (lit[:, 0] - chips.values[first]) / timing.exposure
+    first = np.floor(timing.starts(rows)).astype(np.int64) - chips.first
+    lost = chips.values.take(first, mode="clip")
+    return np.einsum("ij,ij->j", fractions, lit), (lit[0] - lost) / timing.exposure
 
 
 def guess_brightness(
@@ -99,11 +99,11 @@ def guess_brightness(
     """
     centred = light - light.mean()
     lags = np.arange(1, _LAG_ROWS + 1)
-    row_covariances = np.array([centred[lag:] @ centred[:-lag] for lag in lags]) / len(light)
+    row_covariances = np.array([dot(centred[lag:], centred[:-lag]) for lag in lags]) / len(light)
     centred_expected = expected - expected.mean()
     shifts = np.rint(lags * timing.step * per_chip).astype(np.int64)
     expected_covariances = np.array(
-        [np.roll(centred_expected, shift) @ centred_expected for shift in shifts]
+        [dot(np.roll(centred_expected, shift), centred_expected) for shift in shifts]
     ) / len(centred_expected)
     ratio = max(float(row_covariances.sum()), 1e-12) / max(float(expected_covariances.sum()), 1e-12)
     scale = float(np.sqrt(ratio))
@@ -113,7 +113,7 @@ def guess_brightness(
 
 def find_phase(
     light: FloatArray, timing: RowTiming, brightness: Brightness, words: tuple[Word, ...]
-) -> RowTiming:
+) -> Reading[RowTiming]:
     """Find the phase for which the chips in the middle of the picture fit best."""
     count = min(len(light), round((TRIED_CHIPS + timing.exposure) / timing.step))
     first = (len(light) - count) // 2
@@ -122,10 +122,10 @@ def find_phase(
         replace(timing, phase=timing.step * first + index / _PHASES) for index in range(_PHASES)
     ]
     statistics = [gather(lit_fraction, one) for one in timings]
-    if count_paths(words, timing.memory) <= MOST_STATES:
-        distances = least_distances(make_trellis(words, timing.memory), statistics)
+    if is_searched_completely(words, timing.memory):
+        distances = yield Request(words, timing.memory, statistics, only_distances=True)
     else:
-        chips = [_find_most_likely(words, timing, one) for one in statistics]
+        chips = yield Request(words, timing.memory, statistics)
         models = [lit_fractions(c, t, count)[0] for c, t in zip(chips, timings, strict=True)]
         distances = np.array([float(np.sum((lit_fraction - model) ** 2)) for model in models])
     best = timings[int(np.argmin(distances))]
@@ -134,20 +134,12 @@ def find_phase(
 
 def detect(
     light: FloatArray, timing: RowTiming, brightness: Brightness, words: tuple[Word, ...]
-) -> SequenceFit:
+) -> Reading[SequenceFit]:
     """Detect the chips; ``light``: proportional to the light of each row, up to a constant."""
     lit_fraction = brightness.lit_fraction(light)
-    chips = _find_most_likely(words, timing, gather(lit_fraction, timing))
+    (chips,) = yield Request(words, timing.memory, [gather(lit_fraction, timing)])
     model, _ = lit_fractions(chips, timing, len(lit_fraction))
     return SequenceFit(chips, timing, brightness, model, lit_fraction - model)
-
-
-def _find_most_likely(
-    words: tuple[Word, ...], timing: RowTiming, statistics: ChipStatistics
-) -> Chips:
-    if count_paths(words, timing.memory) <= MOST_STATES:
-        return find_best_chips(make_trellis(words, timing.memory), statistics)
-    return search_beam(words, timing.memory, statistics)
 
 
 def improve(light: FloatArray, fit: SequenceFit) -> tuple[RowTiming, Brightness]:
@@ -158,7 +150,8 @@ def improve(light: FloatArray, fit: SequenceFit) -> tuple[RowTiming, Brightness]
     # timing.
     powers = _powers(count)
     terms = np.concatenate([powers, powers * model, powers[:2] * (slope * fit.brightness.swing)])
-    coefficients = np.linalg.lstsq(terms @ terms.T, terms @ light, rcond=_SINGULAR)[0]
+    products = row_products(terms, np.concatenate([terms, light[None]]))
+    coefficients = np.linalg.lstsq(products[:, :-1], products[:, -1], rcond=_SINGULAR)[0]
     dark, swing = coefficients[:3] @ powers, coefficients[3:6] @ powers
     if not (swing > 0.0).all():
         return fit.timing, fit.brightness
@@ -179,8 +172,8 @@ def _powers(rows: int) -> FloatArray:
 def _autocorrelation(values: FloatArray, reach: int) -> FloatArray:
     """Return the autocorrelation of values up to a lag of ``reach``, shape (reach + 1,)."""
     centred = values - values.mean()
-    energy = max(float(centred @ centred), _MIN_NOISE)
-    products = [float(centred[lag:] @ centred[: len(centred) - lag]) for lag in range(1, reach + 1)]
+    energy = max(dot(centred, centred), _MIN_NOISE)
+    products = [dot(centred[lag:], centred[: len(centred) - lag]) for lag in range(1, reach + 1)]
     return np.array([energy, *products]) / energy
 
 
@@ -192,13 +185,13 @@ _CONVERGED_CHIPS = 0.01  # movement of a part's ends in chips below which the fi
 
 def follow_timing(
     light: FloatArray, timing: RowTiming, brightness: Brightness, words: tuple[Word, ...]
-) -> RowTiming:
+) -> Reading[RowTiming]:
     """Improve a timing that fits the middle but whose step may be wrong by a few percent."""
     count = len(light)
     size = round((TRIED_CHIPS + timing.exposure) / timing.step)
     while True:
         size = min(size, count)
-        timing = _follow_in_part(light, timing, brightness, words, size)
+        timing = yield from _follow_in_part(light, timing, brightness, words, size)
         if size == count:
             return timing
         size *= 2
@@ -206,7 +199,7 @@ def follow_timing(
 
 def _follow_in_part(
     light: FloatArray, timing: RowTiming, brightness: Brightness, words: tuple[Word, ...], size: int
-) -> RowTiming:
+) -> Reading[RowTiming]:
     first = (len(light) - size) // 2
     part = slice(first, first + size)
     part_light = light[part]
@@ -214,9 +207,8 @@ def _follow_in_part(
     part_timing = replace(timing, phase=timing.phase + timing.step * first)
     for _ in range(_MAX_PART_ROUNDS):
         previous = part_timing
-        part_timing, _brightness = improve(
-            part_light, detect(part_light, part_timing, part_brightness, words)
-        )
+        fit = yield from detect(part_light, part_timing, part_brightness, words)
+        part_timing, _brightness = improve(part_light, fit)
         if abs(part_timing.step - previous.step) * size < _CONVERGED_CHIPS:
             break
     return replace(part_timing, phase=part_timing.phase - part_timing.step * first)

@@ -3,26 +3,25 @@
 The method is the forward and backward recursion over the trellis (Bahl, Cocke, Jelinek and Raviv,
 IEEE Trans. Inf. Theory 20:284, 1974) with only the largest term of each sum: max-log-MAP. Its chips
 are those of the Viterbi algorithm. A long sequence is cut into overlapping parts, so that numpy can
-process all parts at once.
-
-The number of states of a trellis doubles with every one or two chips in an exposure. If there are
-too many, the M-algorithm (Anderson and Mohan, IEEE Trans. Commun. 32:169, 1984) keeps only the
-paths of least distance at each chip. A dropped path may be the correct one.
+process all parts at once, those of several sequences too.
 """
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.receiver.sequence.exposures import ChipStatistics, features_of
-from occ_model.receiver.sequence.trellis import NO_STATE, Trellis, Word, steps_from_places
+from occ_model.receiver.sequence.exposures import ChipStatistics
+from occ_model.receiver.sequence.trellis import Steps, Trellis
 
 _UNREACHABLE_COST = 1e30  # distance of a state that cannot be reached
 TRUNCATION_DEPTH = 5  # memory lengths after which surviving paths have a common beginning
 _LONGEST_PART = 128  # chips of a part of a sequence, without the overlaps
+
+_DISTANCES_AT_ONCE = 4096  # of states of sequences, to fit the processor's cache
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -36,31 +35,59 @@ class Chips:
 
 def find_best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
     """Find the chips whose light is closest to the rows, from the first chip in the first row."""
+    return find_all_best_chips(trellis, [statistics])[0]
+
+
+def find_all_best_chips(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> list[Chips]:
+    """Find the chips of several sequences of rows, each exactly as if it were alone."""
     # The first row shows one chip more than the state after it, so a step is prepended.
-    features = np.pad(statistics.features, ((1, 0), (0, 0)))
-    parts = _Parts.of(len(features), trellis.memory)
-    costs = _costs(trellis, features)
-    outside_costs = np.where(costs[:1] < _UNREACHABLE_COST, 0.0, _UNREACHABLE_COST)
-    costs = np.concatenate([costs, outside_costs])
-    forward = _forward(trellis, costs, parts)
-    distances = _add_backward(trellis, costs, forward, parts)
-    values, margins = _decide(trellis, distances, parts)
-    return Chips(statistics.first - trellis.memory, values, margins)
+    parts = [_Parts.of(1 + len(one.energy), trellis.memory) for one in statistics]
+    together = max(1, _DISTANCES_AT_ONCE // (trellis.states * max(one.number for one in parts)))
+    found: list[Chips] = []
+    for first in range(0, len(parts), together):
+        these = slice(first, first + together)
+        found += _find_chips(trellis, statistics[these], parts[these])
+    return found
+
+
+def _find_chips(
+    trellis: Trellis, statistics: Sequence[ChipStatistics], parts: Sequence["_Parts"]
+) -> list[Chips]:
+    costs, places = _costs(trellis, statistics, 1)
+    steps = max(len(one.chips) for one in parts)
+    outside = costs.shape[1] - 1
+    chips = np.full((steps, sum(one.number for one in parts)), outside)
+    columns = np.cumsum([0, *(one.number for one in parts)])
+    for its, place, column in zip(parts, places, columns[:-1], strict=True):
+        part = chips[: len(its.chips), column : column + its.number]
+        np.copyto(part, its.chips + place, where=its.chips < its.count)
+    distances = _forward(trellis, costs, chips)
+    _add_backward(trellis, costs, chips, distances)
+    margins = _margins(trellis, distances, 0)
+    found = []
+    for one, its, column in zip(statistics, parts, columns[:-1], strict=True):
+        inner = slice(its.overlap, its.overlap + its.core)
+        later = margins[inner, column : column + its.number].T.ravel()[: its.count]
+        # The first state also contains the chips before its own.
+        start = distances[its.overlap, :, column]
+        earlier = [_margins(trellis, start, age) for age in range(trellis.memory - 1, 0, -1)]
+        advantage = np.concatenate([earlier, later])
+        found.append(
+            Chips(one.first - trellis.memory, (advantage > 0.0).astype(np.uint8), np.abs(advantage))
+        )
+    return found
 
 
 def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> FloatArray:
     """Return the minimum squared distance of rows from any chips, for several timings."""
-    count = max(len(one.features) for one in statistics)
-    features = np.zeros((count, len(statistics), statistics[0].features.shape[1]))
-    for timing, one in enumerate(statistics):
-        features[: len(one.features), timing] = one.features
-    distances = np.zeros((len(statistics), trellis.states))
-    for cost in _costs(trellis, features):
-        distances = np.minimum.reduce(
-            distances.take(trellis.origins, axis=1, mode="wrap") + cost, axis=1
-        )
+    costs, places = _costs(trellis, statistics, 0)
+    counts = np.array([len(one.energy) for one in statistics])
+    step = np.arange(counts.max())[:, None]
+    chips = np.where(step < counts, step + places, costs.shape[1] - 1)
+    start = np.zeros((trellis.states, len(statistics)))
+    (distances,) = deque(_recursion(costs, chips, trellis.entries, start), maxlen=1)
     energy = np.array([float(one.energy.sum()) for one in statistics])
-    return np.asarray(distances.min(axis=1) + energy)
+    return np.asarray(distances.min(axis=0) + energy)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,6 +99,10 @@ class _Parts:
     overlap: int
     chips: IndexArray
     """The chip of each step of each part, shape (steps, parts); ``count`` outside the sequence."""
+
+    @property
+    def number(self) -> int:
+        return int(self.chips.shape[1])
 
     @classmethod
     def of(cls, count: int, memory: int) -> Self:
@@ -85,144 +116,66 @@ class _Parts:
         return cls(count, core, overlap, np.where((chips >= 0) & (chips < count), chips, count))
 
 
-def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
-    """Return the squared distance of each step, shape (chips, ..., steps, states)."""
-    word_costs = features @ features_of(trellis.words).T
-    costs = word_costs.take(trellis.word_indices, axis=-1)
-    costs[..., trellis.origins == NO_STATE] = _UNREACHABLE_COST
-    return np.asarray(costs)
+def _costs(
+    trellis: Trellis, statistics: Sequence[ChipStatistics], before: int
+) -> tuple[FloatArray, IndexArray]:
+    """Return the costs of all sequences' chips, shape (costs + 1, chips), and where each begins.
 
-
-def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts) -> FloatArray:
-    """Return the least distance of the paths to each state, shape (chips, parts, states).
-
-    ``costs``: the costs of the sequence's chips, followed by those of a chip outside it.
+    The last row is that of no step, the last column a chip outside the sequences. Each sequence has
+    ``before`` chips of no cost before its own.
     """
-    shape = (parts.chips.shape[1], *costs.shape[1:])
-    least_distances = np.empty((len(parts.chips), shape[0], trellis.states))
-    distances, candidates, cost = (
-        np.zeros(least_distances.shape[1:]),
-        np.empty(shape),
-        np.empty(shape),
-    )
-    for step, chips in enumerate(parts.chips):
-        costs.take(chips, axis=0, out=cost, mode="wrap")
-        distances.take(trellis.origins, axis=1, out=candidates, mode="wrap")
-        candidates += cost
-        distances = np.minimum.reduce(candidates, axis=1, out=least_distances[step])
-    return least_distances
+    counts = [before + len(one.energy) for one in statistics]
+    places = np.cumsum([0, *counts])
+    costs = np.zeros((trellis.weights.shape[1] + 1, int(places[-1]) + 1))
+    costs[-1] = _UNREACHABLE_COST
+    for place, one in zip(places[:-1], statistics, strict=True):
+        part = slice(place + before, place + before + len(one.energy))
+        # Not by the matrix product of BLAS, whose threads take longer than the product.
+        costs[:-1, part] = np.einsum("kw,kc->wc", trellis.weights, one.sums)
+    return costs, places[:-1]
+
+
+def _recursion(
+    costs: FloatArray, chips: IndexArray, steps: Steps, distances: FloatArray
+) -> Iterator[FloatArray]:
+    """Yield the least distance of each state after each row of chips, shape (states, parts)."""
+    shape = (*steps.costs.shape, chips.shape[1])
+    candidates, added = np.empty(shape), np.empty(shape)
+    costs_of_chips = np.empty((len(costs), chips.shape[1]))
+    for chips_of_step in chips:
+        costs.take(chips_of_step, axis=1, out=costs_of_chips, mode="wrap")
+        distances.take(steps.neighbours, axis=0, out=candidates, mode="wrap")
+        candidates += costs_of_chips.take(steps.costs, axis=0, out=added, mode="wrap")
+        distances = np.minimum.reduce(candidates, axis=0)
+        yield distances
+
+
+def _forward(trellis: Trellis, costs: FloatArray, chips: IndexArray) -> FloatArray:
+    """Return the least distance of the paths to each state, shape (steps, states, parts)."""
+    distances = np.empty((len(chips), trellis.states, chips.shape[1]))
+    start = np.zeros(distances.shape[1:])
+    for step, least in enumerate(_recursion(costs, chips, trellis.entries, start)):
+        distances[step] = least
+    return distances
 
 
 def _add_backward(
-    trellis: Trellis, costs: FloatArray, forward: FloatArray, parts: _Parts
-) -> FloatArray:
+    trellis: Trellis, costs: FloatArray, chips: IndexArray, forward: FloatArray
+) -> None:
     """Add the least distance of the paths from each state onwards, in place."""
-    steps, states = costs.shape[1:]
-    count = parts.chips.shape[1]
-    distances = np.zeros((count, states))
-    step_costs = np.empty((count, steps * states + 1))
-    step_costs[:, NO_STATE] = _UNREACHABLE_COST
-    next_costs, costs_of_step = (
-        np.empty((count, *trellis.exits.shape)),
-        np.empty((count, steps, states)),
-    )
-    for step in range(len(parts.chips) - 2, -1, -1):
-        costs.take(parts.chips[step + 1], axis=0, out=costs_of_step, mode="wrap")
-        costs_of_step += distances[:, None]
-        step_costs[:, :-1] = costs_of_step.reshape(count, -1)
-        step_costs.take(trellis.exits, axis=1, out=next_costs, mode="wrap")
-        np.minimum.reduce(next_costs, axis=1, out=distances)
-        forward[step] += distances
-    return forward
+    end = np.zeros(forward.shape[1:])
+    backward = _recursion(costs, chips[:0:-1], trellis.exits, end)
+    for distances, least in zip(forward[-2::-1], backward, strict=True):
+        distances += least
 
 
-def _decide(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[ByteArray, FloatArray]:
-    """Decide each chip by the least distance of the paths through each state."""
+def _margins(trellis: Trellis, distances: FloatArray, age: int) -> FloatArray:
+    """Return how much farther the paths with a dark chip are, of distances (..., states, parts).
 
-    def margins(distances: FloatArray, age: int) -> FloatArray:
-        advantage = trellis.chips[:, age] == 1
-        dark = distances[..., ~advantage].min(axis=-1)
-        return np.asarray(dark - distances[..., advantage].min(axis=-1))
-
-    inner = distance[parts.overlap : parts.overlap + parts.core]
-    # The first state also contains the chips before its own.
-    first_margins = [margins(inner[0], age)[0] for age in range(trellis.memory - 1, 0, -1)]
-    later_margins = margins(inner, 0).T.ravel()[: parts.count]
-    advantage = np.concatenate([first_margins, later_margins])
-    return (advantage > 0.0).astype(np.uint8), np.abs(advantage)
-
-
-_BEAM_WIDTH = 256  # paths kept at each chip
-
-
-def search_beam(words: tuple[Word, ...], memory: int, statistics: ChipStatistics) -> Chips:
-    """Find chips whose light is close to the rows, and the margin of each.
-
-    The margin is the distance, some memory lengths later, to the best remaining path with the
-    opposite chip, or to the worst remaining path if there is none.
+    ``age``: how many chips before the last one of a state.
     """
-    chip_after, position_after = _steps(words)
-    reach = memory + 1
-    path_length = max(TRUNCATION_DEPTH * reach, reach)
-    positions = np.arange(len(chip_after))
-    chips = np.zeros((len(positions), path_length), dtype=np.uint8)
-    distance = np.zeros(len(positions))
-    quadratic = _quadratic(statistics.features, reach)
-    values, margins = [], []
-    for v, g in zip(statistics.features[:, :reach], quadratic, strict=True):
-        origin, choice = np.nonzero(position_after[positions] != NO_STATE)
-        new_chips = chip_after[positions[origin], choice]
-        chips = np.concatenate([new_chips[:, None], chips[origin, :-1]], axis=1)
-        positions = position_after[positions[origin], choice]
-        window = chips[:, :reach].astype(np.float64)
-        distance = distance[origin] + np.einsum("ij,ij->i", window @ g - 2.0 * v, window)
-        best = _select_best_paths(positions, chips[:, :memory], distance)
-        positions, chips, distance = (
-            positions[best],
-            chips[best],
-            distance[best] - distance[best[0]],
-        )
-        values.append(chips[0, -1])
-        margins.append(_margin(chips[:, -1], distance))
-    last_chips = chips[:, -2::-1]  # not yet decided when the sequence ends
-    values.extend(last_chips[0])
-    margins.extend(_margin(column, distance) for column in last_chips.T)
-    first = statistics.first - path_length + 1
-    return Chips(first, np.array(values, dtype=np.uint8), np.array(margins))
-
-
-def _steps(words: tuple[Word, ...]) -> tuple[ByteArray, IndexArray]:
-    """Return the chip and the destination of each step, shape (positions, steps)."""
-    steps = steps_from_places(words)
-    max_steps = max(map(len, steps))
-    chips = np.zeros((len(steps), max_steps), dtype=np.uint8)
-    destinations = np.full((len(steps), max_steps), NO_STATE)
-    for position, position_steps in enumerate(steps):
-        for number, (chip, destination) in enumerate(position_steps):
-            chips[position, number], destinations[position, number] = chip, destination
-    return chips, destinations
-
-
-def _quadratic(features: FloatArray, reach: int) -> FloatArray:
-    """Return the matrix G of each chip, shape (chips, reach, reach), as an upper triangle."""
-    matrices = np.zeros((len(features), reach, reach))
-    upper, lower = np.triu_indices(reach, 1)
-    diagonal = np.arange(reach)
-    matrices[:, diagonal, diagonal] = features[:, reach : 2 * reach]
-    matrices[:, upper, lower] = features[:, 2 * reach :]
-    return matrices
-
-
-def _select_best_paths(positions: IndexArray, chips: ByteArray, distance: FloatArray) -> IndexArray:
-    """Return the best paths in order, and only the best of those that end in the same state."""
-    order = np.argsort(distance, kind="stable")
-    numbers = np.ascontiguousarray(positions[order, None]).view(np.uint8)
-    state = np.concatenate([numbers, chips[order]], axis=1)
-    rows = np.ascontiguousarray(state).view(np.dtype((np.void, state.shape[1]))).ravel()
-    _, firsts = np.unique(rows, return_index=True)
-    return np.asarray(order[np.sort(firsts)[:_BEAM_WIDTH]])
-
-
-def _margin(chips: ByteArray, distance: FloatArray) -> float:
-    other = distance[chips != chips[0]]
-    return float(other[0] if other.size else distance[-1])
+    lit = np.flatnonzero(trellis.chips[:, age])
+    dark = np.flatnonzero(trellis.chips[:, age] == 0)
+    axis = min(1, distances.ndim - 1)
+    dark_least = distances.take(dark, axis=axis).min(axis=axis)
+    return np.asarray(dark_least - distances.take(lit, axis=axis).min(axis=axis))

@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.receiver.sequence.exposures import weights_of
 
 NO_STATE = -1  # marks an unused place of a table
 
@@ -28,20 +29,30 @@ FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any oth
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Steps:
+    """The steps of each state of a trellis, all into it or all from it, numbered from 0.
+
+    Unused numbers have the last of the costs, which is that of no step.
+    """
+
+    neighbours: IndexArray  # Shape (numbers, states): the state at the other end of each step
+    costs: IndexArray  # Shape (numbers, states): which cost each step has
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Trellis:
     """The states of a code for exposures of some chips, and the steps between them.
 
-    A step adds a chip. The steps into each state are numbered; unused numbers have ``NO_STATE``.
+    A step adds a chip. Many steps have the same cost, since only the number of lit chips counts
+    where an exposure covers several of them completely.
     """
 
     memory: int  # Number of chips in a state
     places: IndexArray  # Shape (states,): the place within the words, see steps_from_places
     chips: ByteArray  # Shape (states, memory): the last chips, with the latest first
-    origins: IndexArray  # Shape (steps, states): the state from which each step comes
-    words: FloatArray  # Shape (words, memory + 1): possible chips of a step, with the latest first
-    word_indices: IndexArray  # Shape (steps, states): the word of each step
-    # Shape (steps, states): the steps from each state, as indices of the flattened ``origins``
-    exits: IndexArray
+    weights: FloatArray  # Shape (weights, costs): see weights_of
+    entries: Steps  # The steps into each state
+    exits: Steps  # The steps from each state
 
     @property
     def states(self) -> int:
@@ -115,38 +126,38 @@ def make_trellis(words: tuple[Word, ...], memory: int) -> Trellis:
         }
     states = sorted(reachable)
     state_numbers = {state: place for place, state in enumerate(states)}
-    steps_into: list[list[tuple[int, tuple[int, ...]]]] = [[] for _ in states]
-    for (place, chips), origin in state_numbers.items():
-        for chip, to in steps[place]:
-            word = (chip, *chips)
-            steps_into[state_numbers[to, word[:memory]]].append((origin, word))
-    max_steps = max(map(len, steps_into))
-    origins = np.full((max_steps, len(states)), NO_STATE)
-    step_words = np.zeros((max_steps * len(states), memory + 1))
-    for state, state_steps in enumerate(steps_into):
-        for step, (origin, word) in enumerate(state_steps):
-            origins[step, state] = origin
-            step_words[step * len(states) + state] = word
-    words_of_steps, word_indices = np.unique(step_words, axis=0, return_inverse=True)
+    all_steps = [
+        (origin, state_numbers[to, (chip, *chips)[:memory]], (chip, *chips))
+        for (place, chips), origin in state_numbers.items()
+        for chip, to in steps[place]
+    ]
+    origins, destinations = np.array([step[:2] for step in all_steps]).T
+    weights, costs = np.unique(
+        weights_of(np.array([word for _, _, word in all_steps], dtype=np.uint8)),
+        axis=1, return_inverse=True,
+    )  # fmt: skip
+    count, no_cost = len(states), weights.shape[1]
     return Trellis(
         memory,
         np.array([place for place, _ in states]),
-        np.array([chips for _, chips in states], dtype=np.uint8).reshape(len(states), memory),
-        origins,
-        words_of_steps,
-        word_indices.reshape(origins.shape),
-        _steps_from_states(origins),
+        np.array([chips for _, chips in states], dtype=np.uint8).reshape(count, memory),
+        weights,
+        _number_steps(destinations, origins, costs.ravel(), count, no_cost),
+        _number_steps(origins, destinations, costs.ravel(), count, no_cost),
     )
 
 
-def _steps_from_states(origins: IndexArray) -> IndexArray:
-    """Return the steps from each state, as indices of the flattened table of steps into states."""
-    flat_origins = origins.ravel()
-    steps = np.flatnonzero(flat_origins != NO_STATE)
-    steps = steps[np.argsort(flat_origins[steps], kind="stable")]
-    sorted_origins = flat_origins[steps]
-    starts = np.searchsorted(sorted_origins, np.arange(origins.shape[1]))
-    rank = np.arange(len(steps)) - starts[sorted_origins]
-    exits = np.full((int(rank.max()) + 1, origins.shape[1]), NO_STATE)
-    exits[rank, sorted_origins] = steps
-    return exits
+def _number_steps(
+    ends: IndexArray, others: IndexArray, costs: IndexArray, states: int, no_cost: int
+) -> Steps:
+    """Table the steps by the state at one end, given both ends of each."""
+    order = np.argsort(ends, kind="stable")
+    ends = ends[order]
+    number = np.arange(len(ends)) - np.searchsorted(ends, ends)
+    numbered = Steps(
+        np.zeros((int(number.max()) + 1, states), dtype=np.int64),
+        np.full((int(number.max()) + 1, states), no_cost),
+    )
+    numbered.neighbours[number, ends] = others[order]
+    numbered.costs[number, ends] = costs[order]
+    return numbered

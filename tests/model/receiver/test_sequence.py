@@ -9,12 +9,14 @@ import pytest
 from physics.exposed_chips import expose_rows, noise_of
 
 import occ_model as occ
-from occ_model.receiver.light import PER_CHIP, expected_light, light_of_chips
+from occ_model.receiver.light import PER_CHIP, Light, expected_light, light_of_chips
 from occ_model.receiver.sequence import decoder
+from occ_model.receiver.sequence.beam import search_beam
 from occ_model.receiver.sequence.code_words import find_code_words, words_of_runs
 from occ_model.receiver.sequence.exposures import RowTiming, gather
 from occ_model.receiver.sequence.fit import Brightness, SequenceFit, guess_brightness
-from occ_model.receiver.sequence.search import Chips, find_best_chips, search_beam
+from occ_model.receiver.sequence.requests import Reading, run_readings
+from occ_model.receiver.sequence.search import Chips, find_best_chips
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, make_trellis, steps_from_places
 from occ_model.scene.scene import Scene
 
@@ -44,7 +46,7 @@ def test_the_last_chip_is_the_last_one_that_a_row_shows(exposure: float) -> None
     timing = RowTiming(exposure, 0.2, 0.13)
     seen = gather(np.zeros(50), timing)
     last = int(np.floor(0.13 + 49 * 0.2 + exposure))
-    assert seen.first + len(seen.features) - 1 == last
+    assert seen.first + len(seen.energy) - 1 == last
     found = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), seen)
     assert found.first + len(found.values) - 1 == last
     assert found.first == seen.first - timing.memory
@@ -101,12 +103,13 @@ def fit_of(noise: float, chips: list[int], unexplained: float = 0.0) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("noises", "flips", "unexplained", "rounds"),
+    ("noises", "flips", "unexplained", "rounds", "is_estimated"),
     [
-        ([5.0, 2.0, 1.0, 0.5], [1, 1, 1, 1], 0.0, 4),  # each round improves the fit
-        ([5.0, 4.9, 1.0, 0.5], [1, 1, 1, 1], 0.0, 2),  # the second one gains almost nothing
-        ([5.0, 2.0, 1.0, 0.5], [1, 0, 1, 1], 0.0, 2),  # the second one finds the same chips
-        ([5.0, 4.9, 4.8, 4.7], [1, 1, 1, 1], 0.2, 4),  # nothing has been explained yet
+        ([5.0, 2.0, 1.0, 0.5], [1, 1, 1, 1], 0.0, 4, False),  # each round improves the fit
+        ([5.0, 4.9, 1.0, 0.5], [1, 1, 1, 1], 0.0, 2, False),  # the second one gains almost nothing
+        ([5.0, 2.0, 1.0, 0.5], [1, 0, 1, 1], 0.0, 2, False),  # the second finds the same chips
+        ([5.0, 2.0, 1.0, 0.5], [1, 0, 1, 1], 0.0, 2, True),  # by an estimate of their light too
+        ([5.0, 4.9, 4.8, 4.7], [1, 1, 1, 1], 0.2, 4, False),  # nothing has been explained yet
     ],
 )
 def test_chips_are_improved_as_long_as_it_helps(
@@ -115,20 +118,23 @@ def test_chips_are_improved_as_long_as_it_helps(
     flips: list[int],
     unexplained: float,
     rounds: int,
+    is_estimated: bool,
 ) -> None:
     made: list[Any] = []
 
-    def detect(*_: object) -> Any:
+    def detect(*_: object) -> Reading[Any]:
         start_state = made[-1].chips.values.tolist() if made else [0, 1]
         chips = [chip ^ flips[len(made)] for chip in start_state]
         made.append(fit_of(noises[len(made)], chips, unexplained))
+        yield from ()
         return made[-1]
 
     monkeypatch.setattr(decoder, "detect", detect)
     monkeypatch.setattr(decoder, "improve", lambda *_: (None, None))
-    light = SimpleNamespace(values=np.zeros(4), clipped=np.zeros(4, dtype=bool), is_estimated=False)
+    light = Light(np.zeros(4), np.zeros(4, dtype=bool), is_estimated)
     first = fit_of(10.0, [0, 1], unexplained)
-    found, _ = decoder._improve_rounds(np.zeros(4), Scene(), first, light, FREE_CHIPS)  # type: ignore[arg-type]
+    rounds_of = decoder._improve_rounds(np.zeros(4), Scene(), first, light, FREE_CHIPS)
+    ((found, _),) = run_readings([rounds_of])
     assert len(made) == rounds
     assert found is made[-1]
 

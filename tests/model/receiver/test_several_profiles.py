@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.receiver.decode import DECODERS, decode_profiles
 from occ_model.results.decoding import DecodeResult
 
-SCHEMES = (
+SCHEMES: tuple[dict[str, float | str], ...] = (
     {},
     {"enhancement": "none"},
     {"enhancement": "stretch", "bits": 6, "code": 3},
@@ -56,7 +56,7 @@ def assert_same(first: object, second: object, name: str = "result") -> None:
         for one, other in zip(first, second, strict=True):  # type: ignore[call-overload]
             assert_same(one, other, name)
     else:
-        assert first == second or first != first, name  # noqa: PLR0124 - NaN equals NaN
+        assert first == second or first != first, name  # NaN equals NaN
 
 
 @pytest.mark.parametrize("decoder", DECODERS)

@@ -28,10 +28,10 @@ COLOURS: dict[str, QColor] = dict(
 
 _GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼"}  # the symbols as characters
 _LEGEND_NAMES = (
-    "exposure",
-    "effects",
-    "path",
-    "draft",
+    "sampled exposure",
+    "some effects",
+    "columns alone",
+    "some rows (draft)",
 )  # names of the parts in the legend
 _FLOOR = round(math.log10(LEAST_ERROR))  # power of ten at which all smaller errors are drawn
 _LEAST_HEIGHT = 56  # pixels; small, because the panes of a low window share its height
@@ -124,8 +124,8 @@ class AccuracyPlot(QWidget):
             (_GLYPHS[SYMBOLS[part]], lighten_for(palette, COLOURS[part]), word)
             for part, word in zip(ACCURACY_PARTS, _LEGEND_NAMES, strict=True)
         ]
-        entries.append(("+", lighten_for(palette, COLOURS["effects"]), "limit"))
-        entries.append(("○", palette.color(QPalette.ColorRole.Text), "now"))
+        entries.append(("+", lighten_for(palette, COLOURS["effects"]), "plan's largest error"))
+        entries.append(("○", palette.color(QPalette.ColorRole.Text), "now, or next"))
         self.legend.setText(
             "&nbsp; ".join(
                 f"<span style='color:{colour.name()}'>{glyph}</span>&nbsp;{word}"

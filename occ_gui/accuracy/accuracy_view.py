@@ -1,91 +1,29 @@
-"""View of accuracy and time: slider from fast to exact, table of effects, plot, summary."""
-
-import math
+"""View of accuracy and time: slider from fast to exact, table of effects, plot, answer."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
-from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import find_slowest, format_levels, format_milliseconds, make_rows
+from occ_gui.accuracy.effect_rows import find_slowest, make_rows
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
 from occ_gui.accuracy.plan_changes import describe_switches
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, list_marks
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill
+from occ_gui.widgets.answer import Answer
+from occ_gui.widgets.building import KeyedComboBox, fill
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
-from occ_model.results.frame import Decision, Frame
+from occ_model.results.frame import Decision
+from occ_model.results.move_cost import (
+    state_measurement,
+    state_move,
+    state_saving,
+    state_switches,
+)
 from occ_model.scene.scene import SimulationSettings, unit_of
-
-
-def describe_picture(costs: MeasuredCosts, seconds: float, forecast: Forecast | None) -> str:
-    now, first = format_milliseconds(costs.picture.seconds), format_milliseconds(seconds)
-    time = f"This picture: {now} ms"
-    if costs.is_comparable and now != first:
-        time = f"{time}, measured again ({first} at first)"
-    return f"{time}; {_describe_error(forecast)}." if forecast is not None else f"{time}."
-
-
-def describe_ends(costs: MeasuredCosts, unit: str) -> str:
-    """State the times without effects and with all of them; empty until both are measured."""
-    if not costs.is_comparable:
-        return ""
-    bare = next((fractions for fractions in costs.others if not fractions.included), None)
-    complete = max(costs.others, key=lambda fractions: len(fractions.included))
-    error = costs.errors.get(frozenset())
-    if bare is None or error is None or complete is bare:
-        return ""
-    sentence = (
-        f"Fastest: {format_milliseconds(bare.seconds)} ms, error {format_levels(error)} {unit}."
-    )
-    if bare is costs.picture:
-        sentence = ""
-    if complete is not costs.picture:
-        sentence += f" Exact: {format_milliseconds(complete.seconds)} ms."
-    return sentence.strip()
-
-
-def describe_forecast(frame: Frame, times: TimeFractions, forecast: Forecast) -> str:
-    """State the next picture's time and error, and the effects that it switches."""
-    before, after = set(frame.plan.included), set(forecast.plan.included)
-    now = format_milliseconds(times.seconds)
-    if forecast.seconds is None:
-        time = f"Next: now {now} ms"
-    else:
-        time = f"Next: about {format_milliseconds(forecast.seconds)} ms, now {now}"
-    labels = {decision.effect: decision.label for decision in frame.plan.decisions}
-    parts = [f"{time}; {_describe_error(forecast)}."]
-    for names, direction in ((after - before, "in"), (before - after, "out")):
-        if names:
-            texts = (label for name, label in labels.items() if name in names)
-            parts.append(f"Switches {direction}: {', '.join(texts)}.")
-    return " ".join(parts)
-
-
-def _describe_error(forecast: Forecast) -> str:
-    if forecast.error is None:
-        return _describe_estimate(forecast)
-    if forecast.error == 0.0:
-        is_exact = forecast.plan.tolerance == 0.0
-        return "exact: nothing is left out" if is_exact else "nothing is left out"
-    error = f"{format_levels(forecast.error)} {forecast.plan.unit}"
-    return (
-        f"error {error} (measured)" if forecast.is_measured else f"error about {error} (predicted)"
-    )
-
-
-def _describe_estimate(forecast: Forecast) -> str:
-    """State the plan's estimate of the error while none is measured or predicted."""
-    plan = forecast.plan
-    is_off_by_hand = any(d.forced and d.estimate and not d.included for d in plan.decisions)
-    if is_off_by_hand or plan.tolerance == math.inf:
-        return "error not measured yet"
-    return f"error about {format_levels(plan.left_out)} {plan.unit} (estimated)"
-
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels of the parts side by side
 
@@ -102,7 +40,7 @@ class AccuracyView(QWidget):
         super().__init__()
         self._snapshot: Snapshot | None = None
         self._drawn_snapshot: Snapshot | None = None
-        self._costs: SceneCosts | None = None
+        self._costs: tuple[SimulationRequest, MeasuredCosts] | None = None
         self._forecast: tuple[SimulationRequest, Forecast] | None = None
         self._is_visible = False
         self._new_decisions: tuple[Decision, ...] = ()
@@ -120,8 +58,7 @@ class AccuracyView(QWidget):
             {"image": "picture", **{name: name for name in ("profile", "signal", "decision")}},
             is_fixed=True,
         )
-        self.summary, self.ends = ElidedLabel(), ElidedLabel()
-        self.ends.hide()
+        self.answer = Answer()
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
         self.table.chosen.connect(self._select)
         self.table.tolerance_dragged.connect(self.tolerance.show_value)
@@ -137,16 +74,9 @@ class AccuracyView(QWidget):
         controls = fill(
             QHBoxLayout(), (self.tolerance, 1), QLabel("of the"), self.observable, spacing=8
         )
-        second_row = fill(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
-        fill(
-            QVBoxLayout(self),
-            controls,
-            self.summary,
-            second_row,
-            (self.panels, 1),
-            margins=(8, 2, 8, 2),
-            spacing=2,
-        )
+        tabs = fill(QHBoxLayout(), None, self.panels.tabs)
+        parts = (controls, self.answer, tabs, (self.panels, 1))
+        fill(QVBoxLayout(self), *parts, margins=(8, 2, 8, 2), spacing=2)
 
     @property
     def scene_parts(self) -> tuple[QWidget, ...]:
@@ -181,8 +111,9 @@ class AccuracyView(QWidget):
             if not decisions:  # new marks are drawn with the picture, which follows
                 self._draw()
 
-    def show_costs(self, costs: SceneCosts) -> None:
-        self._costs = costs
+    def show_costs(self, request: SimulationRequest, costs: MeasuredCosts) -> None:
+        """Show the measured costs of a scene with some settings."""
+        self._costs = (request, costs)
         self._draw()
 
     def show_forecast(self, request: SimulationRequest, forecast: Forecast) -> None:
@@ -206,29 +137,28 @@ class AccuracyView(QWidget):
         snapshot = self._snapshot
         if snapshot is None or not self._is_visible:
             return
-        frame, costs, forecast, ends = snapshot.frame, self._find_costs(snapshot), None, ""
+        frame, costs, forecast = snapshot.frame, self._find_costs(snapshot), None
         if self._forecast is not None and self._forecast[0].scene == snapshot.request.scene:
             forecast = self._forecast[1]
-        is_same = forecast is None or forecast.plan.included == frame.plan.included
+        switched = None
+        if forecast is not None and forecast.plan.included != frame.plan.included:
+            switched = forecast
         new = {decision.effect for decision in self._new_decisions}
-        self.table.show_rows(make_rows(frame, costs, new, None if is_same else forecast))
-        if is_same or forecast is None:
-            sentence = describe_picture(costs, snapshot.simulation_seconds, forecast)
-            ends = describe_ends(costs, frame.plan.unit)
-        else:
-            sentence = describe_forecast(frame, costs.picture, forecast)
-        if self._new_decisions:
-            sentence += " " + describe_switches(self._new_decisions) + "."
-        self.summary.set_full_text(sentence)
-        self.ends.set_full_text(ends)
-        self.ends.setVisible(bool(ends))
+        self.table.show_rows(make_rows(frame, costs, new, switched))
+        notes = [] if forecast is None else [state_saving(costs, forecast)]
+        if switched is not None:
+            notes.append(state_switches(frame.plan, switched.plan))
+        elif self._new_decisions:
+            notes.append(f"{describe_switches(self._new_decisions)}.")
+        self.answer.show_answer(
+            state_move(costs, switched), [state_measurement(costs)], " ".join(notes)
+        )
         self._show_detail(costs)
 
     def _find_costs(self, snapshot: Snapshot) -> MeasuredCosts:
-        picture = TimeFractions.of(snapshot.frame)
-        if self._costs is None:
-            return MeasuredCosts(picture)
-        return self._costs.find_costs(snapshot.request, picture)
+        if self._costs is not None and self._costs[0].scene == snapshot.request.scene:
+            return self._costs[1]
+        return MeasuredCosts(TimeFractions.of(snapshot.frame))
 
     def _select(self, effect: str) -> None:
         self._selected = effect

@@ -6,39 +6,39 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 from occ_gui.background.task import Report
+from occ_gui.simulation.moves import time_move
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.effects.plan import plan_with
-from occ_model.results.accuracy import AccuracyPoint, EffectDifference, MeasuredCosts, TimeFractions
-from occ_model.simulation.render import render_with
+from occ_model.errors import OccError
+from occ_model.results.accuracy import AccuracyPoint, EffectDifference
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.accuracy import accuracy, point_count
 from occ_model.study.effect_differences import CompleteSimulation
 
-_RUNS, _PATIENCE = 5, 1.0  # most runs of each picture, and seconds after which no more begin
+_MOVED = (
+    "switching_frequency",
+    "distance",
+    "exposure_time",
+    "iso",
+    "f_number",
+    "readout_time",
+)  # the sliders whose moves are timed
+_MOVE = 1.003  # factor of a move
+_LEAST_MOVES, _PATIENCE = 3, 1.0  # fewest moves, and seconds after which no more begin
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCosts:
+    """What omitting effects changes in a scene: of each effect, and of sets of effects."""
+
     request: SimulationRequest
-    # Times of pictures made in turn: with the plan's effects, with all of the scene's, with none
-    pictures: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
-    def find_costs(self, request: SimulationRequest, picture: TimeFractions) -> MeasuredCosts:
-        """Return the known costs of a request whose picture took these times.
-
-        Times measured in turn with other pictures replace them, because only those can be compared.
-        """
-        is_comparable = _comparison_key(request) == _comparison_key(self.request)
-        pictures = self.pictures if self.request.scene == request.scene else ()
-        same_pictures = (each for each in pictures if each.included == picture.included)
-        return MeasuredCosts(
-            next(same_pictures, picture),
-            pictures,
-            self.differences if is_comparable else {},
-            self.errors if is_comparable else {},
-        )
+    def is_of(self, request: SimulationRequest) -> bool:
+        return _comparison_key(request) == _comparison_key(self.request)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,14 +63,14 @@ class CostMeasurement:
             complete.error_of(effects, timer)
         costs = SceneCosts(request, errors=complete.errors)
         report(costs)
-        costs = replace(costs, pictures=_time_in_turn(request, report))
+        _time_moves(request, report)
         for effect in complete.effects:
             differences = {**costs.differences, effect: complete.without(effect, timer)}
             costs = replace(costs, differences=differences, errors=complete.errors)
             report(costs)
         total = point_count(request.scene, request.settings)
         for point in accuracy(request.scene, request.settings, complete):
-            report(MeasuredPoint(_use_stated_time(point, costs), total))
+            report(MeasuredPoint(point, total))
         report(replace(costs, errors=complete.errors))
 
     def _simulate(self, request: SimulationRequest, timer: StageTimer) -> CompleteSimulation:
@@ -87,26 +87,35 @@ def _comparison_key(request: SimulationRequest) -> tuple[object, ...]:
     return request.scene, request.settings.observable, request.settings.seed
 
 
-def _time_in_turn(request: SimulationRequest, report: Report) -> tuple[TimeFractions, ...]:
-    """Time pictures with the plan's effects, all and none in turn; keep each one's fastest run."""
+def _time_moves(request: SimulationRequest, report: Report) -> None:
+    """Time slightly changed scenes, as after moves of each slider, with three plans in turn.
+
+    The plans are the present one, that with all effects and that with none. The same scene again
+    would be faster than a move, because parts of it are remembered.
+    """
     settings = request.settings
     exact, bare = (replace(settings, tolerance=value, force={}) for value in (0.0, math.inf))
-    runs: dict[frozenset[str], list[TimeFractions]] = {}
     deadline = perf_counter() + _PATIENCE
-    for run in range(_RUNS):
-        if run and perf_counter() > deadline:
-            break
+    for count, name in enumerate(_MOVED):
+        if count >= _LEAST_MOVES and perf_counter() > deadline:
+            return
+        try:
+            scene = _move(request.scene, name)
+        except OccError:  # the slider is at its end
+            continue
+        timed: set[frozenset[str]] = set()
         for variant in (settings, exact, bare):
-            report(None)
-            fractions = TimeFractions.of(render_with(request.scene, variant))
-            runs.setdefault(fractions.included, []).append(fractions)
-    return tuple(TimeFractions.of_runs(fractions) for fractions in runs.values())
+            included = frozenset(plan_with(scene, variant).included)
+            if included not in timed:
+                timed.add(included)
+                report(None)
+                moved = replace(request, scene=scene, settings=variant)
+                report(time_move(moved, with_draft=variant is settings))
 
 
-def _use_stated_time(point: AccuracyPoint, costs: SceneCosts) -> AccuracyPoint:
-    """Return a point with the time that the pane states elsewhere for the same picture."""
-    stated = (p.seconds for p in costs.pictures if p.included == frozenset(point.effects))
-    return point if point.part != "effects" else replace(point, seconds=next(stated, point.seconds))
+def _move(scene: Scene, name: str) -> Scene:
+    value, highest = float(scene.value(name)), quantity(name).slider[1]
+    return scene.replace(**{name: value * _MOVE if value * _MOVE <= highest else value / _MOVE})
 
 
 class _CancellableTimer(StageTimer):

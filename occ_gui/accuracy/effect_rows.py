@@ -8,7 +8,14 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
+from occ_model.results.accuracy import (
+    EffectCrop,
+    EffectDifference,
+    Forecast,
+    MeasuredCosts,
+    format_levels,
+    format_milliseconds,
+)
 from occ_model.results.frame import Decision, Frame
 from occ_model.scene.scene import unit_of
 
@@ -131,15 +138,6 @@ def _state_error(
     if unit == unit_of("decision"):  # the plan's number is no root mean square there
         return error, f"{meaning}, root mean square; its peaks beside the threshold, {estimate}."
     return error, f"{meaning}, {estimate} were estimated."
-
-
-def format_levels(error: float) -> str:
-    return f"{error:.0f}" if 100.0 <= error < 1e5 else f"{error:.2g}"
-
-
-def format_milliseconds(seconds: float) -> str:
-    time = 1e3 * seconds
-    return f"{time:.0f}" if time >= 100.0 else f"{time:.1f}" if time >= 1.0 else f"{time:.2g}"
 
 
 STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)

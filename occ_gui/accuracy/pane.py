@@ -1,5 +1,6 @@
 """The pane of accuracy and time: its settings, and the study that runs while it is visible."""
 
+from dataclasses import replace
 from typing import TypeAlias
 
 from PySide6.QtCore import QObject, QTimer
@@ -11,9 +12,10 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import PiecesPane
 from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.moves import MoveTime
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
+from occ_model.results.accuracy import AccuracyPoint, Forecast, MeasuredCosts
 from occ_model.study.effect_differences import forecast
 
 IDLE_MS = 700  # milliseconds without a change after which the study starts
@@ -97,9 +99,10 @@ class AccuracyController(QObject):
         snapshot, request = self._snapshot, self._request()
         if not self._is_visible or snapshot is None or snapshot.request.scene != request.scene:
             return
-        times = TimeFractions.of(snapshot.frame)
-        measured = self._costs
-        costs = MeasuredCosts(times) if measured is None else measured.find_costs(request, times)
+        costs, measured = self._simulation.moves.costs_of(snapshot.frame), self._costs
+        if measured is not None and measured.is_of(request):
+            costs = replace(costs, differences=measured.differences, errors=measured.errors)
+        self._view.show_costs(request, costs)
         self.forecasts.ask((request, costs))
 
     def _wait_until_idle(self) -> None:
@@ -113,14 +116,26 @@ class AccuracyController(QObject):
         self.runner.ask(self._request())
         self._view.plot.show_study_begun()
 
-    def _show(self, report: SceneCosts | MeasuredPoint) -> None:
+    def _show(self, report: SceneCosts | list[MoveTime] | MeasuredPoint) -> None:
+        if isinstance(report, MeasuredPoint):
+            self._count += 1
+            self._view.plot.show_point(
+                self._use_stated_time(report.point), self._count, report.total
+            )
+            return
         if isinstance(report, SceneCosts):
             self._costs = report
-            self._view.show_costs(report)
-            self._predict()
-            return
-        self._count += 1
-        self._view.plot.show_point(report.point, self._count, report.total)
+        else:
+            for time in report:
+                self._simulation.moves.add(time)
+        self._predict()
+
+    def _use_stated_time(self, point: AccuracyPoint) -> AccuracyPoint:
+        """Return a point with the time that the pane states elsewhere for the same effects."""
+        if point.part != "effects" or self._snapshot is None:
+            return point
+        times = self._simulation.moves.costs_of(self._snapshot.frame).times_with(point.effects)
+        return point if times is None else replace(point, seconds=times.median)
 
     def _finish(self, _result: object) -> None:
         self._finished_request = self._request()
@@ -155,8 +170,8 @@ class AccuracyPane(PiecesPane):
         self._settings = settings
 
     def _show_snapshot(self, snapshot: Snapshot) -> None:
-        self.view.show_snapshot(snapshot)
         self.study.show_snapshot(snapshot)
+        self.view.show_snapshot(snapshot)
 
     def _show_refused(self, _sentence: str) -> None:
         # The control still shows the refused value.

@@ -19,7 +19,6 @@ A reading is never replaced by one of an earlier scene. ``failed`` says why a sc
 
 from collections.abc import Callable
 from dataclasses import replace
-from time import perf_counter
 
 from PySide6.QtCore import QObject, Signal
 
@@ -29,19 +28,17 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import (
     DraftRows,
-    draft_of,
     explain_failures,
     is_fast,
-    reading_by_profile,
-    reading_of_draft,
     snapshot_of,
 )
+from occ_gui.simulation.moves import MoveLog, MoveTime, begin_move
 from occ_gui.simulation.snapshot import SOURCES, Picture, Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.scene.scene import Scene, SimulationSettings
-from occ_model.simulation.render import plan_scene, render_with
+from occ_model.simulation.render import render_with
 
 _REST_TIME = 0.05  # seconds without a change after which the exact picture is begun
 
@@ -79,6 +76,7 @@ class SimulationController(QObject):
         self._reading: Reading | None = None
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._draft_rows = DraftRows()
+        self.moves = MoveLog()
         self._extra_decoders: tuple[str, ...] = ()
         self._must_wait: Callable[[], bool] = lambda: False
         self.runner: Task[SimulationRequest, Snapshot] = Task(self._simulate, "simulation")
@@ -127,15 +125,13 @@ class SimulationController(QObject):
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest, report: TaskReporter) -> Snapshot:
-        start = perf_counter()
-        planned = plan_scene(request.scene, request.settings)  # once for all that follows
-        reading = reading_by_profile(request, planned)
-        draft = draft_of(request, planned)
+        move = begin_move(request)
+        planned, reading, draft = move.planned, move.reading, move.draft
         # Without a draft, a scene whose simulation has begun is always shown.
         heartbeat: Callable[[], None] = report.give_way if draft is not None else lambda: None
         if draft is not None:
-            reading = reading or reading_of_draft(request, draft)
-            self._draft_rows.record_time(perf_counter() - start)
+            self._draft_rows.record_time(move.draft_seconds)
+            report(MoveTime.of(draft, move.draft_seconds))
             report(Picture.of(draft, request.picture_kind, request, reading))
             report.wait_for_paint(_LONGEST_PAINT)
             reading = None
@@ -145,6 +141,7 @@ class SimulationController(QObject):
             report(reading)
             reading = None
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
+        report(MoveTime.of(frame))
         if reading is not None:
             reading = replace(reading, has_picture=True)
         report(Picture.of(frame, request.picture_kind, request, reading))
@@ -163,7 +160,10 @@ class SimulationController(QObject):
                 return
             report.give_way(CHECK_SECONDS)
 
-    def _show_report(self, result: Picture | Reading) -> None:
+    def _show_report(self, result: Picture | Reading | MoveTime) -> None:
+        if isinstance(result, MoveTime):
+            self.moves.add(result)
+            return
         if isinstance(result, Snapshot):
             self._show(result)
             return

@@ -1,9 +1,9 @@
-"""Answer: one line in large letters, and more about it that unfolds below."""
+"""Answer: one line in large letters, a sentence on it, and more that unfolds below."""
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.widgets.building import fill, heading_font, paragraph
 
@@ -26,18 +26,39 @@ class MoreButton(QToolButton):
 
 
 class Answer(QWidget):
-    def __init__(self) -> None:
+    """The sentence that the user came for; ``button`` acts on it, ``below`` unfolds with it."""
+
+    def __init__(self, button: QWidget | None = None, below: QWidget | None = None) -> None:
         super().__init__()
-        self.line, self.details = (paragraph(is_selectable=True) for _ in range(2))
+        self.line, self.note, self.details = (paragraph(is_selectable=True) for _ in range(3))
         self.line.setFont(heading_font(self.font()))
+        self._below = below
         self.more = MoreButton()
-        self.more.toggled.connect(self.details.setVisible)
-        fill(QVBoxLayout(self), self.line, self.more, self.details, margins=0, spacing=4)
+        self.more.toggled.connect(lambda: self._unfold(bool(self.details.text())))
+        top = Qt.AlignmentFlag.AlignTop
+        row = fill(QHBoxLayout(), (self.line, 1), (self.more, 0, top), spacing=8)
+        if button is not None:
+            row.addWidget(button, 0, top)
+        parts = (self.note, self.details, *(() if below is None else (below,)))
+        fill(QVBoxLayout(self), row, *parts, margins=0, spacing=4)
         self.show_answer("")
 
-    def show_answer(self, line: str, details: Iterable[str] = ()) -> None:
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self.line.setFont(heading_font(self.font()))
+
+    def show_answer(self, line: str, details: Iterable[str] = (), note: str = "") -> None:
+        """Show a line, a sentence below it, and the details that *More* unfolds."""
         text = "\n".join(details)
         self.line.setText(line)
+        self.note.setText(note)
+        self.note.setVisible(bool(note))
         self.details.setText(text)
-        self.more.setVisible(bool(text))
-        self.details.setVisible(bool(text) and self.more.isChecked())
+        self._unfold(bool(text))
+
+    def _unfold(self, has_details: bool) -> None:
+        self.more.setVisible(has_details or self._below is not None)
+        self.details.setVisible(has_details and self.more.isChecked())
+        if self._below is not None:
+            self._below.setVisible(self.more.isChecked())

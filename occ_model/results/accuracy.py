@@ -1,7 +1,8 @@
 """Computing time and error of each simulation method, and of each effect."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import fsum
 from typing import Self
 
@@ -35,6 +36,56 @@ class AccuracyPoint:
 
 
 @dataclass(frozen=True, slots=True)
+class Times:
+    """Seconds that the same work took in several runs."""
+
+    median: float  # of an even number, the lower of the middle two, so that it is a run's time
+    least: float
+    most: float
+    count: int
+
+    @classmethod
+    def of(cls, seconds: Iterable[float]) -> Self:
+        runs = sorted(seconds)
+        return cls(runs[(len(runs) - 1) // 2], runs[0], runs[-1], len(runs))
+
+    def is_below(self, other: "Times") -> bool:
+        """Whether it is shorter by more than the runs scatter.
+
+        Each of the medians is outside of the other's range.
+        """
+        return self.median < other.least and self.most < other.median
+
+    @property
+    def number(self) -> str:
+        """The median in milliseconds, with the digits that its scatter leaves."""
+        return format_milliseconds(self.median, self._scatter)
+
+    def __str__(self) -> str:
+        if self.count == 1:
+            return f"{self.number} ms"
+        ends = (format_milliseconds(each, self._scatter) for each in (self.least, self.most))
+        return f"{self.number} ms ({' to '.join(ends)})"
+
+    @property
+    def _scatter(self) -> float:
+        return self.most - self.least
+
+
+def format_milliseconds(seconds: float, scatter: float = 0.0) -> str:
+    """Format seconds in milliseconds, with two to four digits, or to a tenth of the scatter."""
+    time = 1e3 * seconds
+    decimals = 0 if time >= 100.0 else 1 if time >= 1.0 else 1 - math.floor(math.log10(time or 1.0))
+    if scatter > 0.0:
+        decimals = min(decimals, 1 - math.floor(math.log10(1e3 * scatter)))
+    return f"{round(time, decimals):.{max(decimals, 0)}f}"
+
+
+def format_levels(error: float) -> str:
+    return f"{error:.0f}" if 100.0 <= error < 1e5 else f"{error:.2g}"
+
+
+@dataclass(frozen=True, slots=True)
 class TimeFractions:
     """Computing time of one picture, divided among effects and other stages."""
 
@@ -46,6 +97,8 @@ class TimeFractions:
     rows_differ: bool
     # Seconds by which the median run of each effect was slower than its fastest run
     scatter: Mapping[str, float] = field(default_factory=dict)
+    # Of all runs, of which this is the median one; None for a single run
+    runs: Times | None = None
 
     @classmethod
     def of(cls, frame: Frame) -> Self:
@@ -62,17 +115,20 @@ class TimeFractions:
 
     @classmethod
     def of_runs(cls, runs: Sequence[Self]) -> Self:
-        """Take the fastest run of each effect and stage, since other load only adds time."""
-        first = runs[0]
-        effects = {name: sorted(run.effects[name] for run in runs) for name in first.effects}
-        return cls(
-            effects={name: times[0] for name, times in effects.items()},
-            stages={name: min(run.stages[name] for run in runs) for name in first.stages},
-            shared_steps=first.shared_steps,
-            rows_differ=first.rows_differ,
-            # By the median, a single slow run has no influence.
-            scatter={name: times[len(times) // 2] - times[0] for name, times in effects.items()},
-        )
+        """Take the run of the median time, whose fractions add up to what it took."""
+        by_time = sorted(runs, key=lambda run: run.seconds)
+        times = Times.of(run.seconds for run in runs)
+        median = by_time[(len(runs) - 1) // 2]
+        scatter = {}
+        for name in median.effects:
+            seconds = Times.of(run.effects[name] for run in runs)
+            scatter[name] = seconds.median - seconds.least
+        return replace(median, scatter=scatter, runs=times)
+
+    @property
+    def times(self) -> Times:
+        """The times of all runs."""
+        return self.runs or Times.of((self.seconds,))
 
     @property
     def included(self) -> frozenset[str]:
@@ -124,11 +180,12 @@ class MeasuredCosts:
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     # Measured total error, by set of included effects
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
+    draft: Times | None = None  # From a slider's move to the draft; None without one
 
-    @property
-    def is_comparable(self) -> bool:
-        """Whether the picture was timed in alternation with the others: a first one is slower."""
-        return any(fractions is self.picture for fractions in self.others)
+    def times_with(self, effects: Collection[str]) -> Times | None:
+        """Return the measured times of pictures with just these effects; None if there are none."""
+        each = (self.picture, *self.others)
+        return next((one.times for one in each if one.included == frozenset(effects)), None)
 
     def seconds_of(self, effect: str) -> float | None:
         """Return an effect's time in the last picture, or else in another one."""

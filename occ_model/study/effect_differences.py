@@ -203,7 +203,10 @@ def _effect_sets_cached(
 
 
 def _add_seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
-    """Add up the last measured times of the effects and of everything else."""
+    """Return the measured time, or else the sum of the times of effects and everything else."""
+    known = costs.times_with(included)
+    if known is not None:
+        return known.median
     rows_differ = any(effect.name in included and effect.kind != "column" for effect in EFFECTS)
     measurements = (costs.picture, *costs.others)
     other_times = [each for each in measurements if each.rows_differ == rows_differ]

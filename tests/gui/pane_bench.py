@@ -35,6 +35,7 @@ from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.shell.feature import Feature
 from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.shell import Shell
+from occ_gui.simulation.moves import MoveLog
 from occ_gui.simulation.present_results import ResultsConsumer
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.values.modes import Places, Side
@@ -95,7 +96,9 @@ class PaneBench:
             PlainWindow(),
         )
         self.store, self.settings = self.scenes.store, self.scenes.settings
-        self.simulation: Any = SimpleNamespace(runner=Task(lambda *_: None, "no simulation"))
+        self.simulation: Any = SimpleNamespace(
+            runner=Task(lambda *_: None, "no simulation"), moves=MoveLog()
+        )
         self.hear_first: list[Callable[[Snapshot], object]] = []
         """Who hears of exact results before the panes."""
         self.shell, self.said = Shell(self.store, self.results_store), list[str]()

@@ -34,7 +34,7 @@ class Bench(PaneBench):
 
     @property
     def summary(self) -> str:
-        return self.view.summary.toolTip()
+        return f"{self.view.answer.line.text()} {self.view.answer.note.text()}"
 
     def row(self, effect: str) -> EffectRow:
         (row,) = [row for row in self.view.table.effects.rows if row.effect == effect]
@@ -114,10 +114,10 @@ def test_the_next_plan_is_shown_before_its_picture(qtbot: QtBot, bench: Bench) -
     slider = bench.view.tolerance.slider
     slider.setValue(slider.minimum())
     qtbot.waitUntil(lambda: "Switches out: " in bench.summary)
-    assert bench.summary.startswith("Next: ")
+    assert bench.summary.startswith("A slider's next move: the picture in ")
     assert bench.row("sensor-noise").pending is False
     bench.simulate()
-    qtbot.waitUntil(lambda: bench.summary.startswith("This picture: "))
+    qtbot.waitUntil(lambda: "Without effects: " in bench.summary or "Left out: " in bench.summary)
     assert bench.row("sensor-noise").pending is None
 
 
@@ -128,7 +128,6 @@ def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_r
     detail = bench.view.detail
     assert detail.title.text() == "Shot and read noise"
     assert "tolerance 0.5" in detail.reason.text()
-    assert bench.summary.startswith("This picture: ")
     rows = bench.view.table.effects.rows
     total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
     time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"

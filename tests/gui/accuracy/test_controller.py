@@ -19,14 +19,9 @@ from occ_gui.accuracy.pane import AccuracyController
 from occ_gui.background.task import Superseded
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.accuracy import (
-    ACCURACY_PARTS,
-    AccuracyPoint,
-    Forecast,
-    MeasuredCosts,
-    TimeFractions,
-)
+from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint, Forecast, MeasuredCosts
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import effect_differences
 
@@ -40,10 +35,11 @@ class RecordingPane:
 
     def __init__(self) -> None:
         self.plot, self.received = self, list[str]()
-        self.costs: list[SceneCosts] = []
+        self.costs: list[MeasuredCosts] = []
+        self.points: list[AccuracyPoint] = []
         self.forecasts: list[Forecast] = []
 
-    def show_costs(self, costs: SceneCosts) -> None:
+    def show_costs(self, request: SimulationRequest, costs: MeasuredCosts) -> None:
         self.costs.append(costs)
 
     def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
@@ -53,6 +49,7 @@ class RecordingPane:
         self.received.append("begun")
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
+        self.points.append(point)
         self.received.append(f"{point.name} {number}/{total}")
 
     def show_study_finished(self) -> None:
@@ -79,6 +76,8 @@ class Bench:
         pane: Any = self.pane
         self.controller = AccuracyController(self.scenes, self.simulation, pane)
         self.simulation.snapshot_shown.connect(self.controller.show_snapshot)
+        self.snapshots: list[Snapshot] = []
+        self.simulation.snapshot_shown.connect(self.snapshots.append)
 
     def study(
         self, scene: Scene, settings: SimulationSettings, _complete: object
@@ -251,41 +250,54 @@ def test_costs_of_another_scene_or_observable_are_not_used(
     tiny: SimulationRequest, reports: list[object]
 ) -> None:
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
-    times = TimeFractions.of(occ.render(tiny.scene))
-    assert costs.find_costs(tiny, times).differences
-    other = replace(tiny, scene=tiny.scene.replace(iso=200.0))
-    assert costs.find_costs(other, times) == MeasuredCosts(times)
-    assert not costs.find_costs(other, times).is_comparable
+    assert costs.is_of(replace(tiny, settings=replace(FIRST_SETTINGS, tolerance=3.0)))
+    assert not costs.is_of(replace(tiny, scene=tiny.scene.replace(iso=200.0)))
     profile = replace(tiny, settings=replace(FIRST_SETTINGS, observable="profile"))
-    assert not costs.find_costs(profile, times).differences
-    assert costs.find_costs(profile, times).others
-    pictures = tuple(
-        TimeFractions(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
-        for names in ([], ["jpeg"], ["jpeg", "vignetting"])
-    )
-    costs = SceneCosts(tiny, pictures)
-    for one in pictures:
-        again = replace(one, stages={"paint": 9.0})
-        assert costs.find_costs(tiny, again).picture is one
-    unlike = TimeFractions({"vignetting": 0.1}, {}, {}, True)
-    assert costs.find_costs(tiny, unlike).picture is unlike
+    assert not costs.is_of(profile)
 
 
-def test_all_stated_times_of_a_scene_are_of_one_measurement(
+def test_moves_of_several_sliders_are_timed_with_three_plans_in_turn(
     tiny: SimulationRequest, reports: list[object]
 ) -> None:
-    costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
-    frame = occ.render(tiny.scene)
-    known_costs = costs.find_costs(tiny, TimeFractions.of(frame))
-    assert known_costs.is_comparable
-    assert known_costs.picture.included == set(frame.plan.included)
-    points = [
-        m.point for m in reports if isinstance(m, MeasuredPoint) and m.point.part == "effects"
-    ]
-    (now,) = [point for point in points if point.current]
-    assert now.seconds == known_costs.picture.seconds
-    (bare,) = [fractions for fractions in known_costs.others if not fractions.included]
-    assert points[0].seconds == bare.seconds
+    moves = [report for report in reports if isinstance(report, list)]
+    present = frozenset(d.effect for d in occ.plan(tiny.scene, 0.0).decisions if d.estimate)
+    chosen = frozenset(occ.plan(tiny.scene).included)
+    sets = [move.effects for (move,) in moves]
+    plans = list(dict.fromkeys((chosen, present, frozenset())))
+    assert sets == plans * (len(sets) // len(plans))
+    assert len(sets) // len(plans) == 6  # sliders
+
+
+def test_all_stated_times_of_a_plan_are_one_number(bench: Bench, qtbot: QtBot) -> None:
+    bench.controller.set_visible(True)
+    bench.allow(TOTAL)
+    bench.wait_for("finished")
+    qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
+    costs, forecast = bench.pane.costs[-1], bench.pane.forecasts[-1]
+    assert costs.picture.times.count > 3
+    assert forecast.seconds == costs.picture.times.median
+    present = [d.effect for d in forecast.plan.decisions if d.estimate]
+    complete = costs.times_with(present)
+    assert complete is not None
+    sets = dict(zip(forecast.effect_sets, forecast.effect_set_seconds, strict=True))
+    (all_of_them,) = [s for each, s in sets.items() if each.effects == frozenset(present)]
+    assert all_of_them == complete.median
+    (no_effects,) = [s for each, s in sets.items() if not each.effects]
+    bare = costs.times_with(())
+    assert bare is not None
+    # The points of the study have no effects.
+    assert bench.pane.points[-1].seconds == no_effects == bare.median
+
+
+def test_moves_of_the_user_count_until_nine_later_ones(bench: Bench, qtbot: QtBot) -> None:
+    log = bench.simulation.moves
+    for number in range(12):
+        bench.scenes.change(iso=200.0 + number)
+        qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+    snapshot = bench.snapshots[-1]
+    times = log.costs_of(snapshot.frame).picture.times
+    assert times.count == 9
+    assert times.least <= snapshot.simulation_seconds <= times.most
 
 
 def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot: QtBot) -> None:

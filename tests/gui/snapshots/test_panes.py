@@ -18,7 +18,6 @@ from matches import match_with
 from PIL import Image
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.jobs import answer_question, compute_bars
 from occ_gui.bench.bench_view import PUBLISHED, BenchChoice, BenchView
@@ -36,7 +35,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.welcome.welcome import WelcomeDialog
 from occ_model.photo.reading.load import Photo
-from occ_model.results.accuracy import Forecast
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.bit_errors import BenchPoint, BitErrors
 from occ_model.results.match import Alternative
 from occ_model.results.sweep_request import SweepPoint
@@ -107,7 +106,9 @@ def test_the_accuracy_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf)
     view.show_snapshot(snapshot)
     complete = CompleteSimulation(snapshot.request.scene, "image")
     differences = {name: complete.without(name) for name in complete.effects}
-    view.show_costs(SceneCosts(snapshot.request, (), differences, complete.errors))
+    picture = TimeFractions.of(snapshot.frame)
+    costs = MeasuredCosts(picture, differences=differences, errors=complete.errors)
+    view.show_costs(snapshot.request, costs)
     expected = Forecast(snapshot.frame.plan, 0.045, 0.0, is_measured=True)
     view.show_forecast(snapshot.request, expected)
     view.plot.show_study_begun()

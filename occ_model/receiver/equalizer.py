@@ -13,11 +13,14 @@ H (zero-forcing), which amplifies noise near a null without limit.
 
 import math
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.products import row_products
 from occ_model.receiver.decoder import Decoder, add_bits
@@ -80,15 +83,15 @@ def _take_majority(result: DecodeResult, scene: Scene) -> DecodeResult:
     scheme = scheme_of(scene.transmitter)
     length = scheme.length + len(HEADER)  # the paper's packet ends at the next header
     starts = result.headers[:_MAX_VOTES]
-    frames = [scheme.decode(result.chips[start : start + length]) for start in starts]
-    votes = Counter(
-        tuple(frame.bits.tolist())
-        for frame in frames
-        if frame.failure is None and len(frame.bits) == scheme.bits
-    ).most_common(2)
+    packets = Counter(result.chips[start : start + length].tobytes() for start in starts)
+    votes: Counter[tuple[int, ...]] = Counter()
+    for packet, count in packets.items():
+        frame = scheme.decode(np.frombuffer(packet, dtype=np.uint8))
+        if frame.failure is None and len(frame.bits) == scheme.bits:
+            votes[tuple(frame.bits.tolist())] += count
     if not votes:
         return result
-    (bits, vote_count), *others = votes
+    (bits, vote_count), *others = votes.most_common(2)
     if others and others[0][1] == vote_count:
         return replace(
             result,
@@ -193,16 +196,33 @@ def undo_exposure(
     padded_light = _fade_out(
         light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True)
     )
-    transfer = response(exposure, len(padded_light))
-    frequency = np.arange(len(transfer)) / len(padded_light)
+    spectra = _Spectra.of(exposure, chip, len(padded_light))
+    seen = uft.urfftn(padded_light)
     if method == ZERO_FORCING:
-        noise, spectrum = _ZERO_FORCING_NOISE, np.ones_like(transfer)
+        noise = np.asarray(_ZERO_FORCING_NOISE)
     else:
-        spectrum = np.sinc(frequency * chip) ** 2 + _MIN_CHIP_SPECTRUM
-        noise = _noise_to_light_ratio(padded_light, light, transfer, spectrum)
-    wiener_filter = transfer / (transfer**2 + noise / spectrum)
-    restoration = uft.uirfftn(wiener_filter * uft.urfftn(padded_light), shape=padded_light.shape)
+        noise = _noise_to_light_ratio(seen, light, spectra) / spectra.chip
+    wiener_filter = spectra.transfer / (spectra.transfer**2 + noise)
+    restoration = uft.uirfftn(wiener_filter * seen, shape=padded_light.shape)
     return np.asarray(restoration[margin : margin + len(light)] + mean, dtype=np.float64)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Spectra:
+    """What pictures with one exposure, frequency and length have in common."""
+
+    transfer: FloatArray  # Shape (frequencies,): response of an exposure
+    chip: FloatArray  # Shape (frequencies,): power of the chips' light, relative to its maximum
+    nulls: IndexArray  # The frequencies nearest the nulls, where noise prevails
+
+    @classmethod
+    @lru_cache(maxsize=16)
+    def of(cls, exposure: float, chip: float, length: int) -> Self:
+        transfer = response(exposure, length)
+        frequency = np.arange(len(transfer)) / length
+        power = np.sinc(frequency * chip) ** 2 + _MIN_CHIP_SPECTRUM
+        count = max(1, int(_NULL_FRACTION * len(transfer)))
+        return cls(transfer, power, np.argpartition(np.abs(transfer), count - 1)[:count])
 
 
 def _fade_out(signal: FloatArray, margin: int, length: int) -> FloatArray:
@@ -213,16 +233,13 @@ def _fade_out(signal: FloatArray, margin: int, length: int) -> FloatArray:
 
 
 def _noise_to_light_ratio(
-    padded_light: FloatArray, light: FloatArray, transfer: FloatArray, spectrum: FloatArray
+    seen: NDArray[np.complex128], light: FloatArray, spectra: _Spectra
 ) -> float:
     """Measure the noise power near the nulls, relative to the light's power at low frequencies.
 
     Near the nulls the signal contains no light of chips, only noise, rounding, errors of the tone
     curve, and effects of the picture's ends.
     """
-    power = np.abs(np.fft.rfft(padded_light)) ** 2 / len(padded_light)
-    count = max(1, int(_NULL_FRACTION * len(power)))
-    null_bins = np.argpartition(np.abs(transfer), count - 1)[:count]
-    noise = float(power[null_bins].mean())
+    noise = float((np.abs(seen[spectra.nulls]) ** 2).mean())
     variance = max(float(light.var()) - noise, noise * _MIN_CHIP_SPECTRUM)
-    return noise / (variance / float(np.mean(spectrum * transfer**2)))
+    return noise / (variance / float(np.mean(spectra.chip * spectra.transfer**2)))

@@ -8,10 +8,11 @@ rank gives its light as far as the data in the picture are random.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Self
 
 import numpy as np
 
-from occ_model.arrays import BoolArray, ByteArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import Scheme, scheme_of
@@ -21,13 +22,35 @@ PER_CHIP = 16  # exposures per chip in :func:`expected_light`
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Ranks:
+    """The order of the values of a signal, without the values."""
+
+    fractions: FloatArray  # Shape (levels,): fraction of the values below each level, half of equal
+    level: IndexArray  # Shape (columns,): the level of each value, from the lowest
+
+    @classmethod
+    def of(cls, signal: FloatArray) -> Self:
+        _, level, counts = np.unique(signal, return_inverse=True, return_counts=True)
+        return cls((np.cumsum(counts) - 0.5 * counts) / len(signal), level)
+
+    def to_light(self, ordered: FloatArray) -> FloatArray:
+        """Return the value of the same rank in another distribution, given in order."""
+        fractions = (np.arange(ordered.size) + 0.5) / ordered.size
+        return np.asarray(np.interp(self.fractions, fractions, ordered)[self.level])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Light:
     # Shape (columns,): proportional to the light of each column, up to a constant
     values: FloatArray
     # Shape (columns,): whether a column has the largest level, so that its light may be larger
     clipped: BoolArray
-    # Whether only the order of the levels was used, because the tone curve is unknown
-    is_estimated: bool
+    # The order of the levels, if nothing else was used because the tone curve is unknown
+    ranks: Ranks | None = None
+
+    @property
+    def is_estimated(self) -> bool:
+        return self.ranks is not None
 
 
 def is_curve_known(scene: Scene) -> bool:
@@ -44,29 +67,27 @@ def convert_to_light(signal: FloatArray, scene: Scene) -> Light:
     # A signal that exceeds white is not limited to the levels of a picture, so it is not clipped.
     clipped = (signal >= WHITE - 0.5) & (signal.max() <= WHITE)
     if not is_curve_known(scene):
-        return Light(rank_to_light(signal, expected_light(scene)), np.zeros_like(clipped), True)
+        ranks = Ranks.of(signal)
+        light = ranks.to_light(_ordered_light(*_exposed(scene)))
+        return Light(light, np.zeros_like(clipped), ranks)
     if model.enhancement == "stretch":
         clipped = np.zeros_like(clipped)  # the brightest column is white but not clipped
     if model.averaging == "light":
         # Levels are the averaged light to the power of 1 / gamma.
-        return Light(np.maximum(signal / WHITE, 0.0) ** scene.camera.gamma, clipped, False)
-    return Light(signal / WHITE, clipped, False)
-
-
-def rank_to_light(signal: FloatArray, reference: FloatArray) -> FloatArray:
-    """Return the light of each value of a signal: the expected light of the same rank."""
-    _, level_index, counts = np.unique(signal, return_inverse=True, return_counts=True)
-    fraction = (np.cumsum(counts) - 0.5 * counts) / len(signal)
-    sorted_light = np.sort(reference, axis=None)
-    sorted_fractions = (np.arange(sorted_light.size) + 0.5) / sorted_light.size
-    return np.asarray(np.interp(fraction, sorted_fractions, sorted_light)[level_index])
+        return Light(np.maximum(signal / WHITE, 0.0) ** scene.camera.gamma, clipped)
+    return Light(signal / WHITE, clipped)
 
 
 def expected_light(scene: Scene) -> FloatArray:
     """Return the lit fractions of exposures of random data in time order, 16 per chip."""
+    return _expected_light(*_exposed(scene))
+
+
+def _exposed(scene: Scene) -> tuple[Scheme | None, float]:
+    """Return the scheme, None of a pattern, and the exposure in chips."""
     transmitter = scene.transmitter
     exposure = scene.camera.exposure_time * transmitter.switching_frequency
-    return _expected_light(None if transmitter.pattern else scheme_of(transmitter), exposure)
+    return None if transmitter.pattern else scheme_of(transmitter), exposure
 
 
 @lru_cache(maxsize=32)
@@ -80,6 +101,13 @@ def _expected_light(scheme: Scheme | None, exposure: float) -> FloatArray:
     else:
         chips = random.integers(0, 2, _CHIPS, dtype=np.uint8)
     light = light_of_chips(chips, exposure)
+    light.flags.writeable = False
+    return light
+
+
+@lru_cache(maxsize=32)
+def _ordered_light(scheme: Scheme | None, exposure: float) -> FloatArray:
+    light = np.sort(_expected_light(scheme, exposure))
     light.flags.writeable = False
     return light
 

@@ -24,7 +24,6 @@ from occ_model.receiver.light import (
     Light,
     convert_to_light,
     expected_light,
-    rank_to_light,
 )
 from occ_model.receiver.sequence.code_words import find_code_words
 from occ_model.receiver.sequence.exposures import RowTiming
@@ -135,9 +134,9 @@ def _improve_rounds(
 ) -> Reading[tuple[SequenceFit, Light]]:
     """Improve timing, brightness and light by the detected chips, and detect them again."""
     for _ in range(_MAX_ROUNDS):
-        if light.is_estimated:
+        if light.ranks is not None:
             # The light of the detected chips is distributed more like the picture's.
-            light = replace(light, values=rank_to_light(signal, fit.model))
+            light = replace(light, values=light.ranks.to_light(np.sort(fit.model)))
         elif light.clipped.any():
             # A white column may have had more light, as far as the detected chips show.
             least_light = fit.brightness.dark + fit.brightness.swing * fit.model

@@ -9,7 +9,7 @@ import pytest
 from physics.exposed_chips import expose_rows, noise_of
 
 import occ_model as occ
-from occ_model.receiver.light import PER_CHIP, Light, expected_light, light_of_chips
+from occ_model.receiver.light import PER_CHIP, Light, Ranks, expected_light, light_of_chips
 from occ_model.receiver.sequence import decoder
 from occ_model.receiver.sequence.beam import search_beam
 from occ_model.receiver.sequence.code_words import find_code_words, words_of_runs
@@ -131,7 +131,8 @@ def test_chips_are_improved_as_long_as_it_helps(
 
     monkeypatch.setattr(decoder, "detect", detect)
     monkeypatch.setattr(decoder, "improve", lambda *_: (None, None))
-    light = Light(np.zeros(4), np.zeros(4, dtype=bool), is_estimated)
+    ranks = Ranks.of(np.zeros(4)) if is_estimated else None
+    light = Light(np.zeros(4), np.zeros(4, dtype=bool), ranks)
     first = fit_of(10.0, [0, 1], unexplained)
     rounds_of = decoder._improve_rounds(np.zeros(4), Scene(), first, light, FREE_CHIPS)
     ((found, _),) = run_readings([rounds_of])

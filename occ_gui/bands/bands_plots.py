@@ -11,12 +11,13 @@ from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, thin_pen
 from occ_gui.widgets.plot import LineLegend, marker, new_plot
+from occ_model.results.bands import NO_BARS_DEPTH, format_depth
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND, Unit
 
 _VALLEYS = 8  # number of white lines; further ones would lie closer together than the cells
 
-_DEPTH_RANGE = (1e-3, 1.0)  # depths at the ends of the colours
+_DEPTH_RANGE = (NO_BARS_DEPTH, 1.0)  # depths at the ends of the colours
 
 _TICK_DIGITS = (1.0, 3.0)  # leading digits of the numbers on the axes
 
@@ -51,9 +52,9 @@ class DepthPlot(QWidget):
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
         )
         self.legend = paragraph(
-            "Dark: some setting within the cell shows no bars (0.1 % or less); yellow: 100 % "
-            "or more. White lines: exposures of a whole number of the lamp's periods. A click "
-            "sets the exposure."
+            "Dark: some setting within the cell shows no bars, less than "
+            f"{format_depth(NO_BARS_DEPTH)}; yellow: 100 % or more. White lines: exposures of a "
+            "whole number of the lamp's periods. A click sets the exposure."
         )
         fill(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
         self.plot.scene().sigMouseClicked.connect(self._on_click)

@@ -9,6 +9,7 @@ from occ_model.results.limits import (
     RangeEnd,
     WorkingRange,
     end_text,
+    format_end,
     format_value,
     gaps_text,
     present_rate_text,
@@ -103,9 +104,8 @@ def _make_title(limits: Limits) -> str:
 
 
 def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
-    sentence = f"The {limit} that it reads is {format_value(parameter, end.value)}: "
+    sentence = f"The {limit} that it reads is {format_end(parameter, end)}: "
     sentence += end_text(parameter, end)
     if end.inside is None:
         return AdviceLine(f"{sentence} No value within the limits is sure to be read.")
-    place = format_value(parameter, end.inside.value)
-    return AdviceLine(sentence, (parameter, end.inside.value, place))
+    return AdviceLine(sentence, (parameter, end.stated, format_end(parameter, end)))

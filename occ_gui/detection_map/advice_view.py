@@ -1,6 +1,6 @@
 """Page of advice: the limits of each decoder in sentences, with buttons that change the scene."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -100,8 +100,10 @@ class AdviceView(QWidget):
                 AdviceLine(f"This advice leaves out: {', '.join(omitted_effects)}.", is_title=True)
             )
 
-    def show_advice_progress(self, fraction: float) -> None:
+    def show_advice_progress(self, fraction: float, pictures: Mapping[str, int]) -> None:
+        """Show the fraction done, and how many pictures each decoder has tried; 0: not begun."""
         self.progress.setValue(round(100 * fraction))
+        self.cards.show_progress(pictures)
 
     def show_advice(self, advice: Advice) -> None:
         self.hint.hide()
@@ -159,7 +161,7 @@ class AdviceView(QWidget):
 
     def _make_button(self, name: str, value: float, text: str, decoder: str) -> QPushButton:
         return push_button(
-            f"Take me to {text}",
+            f"Go to {text}",
             f"Change the scene to {text}, where it read every bit.",
             lambda: self.destination_chosen.emit(name, value, decoder),
         )

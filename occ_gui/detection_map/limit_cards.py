@@ -1,6 +1,6 @@
 """Cards above the map: the frequencies that each decoder reads, and the most bits a second."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
@@ -21,7 +21,8 @@ from occ_model.results.limits import (
     Advice,
     RangeEnd,
     WorkingRange,
-    format_value,
+    format_end,
+    format_gaps,
     gaps_text,
     present_rate_text,
     search_end_text,
@@ -29,13 +30,10 @@ from occ_model.results.limits import (
 from occ_model.scene.units import HERTZ
 
 _PARAMETER = "switching_frequency"
+_WAITING = "begins when a process is free"
 _LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
 REST_MS = 800  # milliseconds without a change before the limits of a scene are searched for
-
-
-def _format_frequency(frequency: float) -> str:
-    return format_value(_PARAMETER, frequency)
 
 
 class LimitCards(QWidget):
@@ -81,6 +79,12 @@ class LimitCards(QWidget):
         for card in self.cards.values():
             card.show_searching()
 
+    def show_progress(self, pictures: Mapping[str, int]) -> None:
+        """Show how many pictures each decoder has tried so far; 0: its search has not begun."""
+        for decoder, count in pictures.items():
+            if decoder in self.cards:
+                self.cards[decoder].show_progress(count)
+
     def show_advice(self, advice: Advice) -> None:
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
@@ -90,7 +94,7 @@ class LimitCards(QWidget):
             end = "" if frequencies.most_chips is None else search_end_text(frequencies)
             texts = (advice.cause, line.text, frequencies.faults, gaps_text(frequencies), end, bits)
             tip = "\n".join(text for text in texts if text)
-            card.show_limit(frequencies.highest, tip, advice.limits.rate)
+            card.show_limit(frequencies.highest, tip)
             card.show_range(frequencies, "" if frequencies.intervals else advice.cause)
 
     def show_ended(self, reason: str = "") -> None:
@@ -117,7 +121,7 @@ class LimitCard(QFrame):
         self.setObjectName("card")
         self._decoder = decoder
         self._destination: float | None = None
-        self._is_outdated = False
+        self._is_outdated = self._is_searching = False
         self._is_beside: bool | None = None
         self.name = paragraph()
         self.value = QLabel()
@@ -165,8 +169,6 @@ class LimitCard(QFrame):
         self.range.set_full_text("")
         self.value.setText(text)
         self.value.setToolTip(tip)
-        # The button names the frequency: it lies inside the limit, not on it.
-        self.go.setText("Go" if destination is None else f"Go to {_format_frequency(destination)}")
         self._place_button()
         self._update_button()
 
@@ -180,37 +182,45 @@ class LimitCard(QFrame):
         )
 
     def show_unknown(self, reason: str = "") -> None:
+        self._is_searching = False
         if reason:
             self.name.setText(reason)
         self._show("?" if reason else "", reason or "Not searched for yet.", None)
 
     def show_searching(self) -> None:
-        self._show("…", "Searching for the highest frequency that is read.", None)
+        self._is_searching = True
+        self._show("waiting", _WAITING, None)
+        self.range.set_full_text(_WAITING)
         self.set_outdated(False)
 
-    def show_limit(self, end: RangeEnd | None, tip: str, rate: float) -> None:
-        """Show the upper end of the range, or that nothing is read.
+    def show_progress(self, pictures: int) -> None:
+        """Show how many pictures the running search has tried; 0: it has not begun."""
+        if self._is_searching and pictures:
+            tried = f"{inflect(pictures, 'picture')} tried"
+            self._show("searching", "Searching for the highest frequency that is read.", None)
+            self.range.set_full_text(tried)
 
-        ``rate``: the least success rate of the range, in percent.
-        """
+    def show_limit(self, end: RangeEnd | None, tip: str) -> None:
+        """Show the upper end of the range, or that nothing is read."""
+        self._is_searching = False
         if end is None:
             self._show("none", tip, None)
             return
-        inside = end.inside
-        value = _format_frequency(end.value)
-        limit = f"at least {value}" if end.fails is None else f"{value} ({rate:g} %)"
-        self._show(limit, tip, None if inside is None else inside.value)
+        value = format_end(_PARAMETER, end)
+        if end.inside is None:
+            value = f"about {value}"
+        limit = f"at least {value}" if end.fails is None else value
+        self._show(limit, tip, None if end.inside is None else end.stated)
 
     def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""
         texts = [text for text in (cause, "a plug-in failed" if frequencies.faults else "") if text]
         if frequencies.gaps:
-            low, high = frequencies.gaps[0]
-            others = len(frequencies.gaps) - 1
-            gap = f"gap {_format_frequency(low.value)} to {_format_frequency(high.value)}"
+            first, *more = format_gaps(frequencies)
+            others, gap = len(more), f"gap {first}"
             texts.insert(0, f"{gap} and {inflect(others, 'gap')} more" if others else gap)
         if frequencies.lowest is not None:
-            texts.insert(0, f"from {_format_frequency(frequencies.lowest.value)}")
+            texts.insert(0, f"from {format_end(_PARAMETER, frequencies.lowest)}")
         self.range.set_full_text("; ".join(texts))
 
     def set_outdated(self, outdated: bool) -> None:
@@ -269,7 +279,9 @@ class MostBitsCard(QFrame):
         self._show()
 
     def show_progress(self, decoder: str, pictures: int) -> None:
-        self._state = f"searching with {decoder}, {inflect(pictures, 'picture')} tried"
+        self._state = f"searching with {decoder}: {_WAITING}"
+        if pictures:
+            self._state = f"searching with {decoder}, {inflect(pictures, 'picture')} tried"
         self._show()
 
     def show_result(self, result: MostBits) -> None:

@@ -69,7 +69,7 @@ class MapView(QWidget):
         self.y_parameter = KeyedComboBox(
             "Vertical axis", "The parameter of the vertical axis.", names
         )
-        all_decoders = "both decoders" if len(decoders) == 2 else "all decoders"
+        all_decoders = "both maps" if len(decoders) == 2 else "all maps"
         choices = {"both": all_decoders, **{name: name for name in decoders}}
         if len(decoders) > 1:
             choices["difference"] = "difference"

@@ -59,7 +59,8 @@ class SearchController(QObject):
         self._scenes, self._queue, self.channel = scenes, queue, channel
         self._counters, self._show_result, self._show_end = counters, show_result, show_end
         self._last_request: Any = None
-        self._result_count = self._start_count = 0
+        self._result_count = 0
+        self._start_counts = [0] * len(counters)
         self._timer = QTimer(self)
         self._timer.setInterval(PROGRESS_MS)
         self._timer.timeout.connect(self._check_progress)
@@ -69,13 +70,11 @@ class SearchController(QObject):
         scenes.changed.connect(self._follow_change)
 
     def _begin(self, request: Any, jobs: Iterator[Job]) -> None:
-        self._last_request, self._result_count, self._start_count = (
-            request,
-            0,
-            self._count_pictures(),
-        )
+        self._last_request, self._result_count = request, 0
+        self._start_counts = self._count_heartbeats()
         self.channel.put(request, jobs)
         self._timer.start()
+        self._check_progress()
 
     def _go_to(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
         """Set the scene to a result in one undo step, and show what its decoder reads."""
@@ -101,14 +100,15 @@ class SearchController(QObject):
     def _finish(self, _request: object) -> None:
         self._show_end("")
 
-    def _count_pictures(self) -> int:
-        return sum(map(self._queue.count_heartbeats, self._counters))
+    def _count_heartbeats(self) -> list[int]:
+        return [self._queue.count_heartbeats(counter) for counter in self._counters]
 
     def _check_progress(self) -> None:
         if self.channel.is_idle:
             self._timer.stop()
         else:
-            self._show_progress(self._count_pictures() - self._start_count)
+            pairs = zip(self._count_heartbeats(), self._start_counts, strict=True)
+            self._show_progress([now - start for now, start in pairs])
 
     def _show_results(self, _request: object, results: list[Any]) -> None:
         self._result_count += len(results)
@@ -118,7 +118,8 @@ class SearchController(QObject):
     def _request(self) -> Any:
         raise NotImplementedError
 
-    def _show_progress(self, pictures: int) -> None:
+    def _show_progress(self, pictures: Sequence[int]) -> None:
+        """Show how many pictures each counter has counted; a job counts one when it begins."""
         raise NotImplementedError
 
     def _show_outdated(self, outdated: bool) -> None:
@@ -179,8 +180,9 @@ class AdvisorController(SearchController):
     def go_to_limit(self, name: str, value: float, decoder: str) -> None:
         self._go_to(decoder, {name: value})
 
-    def _show_progress(self, pictures: int) -> None:
-        self._pane.show_advice_progress(min(pictures / (_USUAL_IMAGES * len(DECODERS)), 0.99))
+    def _show_progress(self, pictures: Sequence[int]) -> None:
+        fraction = min(sum(pictures) / (_USUAL_IMAGES * len(DECODERS)), 0.99)
+        self._pane.show_advice_progress(fraction, dict(zip(DECODERS, pictures, strict=True)))
 
     def _show_outdated(self, outdated: bool) -> None:
         last, present = self._last_request, self._request()
@@ -226,7 +228,6 @@ class MostBitsController(SearchController):
         request = self._request()
         self._pane.show_begun()
         self._begin(request, request.jobs())
-        self._check_progress()
 
     def go(self, result: MostBits) -> None:
         scene = most_bits.make_example(result)
@@ -234,9 +235,9 @@ class MostBitsController(SearchController):
             changes = {name: scene.value(name) for name in most_bits.VARIED_PARAMETERS}
             self._go_to(result.decoder, changes)
 
-    def _show_progress(self, pictures: int) -> None:
+    def _show_progress(self, pictures: Sequence[int]) -> None:
         if self._result_count < len(most_bits.DECODERS):
-            self._pane.show_progress(most_bits.DECODERS[self._result_count], pictures)
+            self._pane.show_progress(most_bits.DECODERS[self._result_count], sum(pictures))
 
     def _show_outdated(self, outdated: bool) -> None:
         self._pane.show_outdated(outdated)

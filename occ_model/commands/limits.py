@@ -21,8 +21,8 @@ from occ_model.results.limits import (
     RangeEnd,
     WorkingRange,
     end_text,
+    format_end,
     format_gaps,
-    format_value,
     present_rate_text,
     search_end_text,
     search_sentences,
@@ -133,7 +133,7 @@ def range_cells(found: WorkingRange) -> tuple[str, str, str]:
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:
-    value = format_value(found.parameter, end.value)
+    value = format_end(found.parameter, end)
     return f"{value} (searched to)" if end.fails is None else value
 
 
@@ -166,7 +166,7 @@ def _range_lines(decoder: str, found: WorkingRange) -> list[str]:
     lines = [f"The {decoder} decoder, {quantity(name).in_sentence}:"]
     for interval in found.intervals:
         ends = (interval.lowest, interval.highest)
-        lines += [f"  {format_value(name, end.value)}: {end_text(name, end)}" for end in ends]
+        lines += [f"  {format_end(name, end)}: {end_text(name, end)}" for end in ends]
     if found.most_chips is not None:
         lines.append(f"  {search_end_text(found)}")
     return lines + faults

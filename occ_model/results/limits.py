@@ -52,6 +52,14 @@ class RangeEnd:
         low, high = self.interval or (self.works.value, self.works.value)
         return min(max(self.works.value, low), high)
 
+    @property
+    def stated(self) -> float:
+        """The value that is stated as the limit: the last one inside that is sure to be read.
+
+        It is the confirmed last value if none is known to be sure.
+        """
+        return self.value if self.inside is None else self.inside.value
+
 
 @dataclass(frozen=True, slots=True)
 class ReadInterval:
@@ -200,29 +208,40 @@ def format_value(parameter: str, value: float) -> str:
     return quantity(parameter).format(value, _DIGITS)
 
 
+def format_end(parameter: str, end: RangeEnd | None) -> str:
+    """Format an end of a range as it is stated everywhere; ``"none"`` if nothing is read."""
+    return "none" if end is None else format_value(parameter, end.stated)
+
+
 def end_text(parameter: str, end: RangeEnd) -> str:
     """State how an end of a range was confirmed, and its 95 % interval."""
-    works = end.works.value
-    place = "there" if end.value == works else f"at {format_value(parameter, works)}"
-    text = f"{place} it read {_rate_text(end.works)}"
-    if end.fails is None:
-        text += "; values beyond were not tried."
+    if end.inside is None:
+        text = f"{_place_text(parameter, end)} it read {_rate_text(end.works)}"
     else:
-        text += f", at {format_value(parameter, end.fails.value)} {_rate_text(end.fails)}."
-    if end.inside is not None and end.interval is not None:
+        text = f"there it read every bit of {end.inside.images} images"
+    if end.fails is None:
+        return f"{text}; values beyond were not tried."
+    text += "; " if end.inside else ", "
+    if end.inside is not None:
+        works = format_value(parameter, end.works.value)
+        text += f"at {works} {_rate_text(end.works)}, "
+    text += f"at {format_value(parameter, end.fails.value)} {_rate_text(end.fails)}."
+    if end.interval is not None:
         low, high = (format_value(parameter, value) for value in end.interval)
-        text += (
-            f" At {format_value(parameter, end.inside.value)} it read every bit of "
-            f"{end.inside.images} images: the end is between {low} and {high} (95 %)."
-        )
+        text += f" The end is between {low} and {high} (95 %)."
     return text
+
+
+def _place_text(parameter: str, end: RangeEnd) -> str:
+    works = end.works.value
+    return "there" if end.value == works else f"at {format_value(parameter, works)}"
 
 
 def format_gaps(working_range: WorkingRange) -> list[str]:
     """Format the gaps in a range, in which a decoder does not read."""
     name = working_range.parameter
     return [
-        f"{format_value(name, end.value)} to {format_value(name, following.value)}"
+        f"{format_end(name, end)} to {format_end(name, following)}"
         for end, following in working_range.gaps
     ]
 

@@ -129,8 +129,8 @@ def _state_noise_floor(costs: MeasuredCosts, forecast: Forecast) -> str:
     level = max(_error_without(costs, noise) for noise in noises)
     if any(error < level for error, *_ in _savings(costs, forecast)):
         return ""
-    unit = forecast.plan.unit
-    return f"No tolerance below the noise, {format_levels(level)} {unit}, saves time beyond the scatter."
+    noise = f"{format_levels(level)} {forecast.plan.unit}"
+    return f"No tolerance below the noise, {noise}, saves time beyond the scatter."
 
 
 def _error_without(costs: MeasuredCosts, decision: Decision) -> float:

@@ -67,7 +67,7 @@ def test_the_cards_of_the_limits_look_as_stored(gallery: Gallery, theme: str) ->
     cards.setStyleSheet(style_sheet(palette_of(theme)))
     gallery.show(cards, 760, 84)
     read = RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0), trial(14.1e3, 100))
-    cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.", 99.0)
+    cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.")
     ends = RangeEnd(trial(3.5e3, 100), None), RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0))
     cards.cards["threshold"].show_range(
         WorkingRange(
@@ -75,7 +75,7 @@ def test_the_cards_of_the_limits_look_as_stored(gallery: Gallery, theme: str) ->
         )
     )
     cards.cards["matched"].show_searching()
-    cards.cards["equalizer"].show_limit(None, "It reads at no frequency.", 99.0)
+    cards.cards["equalizer"].show_limit(None, "It reads at no frequency.")
     gallery.compare(cards, f"limit-cards-{theme}")
 
 

@@ -7,7 +7,7 @@ in the same columns of a band is added before the gamma encoding.
 """
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -78,17 +78,17 @@ class Rows:
             return self
         return replace(self, nodes=self._expand(self.nodes), weights=None)
 
-    def crop(self, part: slice) -> "Rows":
-        """Return some of the rows."""
-        rims = tuple(
-            replace(rim, values=rim.values[part], inside=rim.inside[part]) for rim in self.rims
-        )
-        nodes, weights = self.nodes, self.weights
-        if weights is not None:
-            weights = weights[part]
-        elif len(nodes) > 1:
-            nodes = nodes[part]
-        return replace(self, rows=self.rows[part], nodes=nodes, weights=weights, rims=rims)
+    def columns_of(self, part: slice) -> Iterator[tuple[slice, Pixels]]:
+        """Yield values in a part of the rows: all columns as if there were no rims, then rims.
+
+        The first have one row if all rows are equal.
+        """
+        if self.weights is not None:
+            yield slice(None), apply_weights(self.weights[part], self.nodes)
+        else:
+            yield slice(None), self.nodes[part] if len(self.nodes) > 1 else self.nodes
+        for rim in self.rims:
+            yield rim.columns, rim.values[part]
 
     def change_values(self, change: Callable[[Pixels], Pixels]) -> "Rows":
         """Apply a change, which need not keep values smooth; only for rows without weights."""

@@ -67,13 +67,14 @@ class PictureNoise:
         levels = mean.change_nodes(self._law.levels_of)
         if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
             levels = mean.expand_rows().change_nodes(self._law.levels_of)
+        levels = self._scale(levels)
         numbers = self._numbers.of(mean.rows, place, _CHUNK)
         shape = (min(_CHUNK, len(mean.rows)), self._columns)
         scratch, buffer = Scratch(shape), np.empty(shape, dtype=np.float32)
         for start in range(0, len(mean.rows), _CHUNK):
             part = slice(start, min(start + _CHUNK, len(mean.rows)))
             drawn = buffer[: part.stop - start]
-            self._vary(levels.crop(part), drawn)
+            self._vary(levels, part, drawn)
             drawn += dither(mean.rows[part], self._columns)
             if self._is_bright:
                 np.minimum(drawn, np.float32(self._law.last), out=drawn)
@@ -84,16 +85,19 @@ class PictureNoise:
     def vary(self, mean: Rows, end_stage: Callable[[str], object]) -> Pixels:
         """Return the values of some rows of pixels with their gains, shape (rows, columns)."""
         varied = np.empty((len(mean.rows), self._columns), dtype=np.float32)
-        self._vary(mean, varied)
+        self._vary(self._scale(mean), slice(0, len(varied)), varied)
         end_stage(FixedPattern.name)
         return varied
 
-    def _vary(self, values: Rows, out: Pixels) -> None:
-        """Multiply values, or levels, by the pixels' gains."""
-        parts = [(slice(None), values.expand_rows().nodes)]
-        parts += [(rim.columns, rim.values) for rim in values.rims]
-        for columns, own in parts:
+    def _scale(self, values: Rows) -> Rows:
+        """Multiply values, or levels, by the step of the gains."""
+        pattern = self._pattern
+        return values if pattern is None else values.change_nodes(lambda own: own * pattern.step)
+
+    def _vary(self, values: Rows, part: slice, out: Pixels) -> None:
+        """Multiply scaled values in a part of the rows by the pixels' gains."""
+        for columns, own in values.columns_of(part):
             if self._pattern is None:
                 out[:, columns] = own
             else:
-                self._pattern.vary(values.rows, own, out[:, columns], columns)
+                self._pattern.vary(values.rows[part], own, out[:, columns], columns)

@@ -1,36 +1,28 @@
-"""Drawing of pixels' grey levels by the law of their noise, one uniform number for each.
+"""Drawing of pixels' grey levels by the law of their noise, one uniform number for each."""
 
-A pixel's level is the quantile of its law at a number between 0 and 1, so that a pixel of a picture
-stays the same, or nearly so, when its mean changes a little. Quantiles are looked up (the indexed
-search of L. Devroye, *Non-Uniform Random Variate Generation*, 1986, chapter III.2): the first bits
-of a number tell a cell of the table, in which usually at most one grey level ends.
-"""
-
+import math
 from collections.abc import Iterator
 from functools import lru_cache
 from statistics import NormalDist
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, IndexArray, Pixels
 from occ_model.camera.grey_law import GreyLaw
-from occ_model.camera.pixel_noise import GREYS
 
 Numbers = NDArray[np.uint32]  # uniform numbers in units of 2^-32
 
-_CELL_BITS = 7
+_FEWEST_CELL_BITS = 5
 _WHOLE = 2**32
-_SEVERAL = np.uint32(_WHOLE - 1)  # entry of a cell in which several grey levels end
 
 
 class Scratch:
     """Arrays for drawing pixels, which are used again: new ones would be slow."""
 
     def __init__(self, shape: tuple[int, ...]) -> None:
-        kinds = (np.int32, np.int64, np.uint32, np.bool_)
+        kinds = (np.int32, np.uint32, np.bool_, np.uint8)
         self._arrays = [np.empty(shape, dtype=kind) for kind in kinds]
 
     def of(self, rows: int) -> list[Any]:
@@ -39,67 +31,71 @@ class Scratch:
 
 
 class GreyTable:
-    """The quantiles of a law's grey levels."""
+    """The law of grey levels, prepared for drawing (the alias method of A. J. Walker, 1977).
+
+    A level has cells of equal probability, a power of two of them, and in each at most two grey
+    levels. The last bits of a number tell the cell, the others which of the two. An entry of the
+    table has the first of them in its last 8 bits, the way to the second in the 8 bits before, and
+    then the largest number, of 16 bits, of the first.
+    """
 
     def __init__(self, law: GreyLaw) -> None:
-        self._greys = np.pad(law.greys, (0, GREYS - len(law.greys))).astype(np.uint8)
-        self._is_whole = len(law.greys) == GREYS
-        ends = np.full((len(law.below), GREYS), _WHOLE - 1, dtype=np.int64)
-        ends[:, : law.below.shape[1]] = np.minimum(np.rint(law.below * _WHOLE), _WHOLE - 1)
-        self._ends = ends.astype(np.uint32)
-        self._entries = self._index_cells(ends)
+        ends = np.rint(law.below * _WHOLE).astype(np.int64)
+        chances = np.diff(ends, axis=1, prepend=0, append=_WHOLE)
+        is_seen = chances > 0
+        first = is_seen.argmax(axis=1)[:, None]
+        span = int((len(law.greys) - is_seen[:, ::-1].argmax(axis=1) - first[:, 0]).max())
+        self._bits = max(math.ceil(math.log2(span)), _FEWEST_CELL_BITS)
+        cells = first + np.arange(1 << self._bits)
+        ranks = np.minimum(cells, len(law.greys) - 1)
+        own = np.where(cells == ranks, np.take_along_axis(chances, ranks, axis=1), 0)
+        moved, other = _fill_cells(own, _WHOLE >> self._bits)
+        greys = law.greys[ranks].ravel()
+        self._entries = self._pack(greys, greys[other], (_WHOLE >> self._bits) - moved)
 
-    @staticmethod
-    def _index_cells(ends: IndexArray) -> Numbers:
-        """Return for each level and cell: its first grey level, and where in it that one ends."""
-        cells, shift = 1 << _CELL_BITS, 32 - _CELL_BITS
-        row = (cells + 1) * np.arange(len(ends))[:, None]
-        cell = np.where(ends < _WHOLE - 1, (ends + (1 << shift) - 1) >> shift, cells)
-        counts = np.bincount((row + cell).ravel(), minlength=row.size * (cells + 1))
-        # Grey levels that end at or before the start of each cell.
-        first = np.cumsum(counts.reshape(len(ends), cells + 1)[:, :-1], axis=1)
-        after = np.concatenate([first[:, 1:], (ends < _WHOLE - 1).sum(axis=1)[:, None]], axis=1)
-        ended = np.take_along_axis(ends, np.minimum(first, GREYS - 1), axis=1)
-        bound = np.minimum((ended << _CELL_BITS) - (np.arange(cells) << 32), _WHOLE - 1)
-        bound[after == first] = _WHOLE - 1
-        entries = (bound & ~0xFF | np.minimum(first, GREYS - 1)).astype(np.uint32)
-        entries[after > first + 1] = _SEVERAL
-        return entries.ravel()
+    def _pack(self, first: IndexArray, second: IndexArray, kept: IndexArray) -> Numbers:
+        """Pack cells' two grey levels, and how many of the cell's numbers are of the first."""
+        first = np.where(kept == 0, second, first)
+        grey = ((second - first) & 0xFF) << 8 | first
+        cell = np.arange(len(first)) & ((1 << self._bits) - 1)
+        # Numbers up to those with the entry's bits, of which each 2^bits-th is of the cell.
+        below = ((grey - cell) >> self._bits) + 1
+        bound = np.rint((kept - below) / 2.0 ** (16 - self._bits)).astype(np.int64)
+        return np.asarray(np.clip(bound, 0, 0xFFFF) << 16 | grey, dtype=np.uint32)
 
     def draw(
         self, levels: Pixels, numbers: Numbers, out: ByteArray, scratch: Scratch | None = None
     ) -> None:
-        """Draw the grey level of each pixel; all arrays have one shape.
-
-        ``numbers`` are overwritten.
-        """
-        place, wide, entry, is_above = (scratch or Scratch(out.shape)).of(len(out))
+        """Draw the grey level of each pixel; all arrays have one shape."""
+        place, entry, is_second, way = (scratch or Scratch(out.shape)).of(len(out))
         np.copyto(place, levels, casting="unsafe")
-        place <<= _CELL_BITS
-        np.right_shift(numbers, np.uint32(32 - _CELL_BITS), out=entry)
+        place <<= self._bits
+        np.bitwise_and(numbers, np.uint32((1 << self._bits) - 1), out=entry)
         place |= entry.view(np.int32)
-        np.copyto(wide, place)
-        self._entries.take(wide, mode="wrap", out=entry)
+        self._entries.take(place, mode="wrap", out=entry)
+        np.less(entry, numbers, out=is_second)
         np.copyto(out, entry, casting="unsafe")
-        several = np.flatnonzero(np.equal(entry, _SEVERAL, out=is_above))
-        if several.size:
-            found = self._search(wide.ravel()[several] >> _CELL_BITS, numbers.ravel()[several])
-        numbers <<= np.uint32(_CELL_BITS)
-        out += np.less(entry, numbers, out=is_above).view(np.uint8)
-        if several.size:
-            out.flat[several] = found
-        if not self._is_whole:
-            cv2.LUT(out, self._greys, dst=out)
+        entry >>= np.uint32(8)
+        np.copyto(way, entry, casting="unsafe")
+        way *= is_second.view(np.uint8)
+        out += way
 
-    def _search(self, level: IndexArray, numbers: Numbers) -> IndexArray:
-        """Return the rank of the grey level at a number, by bisection."""
-        flat, start = self._ends.ravel(), level * GREYS
-        rank = np.zeros(len(level), dtype=np.int64)
-        step = GREYS // 2
-        while step:
-            rank += step * (flat.take(start + (rank + step - 1)) <= numbers)
-            step //= 2
-        return rank
+
+def _fill_cells(own: IndexArray, capacity: int) -> tuple[IndexArray, IndexArray]:
+    """Fill each level's cells, shape (levels, cells), so that all have the same chance.
+
+    Cells with too little are filled in turn from those with too much, and one that then has too
+    little from the next (L. Huebschle-Schneider and P. Sanders, 2022). Returns how much each cell
+    gets, and from which cell, shape (levels * cells,).
+    """
+    rows = (2 * _WHOLE) * np.arange(len(own))[:, None]
+    missing, spare = np.maximum(capacity - own, 0), np.maximum(own - capacity, 0)
+    filled, given = rows + missing.cumsum(axis=1), rows + spare.cumsum(axis=1)
+    over = filled.ravel()[np.searchsorted(filled.ravel(), given.ravel())] - given.ravel()
+    moved = np.where(spare.ravel() > 0, over, missing.ravel())
+    start = np.where(spare > 0, given, filled - missing).ravel()
+    source = np.minimum(np.searchsorted(given.ravel(), start, side="right"), own.size - 1)
+    return moved, np.where(moved > 0, source, np.arange(own.size))
 
 
 @lru_cache(maxsize=4)
@@ -170,29 +166,28 @@ class GainPattern:
 
     def __init__(self, variation: float, power: float, seed: int, size: tuple[int, int]) -> None:
         """Prepare the pattern of a picture's ``size``, its rows and columns."""
-        self._plane, self._step = _gain_plane(variation, power, seed, size)
+        self._plane, self.step = _gain_plane(variation, power, seed, size)
 
-    def vary(self, rows: range, values: Pixels, out: Pixels, columns: slice = slice(None)) -> None:
+    def vary(self, rows: range, values: Pixels, out: Pixels, columns: slice) -> None:
         """Multiply values in some rows and columns by the powers of the gains.
 
-        If all rows are equal, ``values`` may have one.
+        ``values`` are multiplied by ``step`` already. If all rows are equal, they may have one.
         """
-        plane = self._plane[rows.start : rows.stop : rows.step, columns]
-        np.multiply(plane, values * self._step, out=out)
-        out += values
+        np.copyto(out, self._plane[rows.start : rows.stop : rows.step, columns])
+        out *= values
 
 
 @lru_cache(maxsize=2)
 def _gain_plane(
     variation: float, power: float, seed: int, size: tuple[int, int]
-) -> tuple[NDArray[np.int8], np.float32]:
-    """Return the relative change of each pixel's gain, in steps, and the step."""
+) -> tuple[NDArray[np.int16], np.float32]:
+    """Return the powers of the pixels' gains in steps, and the step."""
     normal = NormalDist()
     quantiles = np.array([normal.inv_cdf((place + 0.5) / 2**12) for place in range(2**12)])
-    change = np.maximum(1.0 + variation * quantiles, 0.0) ** power - 1.0
-    step = float(np.abs(change).max()) / 127.0
-    table = np.rint(change / max(step, 1e-30)).astype(np.int8)
-    plane = np.empty(size, dtype=np.int8)
+    gains = np.maximum(1.0 + variation * quantiles, 0.0) ** power
+    step = float(gains.max()) / np.iinfo(np.int16).max
+    table = np.rint(gains / step).astype(np.int16)
+    plane = np.empty(size, dtype=np.int16)
     random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
     for row in plane:
         row[:] = table[random.integers(0, 2**12, size[1], dtype=np.uint16)]

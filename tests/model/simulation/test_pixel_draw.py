@@ -112,13 +112,12 @@ def test_pixels_are_drawn_alike_whichever_absent_effects_are_on(scene: Scene, ef
     assert (around != without).mean() < 1e-3
 
 
-def test_a_pixel_changes_no_more_than_its_mean_does(scene: Scene) -> None:
-    """Else each small change of the light would draw a picture's noise anew."""
+def test_few_pixels_change_when_the_light_changes_a_little(scene: Scene) -> None:
+    """Else each small step of a slider would draw a picture's noise anew."""
     one, other = (values_of(scene.replace(luminance=light), ON) for light in (2000.0, 2010.0))
     change = other - one
-    assert (change >= 0.0).all()
-    assert (change <= 2.0).all()
     assert 0.0 < change.mean() < 0.5
+    assert (change != 0.0).mean() < 2.0 * change.mean()
 
 
 def test_a_seed_gives_its_picture_again_and_another_seed_another(scene: Scene) -> None:

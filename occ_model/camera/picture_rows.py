@@ -52,6 +52,15 @@ class Rim:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class PanelPart:
+    """Which pixels of some rows show a panel."""
+
+    inside: tuple[slice, ...]  # Columns in which all rows do
+    # Other columns, and which pixels of them do, shape (rows, columns)
+    rims: tuple[tuple[slice, NDArray[np.bool_]], ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Rows:
     rows: range
     # Shape (nodes, columns): mean pixel values before saturation at the nodes; one row if all rows
@@ -62,6 +71,10 @@ class Rows:
     weights: Pixels | None
     rims: tuple[Rim, ...]
     inside: tuple[slice, ...]  # Columns in which all rows show the panel
+
+    @property
+    def panel(self) -> PanelPart:
+        return PanelPart(self.inside, tuple((rim.columns, rim.inside) for rim in self.rims))
 
     @property
     def values(self) -> Pixels:

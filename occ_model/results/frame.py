@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Literal, Protocol, TypeAlias
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.scene.argument_checks import check_choice
@@ -121,6 +121,25 @@ ENHANCED = "Receiver's picture, enhanced by "
 """Start of an enhanced picture's title, also in its file; the enhancement's name follows."""
 
 
+class Pictures(Protocol):
+    """A picture as the camera takes it, and as the receiver enhances it, with column means.
+
+    All are as :class:`Frame` has them; some are made when they are first asked for.
+    """
+
+    @property
+    def camera_image(self) -> ByteArray: ...
+
+    @property
+    def image(self) -> ByteArray: ...
+
+    @property
+    def profile(self) -> FloatArray: ...
+
+    @property
+    def signal(self) -> FloatArray: ...
+
+
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A simulated picture with its scene, plan and profile.
@@ -132,38 +151,26 @@ class Frame:
     ----------
     plan
         The effects simulated, with reasons.
-    image : ndarray of uint8, shape (number of ``rows``, columns)
-        The receiver's picture with the scene's enhancement, which is decoded.
     rows
         The rows of the picture that are in ``image``: all, or every k-th in a draft, which a view
         draws k rows high.
-    profile : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding,
-        but after compression if a file is simulated. With column effects only, it is the column's
-        value PV_sim, also outside the panel.
-    signal : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column of the receiver's picture, in grey levels; this is
-        the decoder's input. With column effects only, it is the enhanced value, also outside the
-        panel.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in order, each as (column, row).
     timings
         Seconds of each stage in the order of computation; effects are stages with their names.
-    make_camera_image
-        Returns the camera's picture.
+        Where the receiver's picture is made when it is first asked for, its time counts from then.
+    pictures
+        The picture, as the camera takes it and as the receiver enhances it.
     estimate_errors
         Returns the errors of a draft's profile and signal, by name; None if there are none.
     """
 
     scene: Scene
     plan: Plan
-    image: ByteArray
     rows: range
-    profile: FloatArray
-    signal: FloatArray
     corners: FloatArray
     timings: Mapping[str, float]
-    make_camera_image: Callable[[], ByteArray] = field(repr=False)
+    pictures: Pictures = field(repr=False)
     estimate_errors: Callable[[], Mapping[str, float]] | None = field(repr=False, default=None)
 
     @property
@@ -171,10 +178,36 @@ class Frame:
         """Rows of the picture for each row of ``image``; more than 1 in a draft."""
         return self.rows.step
 
-    @cached_property
+    @property
+    def image(self) -> ByteArray:
+        """The receiver's picture with the scene's enhancement, which is decoded.
+
+        An ndarray of uint8, shape (number of ``rows``, columns).
+        """
+        return self.pictures.image
+
+    @property
     def camera_image(self) -> ByteArray:
         """The camera's picture, before the receiver's enhancement, shape as ``image``."""
-        return self.make_camera_image()
+        return self.pictures.camera_image
+
+    @property
+    def profile(self) -> FloatArray:
+        """Mean of the panel's pixels in each column, in grey levels; shape (columns,).
+
+        It is that before enhancement and rounding, but after compression if a file is simulated.
+        With column effects only, it is the column's value PV_sim, also outside the panel.
+        """
+        return self.pictures.profile
+
+    @property
+    def signal(self) -> FloatArray:
+        """Mean of the panel's pixels in each column of the receiver's picture; shape (columns,).
+
+        This is the decoder's input, in grey levels. With column effects only, it is the enhanced
+        value, also outside the panel.
+        """
+        return self.pictures.signal
 
     @cached_property
     def draft_error(self) -> Mapping[str, float]:

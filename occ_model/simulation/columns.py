@@ -13,7 +13,7 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import panel_values, saturate, surroundings_values
-from occ_model.camera.picture_rows import Rows
+from occ_model.camera.picture_rows import PanelPart
 from occ_model.effects.effect import LightEffect, PaperView, PixelEffect
 from occ_model.effects.noise import enhancement_of, law_of
 from occ_model.effects.registry import effects_planned
@@ -60,15 +60,15 @@ class ColumnMeans:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)
 
-    def add(self, rows: Rows, values: Pixels | ByteArray) -> None:
+    def add(self, panel: PanelPart, values: Pixels | ByteArray) -> None:
         """Add the panel's pixels in some rows, in grey levels."""
-        for columns in rows.inside:
+        for columns in panel.inside:
             self._sums[columns] += _column_sums(values[:, columns])
             self._counts[columns] += len(values)
-        for rim in rows.rims:
-            seen = np.where(rim.inside, values[:, rim.columns], values.dtype.type(0))
-            self._sums[rim.columns] += _column_sums(seen)
-            self._counts[rim.columns] += np.count_nonzero(rim.inside, axis=0)
+        for columns, inside in panel.rims:
+            seen = np.where(inside, values[:, columns], values.dtype.type(0))
+            self._sums[columns] += _column_sums(seen)
+            self._counts[columns] += np.count_nonzero(inside, axis=0)
 
     def include(self, other: "ColumnMeans") -> None:
         self._sums += other._sums

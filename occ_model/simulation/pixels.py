@@ -1,22 +1,14 @@
-"""The pixels of a picture whose rows differ: exposed and stored some rows at a time, in threads.
-
-Threads are faster because NumPy and OpenCV release the interpreter's lock while they compute.
-"""
+"""The pixels of a picture whose rows differ: exposed and stored some rows at a time, in threads."""
 
 import math
-import os
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import chain, islice
-from typing import TypeVar
 
 import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, Pixels
+from occ_model.arrays import ByteArray, Pixels
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
@@ -30,41 +22,9 @@ from occ_model.scene.scene import Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel
 from occ_model.simulation.picture_noise import NoiseNumbers, PictureNoise
+from occ_model.simulation.pictures import Pictures, ShownPanel
 from occ_model.simulation.stage_timer import StageTimer
-
-_Item = TypeVar("_Item")
-_Result = TypeVar("_Result")
-
-_ITEMS_AHEAD = 2  # items that are prepared in advance for each thread
-
-
-def threads() -> int:
-    """Return the number of threads: one for each core, or fewer if OMP_NUM_THREADS says so."""
-    cores = os.cpu_count() or 1
-    wanted = os.environ.get("OMP_NUM_THREADS", "")
-    return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores
-
-
-def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
-    """Do some work for each item in threads; yield the results in the order of the items.
-
-    Items are read in the calling thread, a few in advance.
-    """
-    count, left = threads(), iter(items)
-    begun = list(islice(left, 2 if count > 1 else 0))
-    items = chain(begun, left)
-    if len(begun) < 2:
-        yield from map(work, items)
-        return
-    waiting: deque[Future[_Result]] = deque()
-    with ThreadPoolExecutor(count, "band") as pool:
-        for item in items:
-            waiting.append(pool.submit(work, item))
-            if len(waiting) > _ITEMS_AHEAD * count:
-                yield waiting.popleft().result()
-        while waiting:
-            yield waiting.popleft().result()
-
+from occ_model.simulation.threads import each_in_threads
 
 _BLOCK = 8  # columns and rows of a block of a JPEG file
 
@@ -77,19 +37,6 @@ class ExposedRows:
     # Shape (rows, columns): pixel values from 0 to 255, whole ones if they are drawn
     values: Pixels | ByteArray
     mean: Rows  # The same without noise, and the place of the panel
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Pictures:
-    """The camera's picture and the receiver's, with their column means."""
-
-    # Shape (rows, columns): the camera's, and the same enhanced on the panel
-    camera_image: ByteArray
-    image: ByteArray
-    # Shape (columns,): mean of the panel's pixels in each column before and after enhancement, or
-    # the column's value if it has no pixel of the panel
-    profile: FloatArray
-    signal: FloatArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -208,14 +155,13 @@ class PixelExposure:
     ) -> Pictures:
         """Make the camera's and the receiver's picture of the exposed rows."""
         camera_image = np.empty(self._shape, dtype=np.uint8)
-        image = np.empty_like(camera_image)
         noise = self._prepare_noise(numbers)
 
-        def make(band: _Band) -> tuple[ColumnMeans, ColumnMeans, StageTimer]:
+        def make(band: _Band) -> tuple[ShownPanel, ColumnMeans, StageTimer]:
             timer = StageTimer()
-            camera, receiver = camera_image[band.place], image[band.place]
+            camera = camera_image[band.place]
             exposed = self._expose(band, noise, timer, camera)
-            before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
+            means, panel = ColumnMeans(self._shape[1]), exposed.mean.panel
             if exposed.values is not camera:
                 cv2.convertScaleAbs(exposed.values, dst=camera)
             timer.end_stage("image")
@@ -223,22 +169,21 @@ class PixelExposure:
             for file in self._files if stored else ():
                 camera[:, stored] = file.apply(self._scene, camera[:, stored])
                 timer.end_stage(file.name)
-            before.add(exposed.mean, camera if self._files else exposed.values)
-            _enhance(camera, enhancement, exposed.mean, out=receiver)
-            after.add(exposed.mean, receiver)
+            means.add(panel, camera if self._files else exposed.values)
             timer.end_stage("image")
-            return before, after, timer
+            return ShownPanel(band.place, panel), means, timer
 
-        before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
-        timers = []
-        for of_camera, of_receiver, timer in each_in_threads(make, self._split_bands(heartbeat)):
-            before.include(of_camera)
-            after.include(of_receiver)
+        means = ColumnMeans(self._shape[1])
+        panels, timers = [], []
+        for panel, of_band, timer in each_in_threads(make, self._split_bands(heartbeat)):
+            means.include(of_band)
+            panels.append(panel)
             timers.append(timer)
         self._timer.end_parallel_stages(timers)
-        profile = self._columns.profile
-        enhanced = enhancement(profile).astype(np.float64)
-        return Pictures(camera_image, image, before.means(profile), after.means(enhanced))
+        own = self._columns.profile
+        return Pictures(
+            camera_image, means.means(own), panels, enhancement, own, self._timer.timings
+        )
 
     def _stored_columns(self, rows: Rows) -> slice | None:
         """Return the columns that are stored in the file; None if it has none of these rows."""
@@ -268,13 +213,3 @@ class PixelExposure:
         if observable == "image":
             return seen
         return np.asarray(seen.mean(axis=0, dtype=np.float64), dtype=np.float32)
-
-
-def _enhance(camera_image: ByteArray, enhancement: Enhancement, rows: Rows, out: ByteArray) -> None:
-    """Enhance grey levels on the panel, and copy those beside it."""
-    out[:] = camera_image
-    for columns in rows.inside:
-        enhancement.enhance_bytes(camera_image[:, columns], out[:, columns])
-    for rim in rows.rims:
-        enhanced = enhancement.enhance_bytes(camera_image[:, rim.columns])
-        np.copyto(out[:, rim.columns], enhanced, where=rim.inside)

@@ -25,9 +25,10 @@ from occ_model.scene.scene import (
     SimulationSettings,
 )
 from occ_model.simulation.columns import Columns, expose_columns
-from occ_model.simulation.draft_error import DraftedMeans, draft_errors
+from occ_model.simulation.draft_error import DraftedMeans, DraftedPanel, ExposeRows, draft_errors
+from occ_model.simulation.pictures import PaintedColumns, Pictures
 from occ_model.simulation.pixel_draw import PictureNumbers
-from occ_model.simulation.pixels import Pictures, PixelExposure
+from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
 _ROUNDING = 1.0  # grey levels by which the mean of a column of full pixels may be too small
@@ -164,11 +165,12 @@ def render_plan(
     around, corners = to_bytes(columns.around), view.corners
     rows = draft_rows(scene.camera.rows, rows_step)
     errors: Callable[[], Mapping[str, float]] | None = None  # None if all rows are equal
+    made: Pictures | PaintedColumns
     if chosen.kinds <= {"column"}:
-        profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)
+        camera_image = partial(paint, to_bytes(columns.profile), corners, rows, around)
+        made = PaintedColumns(image, columns.profile, enhanced.astype(np.float64), camera_image)
         timer.end_stage("image")
-        camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
         exposure = PixelExposure(
             view,
@@ -180,24 +182,24 @@ def render_plan(
         )
         numbers = PictureNumbers(seed, scene.camera.columns)
         made = exposure.pictures(enhancement, numbers, heartbeat)
-        image, profile, signal = made.image, made.profile, made.signal
-        camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:
-            means = describe_draft(made, columns)
             expose = partial(_expose_rows, view, chosen, columns, seed=seed)
-            errors = partial(draft_errors, exposure.drafted_panel(rows), means, expose)
+            errors = partial(_draft_errors, exposure.drafted_panel(rows), made, columns, expose)
     return Frame(
         scene=scene,
         plan=chosen,
-        image=image,
         rows=rows,
-        profile=profile,
-        signal=signal,
         corners=corners,
         timings=timer.timings,
-        make_camera_image=camera_image,
+        pictures=made,
         estimate_errors=errors,
     )
+
+
+def _draft_errors(
+    panel: DraftedPanel, made: Pictures, columns: Columns, expose: ExposeRows
+) -> dict[str, float]:
+    return draft_errors(panel, describe_draft(made, columns), expose)
 
 
 def describe_draft(made: Pictures, columns: Columns) -> dict[str, DraftedMeans]:

@@ -118,7 +118,7 @@ def test_profile_means_are_those_of_exact_sums(
     tally = ColumnMeans(columns)
     seen: list[list[float]] = [[] for _ in range(columns)]
     for values, panel in blocks:
-        tally.add(rows_with(panel, values), values)
+        tally.add(rows_with(panel, values).panel, values)
         mask = np.zeros(values.shape, dtype=bool)
         mask[(slice(None), panel) if isinstance(panel, slice) else panel] = True
         for column, kept in enumerate(seen):

@@ -10,8 +10,8 @@ import pytest
 import occ_model as occ
 from occ_model.scene.scene import Scene
 from occ_model.simulation import pixels, stage_timer
-from occ_model.simulation.pixels import each_in_threads, threads
 from occ_model.simulation.stage_timer import StageTimer
+from occ_model.simulation.threads import each_in_threads, threads
 
 
 def use_threads(monkeypatch: pytest.MonkeyPatch, count: int) -> None:

@@ -16,6 +16,8 @@ from occ_model.arrays import FloatArray, Pixels
 
 NODES = 6  # nodes of a band
 
+_MOST_PRODUCTS = 2**18  # in a product of matrices of which BLAS makes no parts
+
 TOLERANCE = 2e-3  # largest error of mean values in grey levels, far below that of rounding to bytes
 
 
@@ -35,9 +37,15 @@ def row_weights(rows: int) -> Pixels:
 def apply_weights(weights: Pixels, values: Pixels) -> Pixels:
     """Multiply weights (rows, nodes) by values (nodes, columns) as matrices.
 
-    This avoids BLAS, whose threads would compete with those that compute the bands.
+    Some columns at a time are so few that BLAS starts no threads, which would compete with those
+    that compute the bands.
     """
-    return np.asarray(np.einsum("ij,jk->ik", weights, values))
+    width = max(_MOST_PRODUCTS // weights.size, 1)
+    out = np.empty((len(weights), values.shape[1]), dtype=np.float32)
+    for start in range(0, values.shape[1], width):
+        columns = slice(start, start + width)
+        np.matmul(weights, values[:, columns], out=out[:, columns])
+    return out
 
 
 def find_smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:

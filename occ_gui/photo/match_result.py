@@ -21,6 +21,7 @@ from occ_gui.widgets.state_look import State, colours_of
 from occ_model.photo.many.other_programs import lines_of_match
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
+from occ_model.results.match_sentence import state_verdict
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
@@ -52,12 +53,12 @@ class MatchVerdictView(QWidget):
         fixed, minimum = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
         self.word.setSizePolicy(fixed, fixed)
         self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, minimum)
-        self._verdict, self._is_outdated = "", False
+        self._verdict, self._words, self._is_outdated = "", "", False
         fill(QHBoxLayout(self), self.word, None, margins=0)
 
-    def show_verdict(self, verdict: str, reasons: Sequence[str]) -> None:
-        """Show a verdict, SURE or DOUBTFUL, with a sentence for each reason."""
-        self._verdict = verdict
+    def show_verdict(self, verdict: str, words: str, reasons: Sequence[str]) -> None:
+        """Show a verdict, SURE or DOUBTFUL, in some words, with a sentence for each reason."""
+        self._verdict, self._words = verdict, words
         self.reasons.setText("\n".join(f"• {reason}" for reason in reasons))
         self.reasons.setVisible(bool(reasons))
         self.show_outdated(False)
@@ -65,7 +66,7 @@ class MatchVerdictView(QWidget):
     def show_outdated(self, outdated: bool) -> None:
         self._is_outdated = outdated
         sign = "Earlier:" if outdated else SIGNS[self._verdict]
-        self.word.setText(f"{sign} {self._verdict}")
+        self.word.setText(f"{sign} {self._words}")
         self.word.setAutoFillBackground(not outdated)
         palette = QPalette()
         if not outdated:
@@ -157,14 +158,14 @@ class MatchResult(QWidget):
         self._match, self._recorded_exposure, self._turned = match, recorded_exposure, turned
         self._cure, self._known_at_match = cure, known_at_match
         self._warn_if_stale()
-        self.verdict.show_verdict(match.verdict, match.all_reasons)
+        self._show_verdict(match)
         self._show_figures(match)
         self.show_outdated("", usable=True)
 
     def _show_cure(self, cure: Cure, match: Match) -> None:
         text = (
             f"This lamp repeats at {HERTZ.format(cure.repetition_rate, 4)} and is lit for "
-            f"{PERCENT.format(cure.duty, 2)} of the time: {self._describe_depth(cure, match)}"
+            f"{PERCENT.format(cure.duty, 3)} of the time: {self._describe_depth(cure, match)}"
             f"no bars at whole multiples of {SECOND.format(1.0 / cure.repetition_rate, 4)}."
         )
         marked, real = (
@@ -189,7 +190,12 @@ class MatchResult(QWidget):
         self._certain = certain
         self._warn_if_stale()
         if self._match is not None:
+            self._show_verdict(self._match)
             self._show_figures(self._match)
+
+    def _show_verdict(self, match: Match) -> None:
+        words = state_verdict(match, condition_of(match, self._certain))
+        self.verdict.show_verdict(match.verdict, words, match.all_reasons)
 
     def _show_figures(self, match: Match) -> None:
         for part in (self.cure, self.without_bars):

@@ -13,7 +13,7 @@ from occ_gui.widgets.state_look import Badge, State
 from occ_model.errors import inflect, one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
-from occ_model.results.match_sentence import describe_match
+from occ_model.results.match_sentence import describe_match, state_verdict
 from occ_model.results.photo_table import SURE, PhotoRow
 
 STEPS = {
@@ -172,14 +172,12 @@ class PhotoVerdictBar(StateBar):
         return self._judge_match(self._match)
 
     def _judge_match(self, match: Match) -> tuple[State, tuple[str, ...]]:
+        title = f"Photo: {state_verdict(match, condition_of(match, self._certain))}"
+        if match.verdict == SURE:  # the title has the condition
+            return State.GOOD, (title, describe_match(match))
         sentence = self._describe_match(match)
-        if match.verdict == SURE:
-            title = "Photo: sure match"
-            if match.only_exposure_is_doubtful:
-                title = "Photo: sure, but for the exposure"
-            return State.GOOD, (title, sentence)
         reason = _shorten_reasons(match.reasons)
-        return State.DOUBTFUL, ("Photo: doubtful match", f"{sentence} {reason}", reason)
+        return State.DOUBTFUL, (title, f"{sentence} {reason}", reason)
 
     def caption(self) -> str:
         """Return a figure's caption: the photo's name, its verdict and the estimates."""

@@ -17,6 +17,7 @@ from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, 
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.scene import Transmitter
 
@@ -259,7 +260,8 @@ class ProfileView(QWidget):
             (float(profile.max()) for profile in profiles if profile is not None), default=0.0
         )
         step = 20.0
-        self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
+        top = min(max(step, np.ceil(largest / step) * step), WHITE)
+        self.plot.setYRange(0.0, top, padding=0.06)
 
     def _fit_columns(self, reading: Reading) -> None:
         if not (self._packets.isChecked() or self._panel.isChecked()):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # a window without a photo or film starts without them
         StripeSearch,
     )
     from occ_model.photo.reading.load import Photo
-    from occ_model.results.match import ChipReading
+    from occ_model.results.match import ChipReading, Match
     from occ_model.results.video import Video
 
 
@@ -67,10 +67,15 @@ class Results:
         return None if self.document is None else self.document.photo
 
     @property
+    def match(self) -> "Match | None":
+        """The match of the open photo."""
+        outcome = None if self.document is None else self.document.outcome
+        return None if outcome is None else outcome.match
+
+    @property
     def code_chips(self) -> "ChipReading | None":
         """The chips that were read from the photo, unless its match is of a lamp, without any."""
-        outcome = None if self.document is None else self.document.outcome
-        match = None if outcome is None else outcome.match
+        match = self.match
         return self.chips if match is None or match.lamp is None else None
 
 

@@ -105,10 +105,11 @@ def describe_bars(reading: ColumnView) -> tuple[str, str]:
         return title, ""
     if bars.peak_to_peak <= ROUNDING_DEPTH:
         return f"{title}: no bars", "Every column gathers the same light."
-    depth = f"{format_depth(bars.peak_to_peak)} deep"
+    depth = format_depth(bars.peak_to_peak)
+    sentence = f"Peak to peak, the bars are {depth} of the mean light. {bars.visibility}"
     if math.isinf(bars.period):
-        return f"{title}: bars {depth}, not in these columns", bars.sentence
-    return f"{title}: {bars.period:.4g} columns from bar to bar, {depth}", bars.sentence
+        return f"{title}: bars, but not in these columns", sentence
+    return f"{title}: {bars.period:.4g} columns from bar to bar", sentence
 
 
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> CodeVerdict:

@@ -76,9 +76,12 @@ def declare_story(
     """Declare the pane, which shows ``picture`` in place of its rows."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
-        # A photo's profile is drawn where both are enhanced, or neither is.
+        # A photo's profile is drawn where both are enhanced, or neither is, and where the scene
+        # comes from its match: any other photo shows something else.
         is_comparable = workspace.is_enhanced == (workspace.picture_kind == "receiver")
-        photo = results.photo_profile if is_comparable else None
+        match = results.match
+        is_related = match is not None and match.is_origin_of(workspace.scene)
+        photo = results.photo_profile if is_comparable and is_related else None
         return workspace.decoder, workspace.picture_kind, results.reading, results.picture, photo
 
     return Feature(

@@ -16,6 +16,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
 from occ_gui.widgets.guarded_paint import are_equal
 from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE
 from occ_model.results.decoding import DecodeResult
 
 _Level = TypeVar("_Level", float, FloatArray)  # one level, or one for each column
@@ -46,7 +47,7 @@ class ProfileRow(StoryRow):
         self._photo: PhotoProfile | None = None
         self._picture_kind = "camera"
         self._drawn_inputs: tuple[object, ...] = ()
-        self._top = 255.0
+        self._top = WHITE
         self.threshold: tuple[float, float] | None = None
         """The levels between which the decoder's threshold lies; None if it has none."""
 
@@ -107,7 +108,7 @@ class ProfileRow(StoryRow):
         photo = self.photo
         curves = (self.levels, self.band, None if photo is None else photo[1])
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
-        self._top = max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP)
+        self._top = min(max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP), WHITE)
         region = None if self._result is None else self._result.region
         inputs = (*curves, self.threshold, region, self._photo)
         # Results from the picture are mostly equal to the earlier ones.

@@ -105,12 +105,16 @@ _FREQUENCY = "switching_frequency"
 _CAPTION_PARAMETERS = ("exposure_time", _FREQUENCY, "readout_time", "distance")
 
 
-def caption(scene: Scene) -> str:
-    return ", ".join(_caption_values(scene))
+def caption(scene: Scene, about: str = "") -> str:
+    """Describe a scene and, with a sentence ``about`` it, the photo beside it."""
+    values = ", ".join(_caption_values(scene, about))
+    return f"{values}; {about}" if about else values
 
 
-def _caption_values(scene: Scene) -> list[str]:
-    return [_caption_value(scene, name) for name in _CAPTION_PARAMETERS]
+def _caption_values(scene: Scene, about: str) -> list[str]:
+    # A photo does not tell the distance: the scene still has that of the preset before the match.
+    names = (name for name in _CAPTION_PARAMETERS if not about or name != "distance")
+    return [_caption_value(scene, name) for name in names]
 
 
 def _caption_value(scene: Scene, name: str) -> str:
@@ -127,14 +131,10 @@ def _caption_value(scene: Scene, name: str) -> str:
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
     """Write the caption of a figure: its scene, and a sentence ``about`` its photo."""
     # With non-breaking spaces, lines end only after a comma.
-    values = [value.replace(" ", "\xa0") for value in _caption_values(scene)]
+    values = [value.replace(" ", "\xa0") for value in _caption_values(scene, about)]
     text = "\n".join(filter(None, (", ".join(values), about)))
     # A file's name may contain characters of a formula.
     figure.supxlabel(text, fontsize=_CAPTION_SIZE, parse_math=False)
-
-
-def _caption_with(scene: Scene, about: str) -> str:
-    return f"{caption(scene)}; {about}" if about else caption(scene)
 
 
 def picture_drawing(
@@ -180,12 +180,10 @@ def picture_drawing(
         return figure
 
     if difference is not None:
-        title = (
-            f"{name}; its difference from the photo in levels: {_caption_with(frame.scene, about)}"
-        )
+        title = f"{name}; its difference from the photo in levels: {caption(frame.scene, about)}"
         return _cells_drawing(title, draw, difference.levels, *difference.centres())
     down, across = (size * (np.arange(float(count)) + 0.5) - 0.5 for count in cells.shape)
-    return _cells_drawing(f"{name}: {_caption_with(frame.scene, about)}", draw, cells, down, across)
+    return _cells_drawing(f"{name}: {caption(frame.scene, about)}", draw, cells, down, across)
 
 
 def _cells_drawing(
@@ -265,7 +263,7 @@ def profile_drawing(  # noqa: PLR0913 - all but two have defaults
 
     header = ("column", *(f"{name} (grey level)" for name in profiles))
     pane = "Column profile after the receiver's enhancement" if enhanced else "Column profile"
-    return Drawing("profile", f"{pane}: {_caption_with(frame.scene, about)}", draw, header, rows)
+    return Drawing("profile", f"{pane}: {caption(frame.scene, about)}", draw, header, rows)
 
 
 def _place_threshold(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:

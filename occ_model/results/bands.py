@@ -75,12 +75,19 @@ class BandDepth:
         return self.contrast > self.threshold and not self.hidden
 
     @property
+    def visibility(self) -> str:
+        """Whether the picture's bars are visible, or what hides them, without numbers."""
+        if self.hidden:
+            return f"Not visible, since {self.hidden}."
+        return f"{'Visible' if self.is_visible else 'Not visible'} on a display."
+
+    @property
     def sentence(self) -> str:
         """Whether the picture's bars are visible, or what hides them."""
         if self.hidden:
-            return f"Not visible, since {self.hidden}."
+            return self.visibility
         return (
-            f"{'Visible' if self.is_visible else 'Not visible'} on a display: "
+            f"{self.visibility.removesuffix('.')}: "
             f"{format_depth(self.contrast)} of the mean light there, peak to peak, and visible "
             f"from {format_depth(self.threshold)}."
         )

@@ -149,6 +149,7 @@ class ChipReading:
 _EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")
 """Estimates that depend on the exposure, which starts half its length before its middle."""
 
+_FEW_CHANGES = 3  # most parameters by which a scene differs from that of a match that it shows
 _DISPLAY_TOLERANCE = 5e-7  # relative difference of values that agree in the six displayed digits
 _ERROR_TOLERANCE = 1e-3  # difference of equal values, as a fraction of the standard deviation
 
@@ -275,10 +276,15 @@ class Match:
 
         A match that starts from its own scene gives that scene again, up to rounding.
         """
-        if scene == self.scene:
-            return True
-        return all(
-            self._is_same(name, scene.value(name), value)
+        return scene == self.scene or not self._count_changes(scene)
+
+    def is_origin_of(self, scene: Scene) -> bool:
+        """Return whether a scene is that of the match, apart from a few parameters."""
+        return self._count_changes(scene) <= _FEW_CHANGES
+
+    def _count_changes(self, scene: Scene) -> int:
+        return sum(
+            not self._is_same(name, scene.value(name), value)
             for table in self.scene.tables().values()
             for name, value in table.items()
         )

@@ -1,12 +1,23 @@
 """Say a match in one sentence: what was sent, what the camera does, and how sure that is."""
 
 from occ_model.results.match import ESTIMATES, Match
+from occ_model.results.photo_table import SURE
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import PERCENT
 
 _LARGEST_ERROR = 0.5  # relative standard deviation above which only an upper limit is stated
 _LIMIT_DEVIATIONS = 2.0  # number of standard deviations by which the limit exceeds the estimate
+
+
+def state_verdict(match: Match, condition: str = "") -> str:
+    """State how sure a match is in a few words, with what it leaves out and what it assumes."""
+    words = [match.verdict]
+    if match.only_exposure_is_doubtful:
+        words.append("but for the exposure")
+    if match.verdict == SURE and condition:
+        words.append(condition.removesuffix(": "))
+    return ", ".join(words)
 
 
 def describe_match(match: Match, condition: str = "") -> str:

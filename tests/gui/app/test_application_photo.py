@@ -137,6 +137,34 @@ def test_a_match_finds_the_readout_time_and_applying_it_in_one_step_places_the_p
     assert matched.shell.pane("photo")._shown.placement == before
 
 
+def test_a_photo_is_drawn_in_the_story_only_where_the_scene_comes_from_its_match(
+    matched: Application, user: User, small_scene: Scene
+) -> None:
+    rows = matched.story.rows
+    user.wait_until_idle()
+    assert rows.profile.photo is None, "it shows something else than the scene"
+    assert {"fitted", "photo"}.isdisjoint(rows.legend.keys)
+    assert matched.view("profile").photo_levels is not None
+    matched.view("photo").result.apply.click()
+    for scene in (matched.store.scene, matched.store.scene.replace(exposure_time=9e-5, iso=150.0)):
+        matched.store.put(scene, "sliders")
+        user.wait_until_idle()
+        photo, levels = rows.profile.photo, matched.view("profile").photo_levels
+        assert photo is not None
+        assert levels is not None
+        np.testing.assert_array_equal(photo[1], levels)
+        assert "fitted" in rows.legend.keys
+    matched.store.put(occ.load_preset("phone-136us"), "preset")
+    user.wait_until_idle()
+    assert rows.profile.photo is None
+    user.choose("&Undo")
+    user.wait_until_idle()
+    assert rows.profile.photo is not None
+    matched.photos.close()
+    user.wait_until_idle()
+    assert rows.profile.photo is None
+
+
 def test_match_actions_are_enabled_with_a_photo_or_a_match(
     application: Application, user: User, photo_path: Path, remembered_matches: None
 ) -> None:

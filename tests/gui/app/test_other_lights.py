@@ -84,7 +84,7 @@ def test_the_verdict_names_the_lamp_its_bars_and_its_ratio(
     lamp = {"lamp_frequency": 2500.0, "duty": 0.3, "exposure_time": 120e-6, "readout_time": 8e-6}
     store.put(store.scene.replace(light="lamp", **lamp), "lamp")
     user.wait_until_idle()
-    assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 30 %: 50 columns from bar to bar, ")
+    assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 30 %: 50 columns from bar to bar")
     assert "t / period = 0.3" in {badge.text for badge in verdict.badges.badges}
     store.change(exposure_time=4e-4)
     user.wait_until_idle()

@@ -1,8 +1,5 @@
 """The story is on the first screen, and agrees with the other panes."""
 
-from pathlib import Path
-
-import numpy as np
 import pytest
 from gui.kinds import not_none
 from gui.user import User
@@ -135,25 +132,6 @@ def test_the_mouse_selects_the_column_of_the_readout(
     QApplication.sendEvent(row, QEvent(QEvent.Type.Leave))
     assert rows.crosshair.mouse_column is None
     assert application.story.readout.toolTip().startswith(f"column {rows.crosshair.column}  ·  ")
-
-
-def test_an_open_photo_is_drawn_in_the_story(
-    application: Application, user: User, photo_file: Path
-) -> None:
-    rows = application.story.rows
-    assert rows.profile.photo is None
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
-    assert application.story.shows_whole_picture
-    photo, levels = rows.profile.photo, application.view("profile").photo_levels
-    assert photo is not None
-    assert levels is not None
-    np.testing.assert_array_equal(photo[1], levels)
-    assert "fitted" in rows.legend.keys
-    application.photos.close()
-    user.wait_until_idle()
-    assert rows.profile.photo is None
-    assert {"fitted", "photo"}.isdisjoint(rows.legend.keys)
 
 
 def test_the_equations_explain_the_column_that_the_story_shows(

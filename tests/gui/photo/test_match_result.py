@@ -183,7 +183,7 @@ def test_a_doubtful_exposure_is_stated_beside_sure_values(view: LiveView, match:
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_matched(replace(match, exposure_reasons=REASONS))
     result = view.result
-    assert result.verdict.word.text() == "● sure"
+    assert result.verdict.word.text() == "● sure, but for the exposure"
     assert result.verdict.reasons.text().splitlines() == [
         f"• {ONLY} {REASONS[0]}", f"• {REASONS[1]}",
     ]  # fmt: skip
@@ -217,7 +217,8 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
         is_present = not why
         view.show_match_outdated(why, usable=is_present)
         assert result.mark.isVisible() != is_present
-        assert result.verdict.word.text() == ("● sure" if is_present else "Earlier: sure")
+        sign = "●" if is_present else "Earlier:"
+        assert result.verdict.word.text() == f"{sign} sure, if f = 2 kHz"
         assert result.verdict.word.autoFillBackground() == is_present
         inks = {
             each.palette().windowText().color().name() for each in (result, result.verdict.word)

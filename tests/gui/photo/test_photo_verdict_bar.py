@@ -41,7 +41,7 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert " ".join(REASONS) in bar.accessibleDescription()  # they are stated nowhere else
     view.show_matched(match)
-    assert (bar.state, bar.heading) == (State.GOOD, "Photo: sure match")
+    assert (bar.state, bar.heading) == (State.GOOD, "Photo: sure, if f = 2 kHz")
     view.open(None)
     assert bar.heading == "No photo is open"
 
@@ -51,15 +51,17 @@ def test_a_sure_match_says_what_was_found_and_what_it_depends_on(
 ) -> None:
     view.show_matched(match)
     said = bar.accessibleDescription()
-    assert "If f = 2 kHz: your camera reads a line in 14.57770 ± 0.00027 µs; " in said
+    assert "Photo: sure, if f = 2 kHz. Code of 2 kHz: your camera reads a line in " in said
+    assert "in 14.57770 ± 0.00027 µs; " in said
     assert "; exposed for 62.50 ± 0.21 µs; sure." in said
     view.show_matched(match_of_lamp())  # named by the lamp's own frequency
-    assert "If it is a lamp of 1 kHz: your camera reads" in bar.accessibleDescription()
+    assert bar.heading == "Photo: sure, if it is a lamp of 1 kHz"
+    assert "Lamp of 1 kHz: your camera reads" in bar.accessibleDescription()
     dimmed = match_of_lamp(0.6, uncertainties={**match.uncertainties, "duty": 0.01})
     view.show_matched(dimmed)
     assert "; lit for 60.0 ± 1.0 % of the time; exposed for " in bar.accessibleDescription()
     view.show_matched(replace(match, reasons=REASONS))
-    assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
+    assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful")
     assert f"{REASONS[0]} And 1 more reason." in bar.accessibleDescription()
 
 
@@ -68,7 +70,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
 ) -> None:
     view.show_matched(replace(match, exposure_reasons=REASONS[:1]))
     assert (bar.state, bar.heading) == (
-        State.GOOD, "Photo: sure, but for the exposure",
+        State.GOOD, "Photo: sure, but for the exposure, if f = 2 kHz",
     )  # fmt: skip
     for told in (bar.accessibleDescription(), bar.caption()):
         assert "exposed for 62.50 ± 0.21 µs (doubtful); sure otherwise." in told
@@ -85,9 +87,9 @@ def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
             view.confirm(certain)
             is_assumed = certain.get("switching_frequency") != 2e3
             said = view.result.condition.text().removeprefix("These values hold only ").rstrip(".")
-            condition = f"{said.lower()}: " if is_assumed else ""
+            condition = said.lower() if is_assumed else ""
             told = bar.accessibleDescription().lower()
-            assert f"{condition}your camera reads a line" in told
+            assert told.startswith(f"photo: sure{condition and ', '}{condition}. code of 2 khz: ")
             assert ("if " in told) == (not view.result.condition.isHidden()) == is_assumed
 
 
@@ -104,7 +106,7 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
         assert (bar.state, bar.heading) == (state, f"Photo: {verdict} in the table")
         assert REASONS[1] in bar.accessibleDescription()
     view.show_matched(match)
-    assert bar.heading == "Photo: sure match"
+    assert bar.heading == "Photo: sure"  # the frequency is certain
     view.open(photo)
     view.many.begin_match("readout_time", occ.Scene())
     assert bar.heading == "Photo: no match yet"

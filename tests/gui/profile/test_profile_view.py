@@ -132,6 +132,10 @@ def test_a_compared_photo_is_drawn_in_simulated_levels(view: ProfileView, photo:
     assert view.residual.plot.isVisible()
     assert "photo, fitted levels" in legend_texts(view)
     assert "photo" not in legend_texts(view)
+    far = Comparison(900, np.array([1.0, 300.0, 9.0]), simulated, 0.9)
+    view.show_photo_profile(PhotoProfile(far, photo.profile))
+    assert 255.0 <= view.plot.viewRange()[1][1] < 280.0  # there is no brighter grey level
+    view.show_photo_profile(PhotoProfile(comparison, photo.profile))
     assert "0.9123" in view.residual.numbers.toolTip()
     assert f"{math.sqrt(10 / 3):.2f} grey levels" in view.residual.numbers.toolTip()
     low, high = view.residual.plot.getViewBox().viewRange()[1]

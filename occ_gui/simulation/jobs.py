@@ -87,8 +87,7 @@ def reading_by_profile(
     decoders: tuple[str, ...] = ()
     if request.scene.transmitter.light == "code":
         decoders = (*QUICK_DECODERS, *filter(_is_usable, request.more_decoders))
-    view = None if planned is None else planned.view
-    profile = read_profile(request.scene, request.settings, decoders, view)
+    profile = read_profile(request.scene, request.settings, decoders)
     if profile is None:
         return None
     error = 0.0 if planned is None else planned.plan.error

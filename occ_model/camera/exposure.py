@@ -5,6 +5,7 @@ is a difference of two values of the waveform's running integral. This takes the
 ratio of exposure time to switching period, without sampling in time or a loop over chips.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 
@@ -12,8 +13,8 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.light.cosine import Cosine
-from occ_model.light.sent import Light, forget_lights, light_of
-from occ_model.light.times import Duration, PhasesInPeriod, count_phases, forget_steps
+from occ_model.light.sent import Light, PiecewiseLight, forget_lights, light_of
+from occ_model.light.times import Duration, PhasesInPeriod, count_each, count_phases, forget_steps
 from occ_model.scene.scene import Scene
 
 _NO_SHIFT = Fraction(0)
@@ -92,13 +93,43 @@ def _lit_fraction(
         )
     else:
         period = light.waveform.period
-        exposure = Duration.of(Fraction(exposure_time) * light.rate, period)
         starts = _column_starts(light.rate, readout_time, start_time, period, _NO_SHIFT, columns)
-        lit = light.waveform.light_in(starts, exposure)
-        lit /= exposure.in_units(period)
-        np.clip(lit, 0.0, 1.0, out=lit)
+        lit = _lit_from(light, starts, exposure_time)
     lit.flags.writeable = False
     return lit
+
+
+def _lit_from(light: PiecewiseLight, starts: PhasesInPeriod, exposure_time: float) -> FloatArray:
+    period = light.waveform.period
+    exposure = Duration.of(Fraction(exposure_time) * light.rate, period)
+    lit = light.waveform.light_in(starts, exposure)
+    lit /= exposure.in_units(period)
+    return np.clip(lit, 0.0, 1.0, out=lit)
+
+
+def phases_of_images(
+    scene: Scene, start_times: Sequence[float], light: PiecewiseLight, shift: Fraction = _NO_SHIFT
+) -> PhasesInPeriod:
+    """Return where in the light's period each column's exposure starts, for several images.
+
+    The arrays have the shape (images, columns). ``shift``, in units of the light, is added.
+    """
+    period, camera = light.waveform.period, scene.camera
+    starts = [(Fraction(time) * light.rate + shift) % period for time in start_times]
+    return count_each(
+        starts, _step(camera.readout_time, light.rate, period), period, camera.columns
+    )
+
+
+def lit_fractions(scene: Scene, start_times: Sequence[float]) -> FloatArray:
+    """Return :func:`lit_fraction` for images that start at other times: (images, columns)."""
+    light, camera = light_of(scene.transmitter), scene.camera
+    if isinstance(light, Cosine):
+        step, exposure = Fraction(camera.readout_time), Fraction(camera.exposure_time)
+        return np.array(
+            [light.means(Fraction(time), step, camera.columns, exposure) for time in start_times]
+        )
+    return _lit_from(light, phases_of_images(scene, start_times, light), camera.exposure_time)
 
 
 def forget_exposures() -> None:

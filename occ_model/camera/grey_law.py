@@ -72,6 +72,12 @@ class GreyLaw:
         """The mean grey level of a pixel at each level, shape (levels,)."""
         return self._mean_of(np.arange(256.0))
 
+    @cached_property
+    def deviations(self) -> FloatArray:
+        """The standard deviation of a pixel's grey level at each level, shape (levels,)."""
+        square = self._mean_of(np.arange(256.0) ** 2)
+        return np.sqrt(np.maximum(square - self.means**2, 0.0))
+
     def values_of(self, means: FloatArray) -> FloatArray:
         """Return the mean values before saturation of pixels with some mean grey levels.
 

@@ -9,7 +9,7 @@ applies it to a sample of the pixels, to estimate how much is lost without it.
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import ClassVar, Literal, TypeAlias, TypeVar
@@ -161,6 +161,23 @@ class LightEffect(Effect):
     @abstractmethod
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Add the effect to the columns' light."""
+
+    def sets_panel_light(self, scene: Scene) -> bool:  # noqa: ARG002 - of most it is unchanged
+        """Return whether :meth:`apply_to_images` computes the panel's light anew."""
+        return False
+
+    @abstractmethod
+    def apply_to_images(
+        self,
+        scene: Scene,
+        light: ColumnLight,
+        start_times: Sequence[float],
+        phases: Sequence[float],
+    ) -> ColumnLight:
+        """Add the effect to the light of several images, shape (images, columns).
+
+        They differ in start time and in the phase of the mains.
+        """
 
 
 class OpticsEffect(Effect):

@@ -1,17 +1,18 @@
 """Effects on the light: the LED's rise and fall, and flicker of the surroundings' lamps."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.exposure import column_phases
+from occ_model.camera.exposure import column_phases, phases_of_images
 from occ_model.camera.photometry import ColumnLight
 from occ_model.effects.effect import Cost, LightEffect
 from occ_model.light.cosine import Cosine
-from occ_model.light.edged import EdgedWaveform
+from occ_model.light.edged import EdgedWaveform, PhasesAt
 from occ_model.light.sent import PiecewiseLight, flicker_of, light_of
 from occ_model.scene.scene import Scene
 
@@ -38,21 +39,43 @@ class LedEdges(LightEffect):
             return light
         return replace(light, lit=lit_fraction_with_edges(scene))
 
+    def sets_panel_light(self, scene: Scene) -> bool:
+        return self.is_present(scene)
+
+    def apply_to_images(
+        self,
+        scene: Scene,
+        light: ColumnLight,
+        start_times: Sequence[float],
+        phases: Sequence[float],
+    ) -> ColumnLight:
+        if not self.is_present(scene):
+            return light
+        sent, edge = light_of(scene.transmitter), Fraction(scene.transmitter.edge_time)
+        if isinstance(sent, Cosine):
+            lit = np.array([_means(scene, sent, edge, time) for time in start_times])
+        else:
+            lit = _lit_from(scene, sent, partial(phases_of_images, scene, start_times, sent))
+        return replace(light, lit=lit)
+
 
 @lru_cache(maxsize=4)
 def lit_fraction_with_edges(scene: Scene) -> FloatArray:
     """Return the mean light in each column's exposure, 1 being the panel fully lit."""
     light, edge = light_of(scene.transmitter), Fraction(scene.transmitter.edge_time)
     if isinstance(light, Cosine):
-        lit = _means(scene, light, edge)
+        lit = _means(scene, light, edge, scene.model.start_time)
     else:
-        exposure = Fraction(scene.camera.exposure_time) * light.rate
-        waveform = _edged(light, edge * light.rate)
-        rate, period = light.rate, waveform.period
-        lit = waveform.light_in(lambda shift: column_phases(scene, rate, period, shift), exposure)
-        lit = np.clip(lit / float(exposure), 0.0, 1.0)
+        starts = partial(column_phases, scene, light.rate, light.waveform.period)
+        lit = _lit_from(scene, light, starts)
     lit.flags.writeable = False
     return lit
+
+
+def _lit_from(scene: Scene, light: PiecewiseLight, starts: PhasesAt) -> FloatArray:
+    exposure = Fraction(scene.camera.exposure_time) * light.rate
+    waveform = _edged(light, Fraction(scene.transmitter.edge_time) * light.rate)
+    return np.clip(waveform.light_in(starts, exposure) / float(exposure), 0.0, 1.0)
 
 
 @lru_cache(maxsize=4)
@@ -60,10 +83,10 @@ def _edged(light: PiecewiseLight, edge: Fraction) -> EdgedWaveform:
     return EdgedWaveform(light.waveform, edge)
 
 
-def _means(scene: Scene, light: Cosine, edge: Fraction = Fraction(0)) -> FloatArray:
+def _means(scene: Scene, light: Cosine, edge: Fraction, start_time: float) -> FloatArray:
     camera = scene.camera
     return light.means(
-        Fraction(scene.model.start_time), Fraction(camera.readout_time), camera.columns,
+        Fraction(start_time), Fraction(camera.readout_time), camera.columns,
         Fraction(camera.exposure_time), edge,
     )  # fmt: skip
 
@@ -85,6 +108,20 @@ class Flicker(LightEffect):
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         return replace(light, ambient=light.ambient * ambient_fractions(scene))
 
+    def apply_to_images(
+        self,
+        scene: Scene,
+        light: ColumnLight,
+        start_times: Sequence[float],
+        phases: Sequence[float],
+    ) -> ColumnLight:
+        flicker, is_mains = flicker_of(scene), isinstance(light_of(scene.transmitter), Cosine)
+        fractions = [
+            _means(scene, flicker if is_mains else replace(flicker, phase=phase), Fraction(0), time)
+            for time, phase in zip(start_times, phases, strict=True)
+        ]
+        return replace(light, ambient=light.ambient * np.array(fractions))
+
 
 def depth_in_exposure(scene: Scene) -> float:
     """Return the depth of the flicker after averaging over an exposure."""
@@ -94,6 +131,6 @@ def depth_in_exposure(scene: Scene) -> float:
 @lru_cache(maxsize=4)
 def ambient_fractions(scene: Scene) -> FloatArray:
     """Return the mean external illuminance in each column's exposure, as a multiple of E_v."""
-    fractions = _means(scene, flicker_of(scene))
+    fractions = _means(scene, flicker_of(scene), Fraction(0), scene.model.start_time)
     fractions.flags.writeable = False
     return fractions

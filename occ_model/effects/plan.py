@@ -140,18 +140,18 @@ def _decide_without_estimate(effect: Effect, scene: Scene, by_hand: bool | None)
 
 
 def signal_plan(
-    scenes: Sequence[Scene], settings: SimulationSettings, *, needs_pixels: bool
+    scenes: Sequence[Scene], settings: SimulationSettings, *, is_estimated: bool = False
 ) -> Plan:
     """Plan pictures for decoders, which differ only in phase and code.
 
-    If pixels are simulated, the plan includes the effects that the signal of any picture needs. If
-    not, simulating all effects takes less time than estimating what they change.
+    If pixels are simulated, effects are estimated, and the plan includes those that the signal of
+    any picture needs. If not, simulating all effects takes less time than estimating what they
+    change.
     """
     signal_settings = replace(settings, observable="signal").check(NAMES)
-    complete = complete_plan(scenes[0], signal_settings)
-    if needs_pixels or "image" in complete.kinds or signal_settings.tolerance == math.inf:
+    if is_estimated or signal_settings.tolerance == math.inf:
         return plan_of_any([paper_view_of(scene) for scene in scenes], signal_settings)
-    return complete
+    return complete_plan(scenes[0], signal_settings)
 
 
 def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Plan:

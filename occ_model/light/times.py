@@ -4,6 +4,7 @@ A time is split into whole units and a fraction of one, because a double for bot
 after a million periods, to place an edge within a unit.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -76,22 +77,31 @@ class ExposureWindows:
 
 
 def count_phases(start: Fraction, step: Fraction, period: int, count: int) -> PhasesInPeriod:
-    """Count up from ``start`` by ``step``, both within one period.
+    """Count up from ``start`` by ``step``, both within one period; see :func:`count_each`."""
+    phases = count_each((start,), step, period, count)
+    return PhasesInPeriod(phases.whole[0], phases.fraction[0])
+
+
+def count_each(
+    starts: Sequence[Fraction], step: Fraction, period: int, count: int
+) -> PhasesInPeriod:
+    """Count up from each of some starts by ``step``, all within one period: (starts, count).
 
     The step is split into whole units, a part of only 24 bits, whose product with any number up to
     a million is exact, and a remainder below 1e-7 units. The error thus stays about 2e-16 units
     after a million steps, however long the period is.
     """
-    start_unit = int(start)
+    units = [int(start) for start in starts]
+    rests = [float(start - unit) for start, unit in zip(starts, units, strict=True)]
     steps = _count_steps(step, count)
-    fraction = steps.fraction + (steps.remainder + float(start - start_unit))
+    fraction = steps.fraction + (steps.remainder + np.array(rests)[:, None])
     carry = np.floor(fraction)
     fraction -= carry
     # A fraction just below zero can round to a whole unit when the floor is subtracted.
     rounds_up = fraction >= 1.0
     fraction[rounds_up] = 0.0
     carry += rounds_up
-    carry += start_unit
+    carry += np.array(units, dtype=np.float64)[:, None]
     unit = np.add(steps.unit, carry, out=carry)
     # Exact, since a quotient of whole numbers this small never rounds up to a whole number.
     unit -= period * np.floor(unit / period)

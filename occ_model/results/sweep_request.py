@@ -11,9 +11,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import TOLERANCE, Scene
 
 SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
-"""How a decoder's signal is simulated: "profile" as column means, "rows" from a sample of the
-image's rows, "image" from the whole image, "auto" in the first of these ways that the plan
-allows."""
+"""How a decoder's signal is simulated: "image" from the whole image, all others without pixels."""
 
 ShownQuantity: TypeAlias = Literal["rate", "bits"]  # success rates in percent, or net bits a second
 SHOWN_QUANTITIES: tuple[ShownQuantity, ...] = ("rate", "bits")

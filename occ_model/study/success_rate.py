@@ -1,6 +1,5 @@
 """Measure the success rate: the fraction of bits read correctly over several images."""
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -9,23 +8,23 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import paper_view_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, PluginError
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
 from occ_model.receiver.decode import decoder_named
-from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
-from occ_model.study.observation import Observation, observe, panel_span
-from occ_model.transmitter.scheme import check_code, sent_chips
+from occ_model.study.signals.batch import Observation
+from occ_model.study.signals.pictures import image_of, observe_images
+from occ_model.transmitter.scheme import check_code
 
-_CACHED_PICTURES = 512
-"""Number of pictures whose signals are cached for the next decoder, enough for a search."""
+_CACHED_BATCHES = 64
+"""Batches of pictures whose signals are cached for the next decoder, enough for a search."""
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 
@@ -43,9 +42,9 @@ def success_rate(
 
     SR = correct bits / (images x bits) x 100, the paper's definition. The images differ in start
     time, evenly distributed over one packet, and in noise. An image in which no bits are read, or
-    whose bits the decoder rejects, counts as having none correct. The effects are planned for the
-    signal, which is what a decoder reads. Where the column means are computed without pixels,
-    planning would take longer than all effects do, so none is omitted.
+    whose bits the decoder rejects, counts as having none correct. The column means that a decoder
+    reads are computed without pixels, for many images at once, with all effects of the scene:
+    planning would take longer than all effects do.
 
     Parameters
     ----------
@@ -58,11 +57,8 @@ def success_rate(
     tolerance, force
         As for :func:`occ_model.plan`.
     path
-        ``"image"``: simulate every image as a whole. ``"profile"``: compute the column means
-        without an image, which requires that rows differ by noise alone: a level panel, and no
-        image effect in the plan. ``"rows"``: estimate the column means from a sample of the rows.
-        ``"auto"``: the profile if possible, otherwise a sample of the rows, but the whole image if
-        noise beside the panel is as bright as its brightest pixels.
+        ``"image"``: simulate every image as a whole, with the effects planned for the signal.
+        ``"auto"``, ``"profile"``, ``"rows"``: without pixels.
 
     Returns
     -------
@@ -72,7 +68,7 @@ def success_rate(
     Raises
     ------
     ParameterError
-        An argument is not allowed, no code is sent, or the path is ``"profile"`` and rows differ.
+        An argument is not allowed, or no code is sent.
     ProjectionError
         The scene has no picture.
     PluginError
@@ -103,15 +99,7 @@ def count_right_and_whole(
 def plan_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
     """Choose the effects of images that differ only in phase and code."""
     simulation_settings = SimulationSettings(settings.tolerance, "signal", settings.force)
-    return signal_plan(
-        scenes, simulation_settings, needs_pixels=_span_of_path(scenes[0], settings.path) is None
-    )
-
-
-@lru_cache(maxsize=4)
-def _span_of_path(scene: Scene, path: SignalPath) -> Region | None:
-    """Return the rectangle that the panel fills; None if pixels must be simulated in any case."""
-    return panel_span(scene) if path in ("auto", "profile") else None
+    return signal_plan(scenes, simulation_settings, is_estimated=settings.path == "image")
 
 
 def right_bits_of_images(
@@ -124,18 +112,26 @@ def right_bits_of_images(
 
     ``chosen``: the effects to simulate, by default those that the scene's own signal needs.
     """
+    check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     force = tuple(sorted(settings.force.items()))
     pictures = _StudyPictures(scene, settings.seed, settings.tolerance, force, settings.path)
-    for image in range(settings.images):
-        heartbeat()
-        observation = (
-            _observe_cached(pictures, image)
+    first, count = 0, 1 if settings.path == "image" else _FIRST_BATCH
+    while first < settings.images:
+        last = min(first + count, settings.images)
+        observations = (
+            _observe_cached(pictures, first, last)
             if chosen is None
-            else observe_picture(pictures, chosen, image)
+            else observe_batch(pictures, chosen, first, last)
         )
-        results = _read_by_decoders(scene, observation, settings.decoders)
-        yield tuple(_count_right_bits(result, sent) for result in results)
+        for observation in observations:
+            heartbeat()
+            results = _read_by_decoders(scene, observation, settings.decoders)
+            yield tuple(_count_right_bits(result, sent) for result in results)
+        first, count = last, 1 if settings.path == "image" else min(3 * count, _MOST_IN_BATCH)
+
+
+_FIRST_BATCH, _MOST_IN_BATCH = 5, 40  # images that are simulated at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,9 +155,21 @@ def _plan_cached(pictures: _StudyPictures) -> Plan:
     return plan_images([pictures.scene], pictures.settings)
 
 
-@lru_cache(maxsize=_CACHED_PICTURES)
-def _observe_cached(pictures: _StudyPictures, image: int) -> Observation | None:
-    return observe_picture(pictures, _plan_cached(pictures), image)
+@lru_cache(maxsize=_CACHED_BATCHES)
+def _observe_cached(
+    pictures: _StudyPictures, first: int, last: int
+) -> tuple[Observation | None, ...]:
+    return observe_batch(pictures, _plan_cached(pictures), first, last)
+
+
+def observe_batch(
+    pictures: _StudyPictures, chosen: Plan, first: int, last: int
+) -> tuple[Observation | None, ...]:
+    """Simulate the signals of some pictures; None where no panel is found."""
+    images = [
+        image_of(pictures.scene, chosen, pictures.seed, number) for number in range(first, last)
+    ]
+    return tuple(observe_images(images, pictures.path, chosen))
 
 
 def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:
@@ -171,31 +179,12 @@ def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:
     return int(np.count_nonzero(result.bits == sent))
 
 
-@lru_cache(maxsize=256)
-def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
-    """Return the seed of an image, a child of ``seed`` that is the same at every point."""
-    return np.random.SeedSequence(seed, spawn_key=(image,))
-
-
 def _read_by_decoders(
     scene: Scene, observation: Observation | None, decoders: Sequence[str]
 ) -> list[DecodeResult]:
     if observation is None:
         return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in decoders]
     return [observation.read(scene, decoder) for decoder in decoders]
-
-
-def observe_picture(pictures: _StudyPictures, chosen: Plan, image: int) -> Observation | None:
-    """Simulate the signal that a decoder reads from a picture; None if no panel is found in it."""
-    scene, path = pictures.scene, pictures.path
-    stream = np.random.default_rng(_seed_of(pictures.seed, image))
-    transmitter = scene.transmitter
-    duration = len(sent_chips(transmitter)) * transmitter.switching_period
-    changes = {"start_time": float(stream.uniform(0.0, duration))}
-    if scene.surroundings.flicker_depth:  # the mains are not synchronous with the packets
-        changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
-    view = paper_view_of(scene.replace(**changes))
-    return observe(view, _span_of_path(scene, path), chosen, stream, path)
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:

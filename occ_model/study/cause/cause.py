@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.effect import Effect, paper_view_of, region_of
+from occ_model.effects.effect import Effect, region_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError, ParameterError
@@ -37,7 +37,7 @@ from occ_model.study.cause.suspects import (
     suspect_other_light,
     suspect_overexposure,
 )
-from occ_model.study.observation import observe, panel_span
+from occ_model.study.signals.pictures import observe_images, picture_itself
 from occ_model.transmitter.scheme import check_code, scheme_of
 
 
@@ -139,12 +139,9 @@ class _CauseSearch:
         self._heartbeat()
         scene, settings = attempt.scene, attempt.settings
         try:
-            span = panel_span(scene)
-            plan = signal_plan([scene], settings, needs_pixels=span is None)
-            random = np.random.default_rng(settings.seed)
-            if self._path == "image":
-                span = None
-            observation = observe(paper_view_of(scene), span, plan, random, self._path)
+            plan = signal_plan([scene], settings, is_estimated=self._path == "image")
+            image = picture_itself(scene, plan, settings.seed)
+            (observation,) = observe_images([image], self._path, plan)
         except OccError:
             return False
         if observation is None:

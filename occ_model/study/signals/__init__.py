@@ -1,0 +1,1 @@
+"""What decoders read from many pictures at once, simulated without their pixels."""

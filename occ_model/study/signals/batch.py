@@ -1,0 +1,392 @@
+"""Simulate the signals that decoders read from many pictures at once.
+
+All rows of a band have the same distribution, see :mod:`occ_model.study.signals.bands`, so that
+nothing needs pixels: the histogram of a picture is the sum of its columns' distributions, the
+receiver's enhancement follows from it, and a mean over rows is normal. What does not depend on the
+light is computed once for all pictures of a scene, whatever their frequency and exposure.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby, islice
+from typing import Any
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
+from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.exposure import lit_fractions
+from occ_model.camera.grey_law import GreyLaw, grey_law
+from occ_model.camera.interpolation import Places, divide_weights, interpolate_at
+from occ_model.camera.photometry import (
+    ColumnLight,
+    panel_values,
+    saturate,
+    surroundings_values,
+)
+from occ_model.camera.projection import check_size
+from occ_model.effects.effect import FileEffect, LightEffect, PixelEffect
+from occ_model.effects.noise import noise_of
+from occ_model.effects.registry import effects_named
+from occ_model.receiver.decode import decode
+from occ_model.receiver.signal import bright_level
+from occ_model.results.decoding import DecodeResult, Region
+from occ_model.scene.scene import Scene
+from occ_model.study.signals.bands import Bands, bands_of, without_light
+from occ_model.study.signals.grey_tables import (
+    GREYS,
+    GreyTable,
+    StoredMeans,
+    places_of_stored,
+    split,
+    table_of_file,
+    table_of_law,
+    table_without_noise,
+)
+from occ_model.study.signals.region import BrightPixels
+
+_MOST_VALUES = 2**17  # pixel values of bands that are computed at once, to stay in a cache
+_MOST_IMAGES = 64  # images that are simulated at once
+_IDENTITY: FloatArray = np.arange(float(GREYS))[None, :]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Observation:
+    """The signal that a decoder reads."""
+
+    signal: FloatArray | ByteArray  # Shape (columns of the region,): mean grey level of each column
+    # The rectangle of the image over which the signal is averaged; None if the image shows no panel
+    # and the signal is a whole row
+    region: Region | None
+
+    def read(self, scene: Scene, decoder: str) -> DecodeResult:
+        result = decode(self.signal, scene, decoder)
+        return result if self.region is None else replace(result, region=self.region)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Image:
+    """One picture of a scene, whose own start time and flicker's phase are not used."""
+
+    scene: Scene
+    included: frozenset[str]  # Names of the effects
+    start_time: float
+    flicker_phase: float
+    random: np.random.Generator
+
+
+def simulate_images(images: Sequence[Image]) -> Iterator[Observation]:
+    """Simulate images one after the other, those of similar scenes at once."""
+    for each in _alike(images):
+        yield from each.observe()
+
+
+def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observation]:
+    """Simulate an image; return also the means of the panel's pixels before and after enhancement.
+
+    They have the shape (columns,), and are computed for columns that do not show the panel, too.
+    """
+    (alike,) = _alike([image])
+    (observation,) = alike.observe()
+    profile, signal = alike.profiles()
+    region, span = observation.region, alike.bands.span
+    if region is not None and span is not None and region.rows == span.rows:
+        signal[region.first_column : region.last_column] = observation.signal
+    return profile, signal, observation
+
+
+def _alike(images: Sequence[Image]) -> Iterator["_Pictures"]:
+    """Group images by what does not depend on the light."""
+
+    def key(image: Image) -> tuple[Scene, frozenset[str]]:
+        return without_light(image.scene), image.included
+
+    for _, group in groupby(images, key):
+        remaining = iter(group)
+        while first := next(remaining, None):
+            check_size(first.scene.camera)
+            bands = bands_of(first.scene, first.included)
+            size = max(bands.panel.size, first.scene.camera.columns)
+            count = min(max(_MOST_VALUES // size, 1), _MOST_IMAGES)
+            yield _Pictures([first, *islice(remaining, count - 1)], bands)
+
+
+def _expose(images: Sequence[Image]) -> tuple[FloatArray, FloatArray]:
+    """Return pixel values on the panel, (images, columns), and beside it, (images, columns or 1)."""
+    panels, arounds = [], []
+    for scene, group in groupby(images, lambda image: image.scene):
+        of_scene = list(group)
+        starts = [image.start_time for image in of_scene]
+        phases = [image.flicker_phase for image in of_scene]
+        light = ColumnLight(np.ones((1, 1)), np.ones((len(starts), 1)))
+        effects = effects_named(of_scene[0].included, LightEffect)
+        if not any(effect.sets_panel_light(scene) for effect in effects):
+            light = replace(light, lit=lit_fractions(scene, starts))
+        for effect in effects:
+            light = effect.apply_to_images(scene, light, starts, phases)
+        panels.append(panel_values(scene, light))
+        arounds.append(surroundings_values(scene, light))
+    width = max(around.shape[1] for around in arounds)
+    wide = [np.broadcast_to(around, (len(around), width)) for around in arounds]
+    return np.concatenate(panels), np.concatenate(wide)
+
+
+def _even_out(panel: FloatArray) -> FloatArray:
+    """Make values equal that differ only by rounding, since they could round to two levels."""
+    low = panel.min(axis=1, keepdims=True)
+    return np.where(panel.max(axis=1, keepdims=True) - low < 1e-9, low, panel)
+
+
+class _Pixels:
+    """The law of a pixel's grey level by its mean value, for many pictures at once."""
+
+    def __init__(self, law: GreyLaw | None) -> None:
+        self.law = law
+        self.table = table_without_noise() if law is None else table_of_law(law)
+
+    def places(self, values: Pixels | FloatArray) -> Places:
+        """Return the places of pixel values in the table."""
+        if self.law is None:
+            return to_bytes(values).astype(np.intp), np.zeros(values.shape, dtype=np.float32)
+        return split(self.law.levels_of(values.astype(np.float32)), len(self.table.below))
+
+
+def _part(places: Places, columns: slice) -> Places:
+    """Return the places of some columns as those of one band."""
+    return places[0][:, None, columns], places[1][:, None, columns]
+
+
+class _Pictures:
+    """Some pictures of scenes that differ only in light."""
+
+    def __init__(self, images: Sequence[Image], bands: Bands) -> None:
+        self._images, self.bands = images, bands
+        self._scene = scene = images[0].scene
+        self._randoms = [image.random for image in images]
+        included = images[0].included
+        panel, around = _expose(images)
+        noise, law = noise_of(scene, included), None
+        if noise is None:
+            for limit in effects_named(included, PixelEffect):
+                panel, around = limit.apply(scene, panel), limit.apply(scene, around)
+            panel, around = _even_out(saturate(panel)), saturate(around)
+        else:
+            law = grey_law(noise, max(float(panel.max()), float(around.max())))
+        self._panel, self._around = panel, around
+        self._pixels = _Pixels(law)
+        self._places = self._pixels.places(panel)
+        self._enhancements = self._enhance()
+        self._curves = np.array([each.curve for each in self._enhancements], dtype=np.float64)
+        files = effects_named(included, FileEffect)
+        self._steps = next((file.steps(scene) for file in files if file.is_present(scene)), None)
+        self._table = self._pixels.table
+        if self._steps is not None:
+            self._table = table_of_file(law, self._steps.tobytes())
+
+    def _enhance(self) -> list[Enhancement]:
+        """Return each picture's enhancement, as :func:`occ_model.effects.noise.enhancement_of`."""
+        pixels, panel = self._pixels, self._panel
+        ends = np.stack([panel.min(axis=1), panel.max(axis=1)], axis=1)
+        if pixels.law is not None:
+            ends = interpolate_at(pixels.law.means, pixels.places(ends))
+        weights = np.full(panel.shape, float(self._scene.camera.rows), dtype=np.float32)
+        counts = pixels.table.histograms(_weights_of_levels(self._places, weights, pixels.table))
+        method = self._scene.model.enhancement
+        return [Enhancement(end, method, own) for end, own in zip(ends, counts, strict=True)]
+
+    def profiles(self) -> tuple[FloatArray, FloatArray]:
+        """Return the first picture's expected means of the panel's pixels, (columns,) each."""
+        below, fraction = self._places
+        places, law = (below[0], fraction[0]), self._pixels.law
+        enhanced = self._pixels.table.means_of(self._curves[:1])[0]
+        profile = self._panel[0] if law is None else interpolate_at(law.means, places)
+        return profile, np.array(interpolate_at(enhanced, places), dtype=np.float64)
+
+    def observe(self) -> Iterator[Observation]:
+        """Simulate the signals that decoders read."""
+        span = self.bands.span
+        if span is None:
+            for around in np.broadcast_to(saturate(self._around), self._panel.shape):
+                yield Observation(to_bytes(around), None)
+            return
+        inside, mixed, beside = self._find_places()
+        regions = self._draw_regions(inside, mixed, beside)
+        mean, variance = self._mean_over_bands(inside, mixed)
+        of_beside, variance_beside = self._identity_moments(beside)
+        for index, region in enumerate(regions):
+            crossed = min(region.last_row, span.last_row) - max(region.first_row, span.first_row)
+            part = max(crossed, 0) / region.rows
+            means, spread = (
+                self._in_region(region, inner[index], outer[index], part)
+                for inner, outer in ((mean, of_beside), (variance, variance_beside))
+            )
+            if self._pixels.law is not None:
+                noise = self._randoms[index].standard_normal(len(means))
+                means += np.sqrt(spread / region.rows) * noise
+            yield Observation(means, region)
+
+    def _in_region(
+        self, region: Region, inner: FloatArray, outer: FloatArray, part: float
+    ) -> FloatArray:
+        """Return a quantity's mean over a rectangle's rows, of which a part is in the bands."""
+        seen, columns = self.bands.columns, self.bands.size[1]
+        means = np.broadcast_to(outer, (columns,)).astype(np.float64)
+        means[seen] = part * inner + (1.0 - part) * means[seen]
+        return means[region.first_column : region.last_column]
+
+    def _mean_over_bands(self, inside: Places, mixed: Places) -> tuple[FloatArray, FloatArray]:
+        """Return the mean of pixels of the receiver's picture, and their variance in a band."""
+        part = self.bands.panel
+        mean = _interpolate(self._table.means_of(self._curves), inside)
+        is_panel = bool((part == 1.0).all())
+        variance: FloatArray = np.zeros((len(mean), mean.shape[2]))
+        if self._pixels.law is not None:
+            square = _interpolate(self._table.means_of(self._curves**2), _some_bands(inside))
+            own = _some_bands_of(mean)
+            variance = np.maximum(square - own**2, 0.0).mean(axis=1)
+        if not is_panel:
+            columns = np.flatnonzero((part != 1.0).any(axis=0))
+            off, variance_off = self._identity_moments(_columns_of(mixed, columns))
+            mean[:, :, columns] += (1.0 - part[:, columns]) * (off - mean[:, :, columns])
+            fraction = part[:, columns].mean(axis=0)
+            variance[:, columns] *= fraction
+            variance[:, columns] += (1.0 - fraction) * variance_off.mean(axis=1)
+        return mean.mean(axis=1, dtype=np.float64), variance
+
+    def _identity_moments(self, places: Places) -> tuple[FloatArray, FloatArray]:
+        """Return mean and variance of pixels that are not enhanced."""
+        mean, square = (
+            interpolate_at(self._table.means_of(_IDENTITY**power)[0], places) for power in (1, 2)
+        )
+        return mean, np.maximum(square - mean**2, 0.0)
+
+    def _find_places(self) -> tuple[Places, Places, Places]:
+        """Return places in the table: of panel and surroundings in the bands, and beside them."""
+        bands, pixels = self.bands, self._pixels
+        dimming = 1.0 if bands.dimming_beside is None else bands.dimming_beside
+        beside = pixels.places(np.atleast_2d(self._around * dimming))
+        if bands.light is None:
+            around = pixels.places(self._around)
+            seen = bands.columns if around[0].shape[1] > 1 else slice(None)
+            return _part(self._places, bands.columns), _part(around, seen), beside
+        around_seen = self._around[:, bands.columns] if self._around.shape[1] > 1 else self._around
+        values = bands.expose(self._panel[:, bands.columns], around_seen, self._scene.camera)
+        places = pixels.places(values)
+        if self._steps is None:
+            return places, places, beside
+        table, law = pixels.table, pixels.law
+        identity = table.means_of(_IDENTITY)[0].astype(np.float32)
+        noise = np.zeros(len(table.below)) if law is None else law.deviations**2
+        means, variance = (
+            interpolate_at(each, places) for each in (identity, noise.astype(np.float32))
+        )
+        count = means.shape[2]
+        numbers = np.array([
+            random.integers(0, 2**32, count, dtype=np.uint32) for random in self._randoms
+        ])  # fmt: skip
+        noise = float(np.sqrt(variance.mean()))
+        stored = StoredMeans(self._steps, len(bands.panel), noise).store(means, variance, numbers)
+        places = places_of_stored(stored)
+        return places, places, places_of_stored(interpolate_at(identity, beside))
+
+    def _draw_regions(self, inside: Places, mixed: Places, beside: Places) -> list[Region]:
+        """Draw the rectangle in which a receiver finds the panel, for each picture."""
+        bands, table = self.bands, self._table
+        inside, mixed = _some_bands(inside), _some_bands(mixed)
+        part = _some_bands_of(bands.panel[None])[0]
+        levels = self._bright_levels(inside, mixed, beside, part)
+        # The enhancement never falls: a pixel is bright after it if it is before.
+        before = np.array([
+            np.searchsorted(curve, level) for curve, level in zip(self._curves, levels, strict=True)
+        ])  # fmt: skip
+        bright = _interpolate(table.fractions_from(before), inside)
+        unenhanced = table.fractions_from(levels)
+        if (part != 1.0).any():
+            columns = np.flatnonzero((part != 1.0).any(axis=0))
+            off = _interpolate(unenhanced, _columns_of(mixed, columns))
+            bright[:, :, columns] += (1.0 - part[:, columns]) * (off - bright[:, :, columns])
+        around = _interpolate(unenhanced, beside).astype(np.float32)
+        shape = len(around), bands.size[1]
+        everywhere = np.empty((shape[0], len(part), shape[1]), dtype=np.float32)
+        everywhere[:] = around[:, None]
+        everywhere[:, :, bands.columns] = bright
+        assert bands.span is not None  # noqa: S101 - only called with a panel in view
+        pixels = BrightPixels(
+            bands.size, bands.span, everywhere, np.array(np.broadcast_to(around, shape))
+        )
+        return pixels.draw_regions(self._randoms)
+
+    def _bright_levels(
+        self, inside: Places, mixed: Places, beside: Places, part: Pixels
+    ) -> IndexArray:
+        """Return the grey level from which a pixel of the receiver's picture counts as bright."""
+        bands = self.bands
+        rows, columns = bands.size
+        assert bands.span is not None  # noqa: S101 - only called with a panel in view
+        each = np.float32(bands.span.rows / len(part))
+        counts = np.zeros((len(self._images), GREYS))
+        enhanced = self._histograms(inside, each * part)
+        for index, own in enumerate(enhanced):
+            curve = self._enhancements[index].curve
+            counts[index] = np.bincount(curve, weights=own, minlength=GREYS)
+        if (part != 1.0).any():
+            counts += self._histograms(mixed, each * (np.float32(1.0) - part))
+        outside = np.full(columns, float(rows), dtype=np.float32)
+        outside[bands.columns] -= bands.span.rows
+        counts += self._histograms(beside, outside)
+        if self._pixels.law is not None:
+            drawn = [random.poisson(own) for random, own in zip(self._randoms, counts, strict=True)]
+        else:
+            drawn = list(np.rint(counts).astype(np.int64))
+        fraction = self._scene.receiver.bright_fraction
+        found = [bright_level(own, fraction) for own in drawn]
+        return np.array([0 if level is None else level for level in found])
+
+    def _histograms(self, places: Places, weights: Pixels) -> FloatArray:
+        if places[0].shape[-1] == 1:
+            weights = weights.sum(axis=-1, keepdims=True)
+        weights = np.broadcast_to(weights, places[0].shape)
+        return self._table.histograms(_weights_of_levels(places, weights, self._table))
+
+
+_SOME_BANDS = 4  # bands that suffice to find the panel, and to measure the noise
+
+
+def _some_bands(places: Places) -> Places:
+    return _some_bands_of(places[0]), _some_bands_of(places[1])
+
+
+def _some_bands_of(values: Pixels) -> Any:
+    """Return some of the bands, evenly from the first to the last: shape (images, bands, ...)."""
+    count = values.shape[1]
+    if count <= _SOME_BANDS:
+        return values
+    return values[:, np.linspace(0, count - 1, _SOME_BANDS).round().astype(int)]
+
+
+def _columns_of(places: Places, columns: IndexArray) -> Places:
+    if places[0].shape[-1] == 1:
+        return places
+    return places[0][..., columns], places[1][..., columns]
+
+
+def _weights_of_levels(places: Places, weights: Pixels, table: GreyTable) -> FloatArray:
+    """Return the sums of weights at each level of a table, for each picture: (images, levels)."""
+    below, fraction = places
+    count, levels = len(below), len(table.below)
+    offset = (np.arange(count) * levels).reshape(-1, *(1,) * (below.ndim - 1))
+    sums = divide_weights(weights, (below + offset, fraction), count * levels)
+    return sums.reshape(count, levels)
+
+
+def _interpolate(tables: FloatArray, places: Places) -> Pixels:
+    """Interpolate a table of its own, (images, levels), for each picture, in single precision."""
+    below, fraction = places
+    values = tables.astype(np.float32)
+    steps = np.zeros_like(values)
+    np.subtract(values[:, 1:], values[:, :-1], out=steps[:, :-1])
+    at = below + (np.arange(len(tables)) * tables.shape[1]).reshape(-1, *(1,) * (below.ndim - 1))
+    found = steps.ravel().take(at)
+    found *= fraction
+    found += values.ravel().take(at)
+    return found

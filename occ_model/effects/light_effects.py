@@ -47,7 +47,7 @@ class LedEdges(LightEffect):
         scene: Scene,
         light: ColumnLight,
         start_times: Sequence[float],
-        phases: Sequence[float],
+        phases: Sequence[float],  # noqa: ARG002 - of the mains
     ) -> ColumnLight:
         if not self.is_present(scene):
             return light

@@ -13,7 +13,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, PluginError
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
-from occ_model.receiver.decode import decoder_named
+from occ_model.receiver.decode import decode_profiles, decoder_named
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
@@ -124,10 +124,10 @@ def right_bits_of_images(
             if chosen is None
             else observe_batch(pictures, chosen, first, last)
         )
-        for observation in observations:
+        results = [_read(scene, observations, decoder) for decoder in settings.decoders]
+        for of_image in zip(*results, strict=True):
             heartbeat()
-            results = _read_by_decoders(scene, observation, settings.decoders)
-            yield tuple(_count_right_bits(result, sent) for result in results)
+            yield tuple(_count_right_bits(result, sent) for result in of_image)
         first, count = last, 1 if settings.path == "image" else min(3 * count, _MOST_IN_BATCH)
 
 
@@ -179,12 +179,14 @@ def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:
     return int(np.count_nonzero(result.bits == sent))
 
 
-def _read_by_decoders(
-    scene: Scene, observation: Observation | None, decoders: Sequence[str]
+def _read(
+    scene: Scene, observations: Sequence[Observation | None], decoder: str
 ) -> list[DecodeResult]:
-    if observation is None:
-        return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in decoders]
-    return [observation.read(scene, decoder) for decoder in decoders]
+    """Read the pictures that show a panel, all at once."""
+    signals = [each.signal for each in observations if each is not None]
+    read = iter(decode_profiles(signals, [scene] * len(signals), decoder))
+    unread = DecodeResult(decoder, failure=_NO_PANEL)
+    return [unread if each is None else next(read) for each in observations]
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:

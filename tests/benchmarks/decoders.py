@@ -28,14 +28,12 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import level_values
 from occ_model.camera.projection import row_spans
-from occ_model.effects.effect import paper_view_of
-from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import NAMES
+from occ_model.effects.plan import complete_plan
 from occ_model.receiver.decode import DECODERS
 from occ_model.scene.scene import Scene, SimulationSettings
-from occ_model.simulation.row_sample import sample_picture
 from occ_model.study.bit_error_rate import with_payload
-from occ_model.study.observation import observe_profile, observe_sample, panel_span
+from occ_model.study.signals.batch import simulate_images
+from occ_model.study.signals.pictures import picture_itself
 
 PRESETS = ("phone-136us", "phone-136us-real")
 ENHANCEMENTS = ("none", "equalization")
@@ -54,14 +52,8 @@ FREQUENCIES = tuple(np.arange(4e3, 61e3, 2e3).tolist())
 
 def signal_of(scene: Scene, random: np.random.Generator) -> FloatArray:
     """Return the column means that a decoder reads of one picture."""
-    view = paper_view_of(scene)
-    chosen = plan_of(view, SimulationSettings(observable="signal").check(NAMES))
-    span = panel_span(scene)
-    if span is not None and "image" not in chosen.kinds:
-        return np.asarray(observe_profile(view, span, chosen, random).signal, dtype=np.float64)
-    sample = sample_picture(view, chosen, int(random.integers(2**32)))
-    seen = None if sample is None else observe_sample(sample, scene, chosen, random)
-    assert seen is not None
+    plan = complete_plan(scene, SimulationSettings(observable="signal"))
+    (seen,) = simulate_images([picture_itself(scene, plan, int(random.integers(2**32)))])
     return np.asarray(seen.signal, dtype=np.float64)
 
 

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, Pixels
+from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.coverage import Coverage, column_spans
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
@@ -39,15 +39,13 @@ class Bands:
     # Shape (bands, seen): the panel's light in each pixel as a fraction; None if all pixels show
     # either the panel or the surroundings
     light: Pixels | None
+    # Shape (bands, seen): the weights of the bands in a column's mean, to which the surroundings
+    # add what is missing; None if all are equal
+    weights: Pixels | None
     # Shape (bands, seen) and (columns,): factors of pixel values by the lens, in the bands and
     # beside them
     dimming: Pixels | None
     dimming_beside: Pixels | None
-
-    @property
-    def rows_each(self) -> float:
-        """Rows of the picture for which a band stands."""
-        return (self.span.rows if self.span else 0) / len(self.panel)
 
     def expose(self, panel: FloatArray, around: FloatArray, camera: Camera) -> Pixels:
         """Return the mean pixel values of the bands before saturation, (images, bands, seen).
@@ -61,9 +59,8 @@ class Bands:
         if len(mixed[0]):
             dark = np.broadcast_to(luminance_of(around, camera), panel.shape)[:, mixed[1]]
             lit = luminance_of(panel[:, mixed[1]], camera)
-            values[:, mixed[0], mixed[1]] = pixel_value(
-                dark + self.light[mixed] * (lit - dark), camera
-            )
+            light = dark + np.asarray(self.light[mixed], dtype=np.float64) * (lit - dark)
+            values[:, mixed[0], mixed[1]] = pixel_value(light, camera)
         if self.dimming is not None:
             values *= self.dimming
         return np.asarray(values)
@@ -94,49 +91,73 @@ def _bands_of(scene: Scene, included: frozenset[str]) -> Bands:
         optics = effect.apply(scene, optics)
     span = region_of(optics.outline, rows, columns)
     if span is None:
-        return Bands(size, None, slice(0), np.zeros((1, 0)), None, None, None)
+        return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
     has_file = any(each.is_present(scene) for each in effects_named(included, FileEffect))
     if optics.is_plain and not has_file:
         first, last = column_spans(optics.outline, rows, columns)
         seen = np.flatnonzero(last > first)
         if not len(seen):
-            return Bands(size, None, slice(0), np.zeros((1, 0)), None, None, None)
+            return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
         span = Region(
             int(first[seen].min()), int(last[seen].max()), int(seen[0]), int(seen[-1]) + 1
         )
         seen_columns = slice(span.first_column, span.last_column)
         part = ((last - first) / span.rows).astype(np.float32)[None, seen_columns]
-        return Bands(size, span, seen_columns, part, None, None, None)
+        return Bands(size, span, seen_columns, part, None, None, None, None)
+    return _sample_rows(scene, optics, span)
+
+
+def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
+    rows, columns = size = scene.camera.rows, scene.camera.columns
     starts = _first_rows(span)
     coverage = Coverage(optics.outline, rows, columns, optics.blur)
-    light = np.array(
-        [coverage.rows(range(at, min(at + BLOCK, rows))).mean(axis=0) for at in starts]
+    covered = np.array(
+        [coverage.rows(range(at, min(at + BLOCK, rows))).mean(axis=0) for at in starts.tolist()]
     )
-    lit = np.flatnonzero(light.any(axis=0))
+    lit = np.flatnonzero(covered.any(axis=0))
     if not len(lit):
-        return Bands(size, None, slice(0), np.zeros((1, 0)), None, None, None)
-    first_block, last_block = int(lit[0]) // BLOCK, int(lit[-1]) // BLOCK + 1
-    seen_columns = slice(first_block * BLOCK, min(last_block * BLOCK, columns))
-    light = light[:, seen_columns]
+        return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
+    first, last = int(lit[0]) // BLOCK * BLOCK, (int(lit[-1]) // BLOCK + 1) * BLOCK
+    seen = slice(first, min(last, columns))
+    light: Pixels = covered[:, seen].astype(np.float32)
     panel = (light >= 0.5).astype(np.float32)
-    middle, everywhere = starts + 0.5 * (BLOCK - 1), slice(0, columns)
+    weights = _weights(panel, optics.outline, span, size, seen)
+    middle = np.asarray(starts + 0.5 * (BLOCK - 1), dtype=np.float64)
     for gain in optics.emission:
-        light = light * gain.at(middle, seen_columns)
+        light = np.multiply(light, gain.at(middle, seen))
+    if not optics.transmission:
+        return Bands(size, span, seen, panel, light, weights, None, None)
     beside = np.array([0.5 * span.first_row, 0.5 * (span.last_row + rows - 1)])
-    dimming = dimming_beside = None
-    if optics.transmission:
-        dimming, at_ends = np.ones_like(light), np.ones((2, columns), dtype=np.float32)
-        for gain in optics.transmission:
-            dimming *= gain.at(middle, seen_columns)
-            at_ends *= gain.at(beside, everywhere)
-        power = 1.0 / scene.camera.gamma
-        dimming, dimming_beside = dimming**power, at_ends.mean(axis=0) ** power
-    return Bands(size, span, seen_columns, panel, light, dimming, dimming_beside)
+    dimming, dimming_beside = np.ones_like(light), np.ones((2, columns), dtype=np.float32)
+    for gain in optics.transmission:
+        dimming = np.multiply(dimming, gain.at(middle, seen))
+        dimming_beside = np.multiply(dimming_beside, gain.at(beside, slice(0, columns)))
+    power = np.float32(1.0 / scene.camera.gamma)
+    beside_bands = dimming_beside.mean(axis=0) ** power
+    return Bands(size, span, seen, panel, light, weights, dimming**power, beside_bands)
 
 
-def _first_rows(span: Region) -> FloatArray:
+def _weights(
+    panel: Pixels, outline: FloatArray, span: Region, size: tuple[int, int], seen: slice
+) -> Pixels:
+    """Return the bands' weights: the part of a column's rows that each stands for.
+
+    Of rows in which the panel ends within a band's part, those beside it are left to the
+    surroundings.
+    """
+    first, last = (end[seen] for end in column_spans(outline, *size))
+    count = len(panel)
+    ends = span.first_row + np.arange(count + 1)[:, None] * (span.rows / count)
+    crossed = np.minimum(ends[1:], last) - np.maximum(ends[:-1], first)
+    crossed = np.maximum(crossed, 0.0) / span.rows
+    shown = (panel * crossed).sum(axis=0)
+    own = crossed * (crossed.sum(axis=0) / np.where(shown > 0.0, shown, np.inf))
+    return np.asarray(np.where(panel == 1.0, own, 1.0 / count - crossed), dtype=np.float32)
+
+
+def _first_rows(span: Region) -> IndexArray:
     """Return the first rows of the bands, blocks in the middles of equal parts of the span."""
     first, last = span.first_row // BLOCK, -(-span.last_row // BLOCK)
     count = min(BANDS, last - first)
     blocks = first + ((np.arange(count) + 0.5) * ((last - first) / count)).astype(int)
-    return blocks * BLOCK
+    return np.asarray(blocks * BLOCK)

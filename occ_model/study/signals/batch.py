@@ -112,7 +112,7 @@ def _alike(images: Sequence[Image]) -> Iterator["_Pictures"]:
 
 
 def _expose(images: Sequence[Image]) -> tuple[FloatArray, FloatArray]:
-    """Return pixel values on the panel, (images, columns), and beside it, (images, columns or 1)."""
+    """Return pixel values on the panel, (images, columns), and beside it, perhaps in one column."""
     panels, arounds = [], []
     for scene, group in groupby(images, lambda image: image.scene):
         of_scene = list(group)
@@ -195,12 +195,19 @@ class _Pictures:
         return [Enhancement(end, method, own) for end, own in zip(ends, counts, strict=True)]
 
     def profiles(self) -> tuple[FloatArray, FloatArray]:
-        """Return the first picture's expected means of the panel's pixels, (columns,) each."""
+        """Return the first picture's expected means of the panel's pixels, (columns,) each.
+
+        Those of columns that do not show it are without noise.
+        """
         below, fraction = self._places
-        places, law = (below[0], fraction[0]), self._pixels.law
-        enhanced = self._pixels.table.means_of(self._curves[:1])[0]
-        profile = self._panel[0] if law is None else interpolate_at(law.means, places)
-        return profile, np.array(interpolate_at(enhanced, places), dtype=np.float64)
+        places, law, seen = (below[0], fraction[0]), self._pixels.law, self.bands.columns
+        profile = saturate(self._panel[0])
+        signal = self._enhancements[0](profile).astype(np.float64)
+        if law is not None:
+            enhanced = self._pixels.table.means_of(self._curves[:1])[0]
+            profile[seen] = interpolate_at(law.means, places)[seen]
+            signal[seen] = interpolate_at(enhanced, places)[seen]
+        return profile, signal
 
     def observe(self) -> Iterator[Observation]:
         """Simulate the signals that decoders read."""
@@ -210,9 +217,15 @@ class _Pictures:
                 yield Observation(to_bytes(around), None)
             return
         inside, mixed, beside = self._find_places()
+        # Drawn before what takes a varying number of random numbers.
+        columns = self.bands.size[1]
+        noise = [random.standard_normal(columns, dtype=np.float32) for random in self._randoms]
         regions = self._draw_regions(inside, mixed, beside)
         mean, variance = self._mean_over_bands(inside, mixed)
         of_beside, variance_beside = self._identity_moments(beside)
+        if self.bands.weights is not None:
+            missing = 1.0 - self.bands.weights.sum(axis=0)
+            mean += missing * self._seen(of_beside)
         for index, region in enumerate(regions):
             crossed = min(region.last_row, span.last_row) - max(region.first_row, span.first_row)
             part = max(crossed, 0) / region.rows
@@ -221,9 +234,13 @@ class _Pictures:
                 for inner, outer in ((mean, of_beside), (variance, variance_beside))
             )
             if self._pixels.law is not None:
-                noise = self._randoms[index].standard_normal(len(means))
-                means += np.sqrt(spread / region.rows) * noise
+                own = noise[index][region.first_column : region.last_column]
+                means += np.sqrt(spread / region.rows) * own
             yield Observation(means, region)
+
+    def _seen(self, values: FloatArray) -> FloatArray:
+        """Return values, (images, columns or 1), in the columns of the bands."""
+        return values if values.shape[1] == 1 else values[:, self.bands.columns]
 
     def _in_region(
         self, region: Region, inner: FloatArray, outer: FloatArray, part: float
@@ -243,7 +260,7 @@ class _Pictures:
         if self._pixels.law is not None:
             square = _interpolate(self._table.means_of(self._curves**2), _some_bands(inside))
             own = _some_bands_of(mean)
-            variance = np.maximum(square - own**2, 0.0).mean(axis=1)
+            variance = np.maximum(square - own**2, 0.0).mean(axis=1, dtype=np.float64)
         if not is_panel:
             columns = np.flatnonzero((part != 1.0).any(axis=0))
             off, variance_off = self._identity_moments(_columns_of(mixed, columns))
@@ -251,7 +268,9 @@ class _Pictures:
             fraction = part[:, columns].mean(axis=0)
             variance[:, columns] *= fraction
             variance[:, columns] += (1.0 - fraction) * variance_off.mean(axis=1)
-        return mean.mean(axis=1, dtype=np.float64), variance
+        if self.bands.weights is None:
+            return mean.mean(axis=1, dtype=np.float64), variance
+        return np.asarray((mean * self.bands.weights).sum(axis=1, dtype=np.float64)), variance
 
     def _identity_moments(self, places: Places) -> tuple[FloatArray, FloatArray]:
         """Return mean and variance of pixels that are not enhanced."""
@@ -269,23 +288,25 @@ class _Pictures:
             around = pixels.places(self._around)
             seen = bands.columns if around[0].shape[1] > 1 else slice(None)
             return _part(self._places, bands.columns), _part(around, seen), beside
-        around_seen = self._around[:, bands.columns] if self._around.shape[1] > 1 else self._around
-        values = bands.expose(self._panel[:, bands.columns], around_seen, self._scene.camera)
+        values = bands.expose(
+            self._panel[:, bands.columns], self._seen(self._around), self._scene.camera
+        )
         places = pixels.places(values)
         if self._steps is None:
             return places, places, beside
         table, law = pixels.table, pixels.law
-        identity = table.means_of(_IDENTITY)[0].astype(np.float32)
-        noise = np.zeros(len(table.below)) if law is None else law.deviations**2
+        identity = table.means_of(_IDENTITY)[0]
+        squares = np.zeros(len(table.below)) if law is None else law.deviations**2
+        below, fraction = places
         means, variance = (
-            interpolate_at(each, places) for each in (identity, noise.astype(np.float32))
+            interpolate_at(each, (below, fraction)).astype(np.float32)
+            for each in (identity, squares)
         )
         count = means.shape[2]
         numbers = np.array([
             random.integers(0, 2**32, count, dtype=np.uint32) for random in self._randoms
         ])  # fmt: skip
-        noise = float(np.sqrt(variance.mean()))
-        stored = StoredMeans(self._steps, len(bands.panel), noise).store(means, variance, numbers)
+        stored = StoredMeans(self._steps).store(means, variance, numbers)
         places = places_of_stored(stored)
         return places, places, places_of_stored(interpolate_at(identity, beside))
 
@@ -356,7 +377,7 @@ def _some_bands(places: Places) -> Places:
     return _some_bands_of(places[0]), _some_bands_of(places[1])
 
 
-def _some_bands_of(values: Pixels) -> Any:
+def _some_bands_of(values: Any) -> Any:
     """Return some of the bands, evenly from the first to the last: shape (images, bands, ...)."""
     count = values.shape[1]
     if count <= _SOME_BANDS:
@@ -375,7 +396,7 @@ def _weights_of_levels(places: Places, weights: Pixels, table: GreyTable) -> Flo
     below, fraction = places
     count, levels = len(below), len(table.below)
     offset = (np.arange(count) * levels).reshape(-1, *(1,) * (below.ndim - 1))
-    sums = divide_weights(weights, (below + offset, fraction), count * levels)
+    sums = divide_weights(np.asarray(weights, float), (below + offset, fraction), count * levels)
     return sums.reshape(count, levels)
 
 
@@ -389,4 +410,4 @@ def _interpolate(tables: FloatArray, places: Places) -> Pixels:
     found = steps.ravel().take(at)
     found *= fraction
     found += values.ravel().take(at)
-    return found
+    return np.asarray(found)

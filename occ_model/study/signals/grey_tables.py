@@ -16,13 +16,17 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.interpolation import Places
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.normal_noise import density_at_boundaries, square_of_rounded_noise
+from occ_model.effects.normal_noise import (
+    density_at_boundaries,
+    square_of_rounded_noise,
+)
 
 GREYS = 256
 _MOST_MULTIPLIED = 2**18
 """Multiplications of a product of matrices below which a library starts no threads."""
 _PER_GREY = 2  # levels to a grey level of a file's pixels
 _FILE_LEVELS = (GREYS - 1) * _PER_GREY + 1
+_LEAST_NOISE = 1e-6  # grey levels, in place of none
 _FINE, _BEYOND = 4, 40  # steps to a grey level of a fine grid, and grey levels beyond its ends
 _QUANTILE_BITS = 12
 _STRIDE = 5  # equal steps from the number of a band to that of the next one
@@ -103,9 +107,10 @@ def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyTable:
     levels = np.interp(means, rising, np.arange(len(rising)))
     noise = np.interp(levels, np.arange(len(rising)), law.deviations)
     step = np.frombuffer(steps).reshape(8, 8)
-    weights = np.ones((8, 8))
-    weights[0] = dithered_fraction(float(noise.mean()), step)
-    relative = np.maximum(noise, 1e-6)[:, None, None] / step
+    # What of the noise of blocks' means differs from pixel to pixel; the rest is in the means.
+    weights = np.ones((len(means), 8, 8))
+    weights[:, 0] = dithered_fraction(noise[:, None], step)
+    relative = np.maximum(noise, _LEAST_NOISE)[:, None, None] / step
     kept = (weights * density_at_boundaries(relative)).mean(axis=(1, 2))
     variance = (weights * square_of_rounded_noise(relative) * step**2).mean(axis=(1, 2))
     rest = np.sqrt(np.maximum(variance - (kept * noise) ** 2, 0.0))
@@ -143,9 +148,13 @@ def _spread(
     return np.clip(half / cumulated[:, -1:], 0.0, 1.0)
 
 
-def dithered_fraction(noise: float, steps: FloatArray) -> float:
-    """Return how much the rounding of blocks' means is averaged out by noise: from 0 to 1."""
-    return float(density_at_boundaries(np.maximum(noise, 1e-6) / steps[0]).mean())
+def dithered_fraction(noise: FloatArray, steps: FloatArray) -> FloatArray:
+    """Return how much noise averages out the rounding of blocks' means: from 0 to 1.
+
+    ``noise`` has a last axis of length 1, which stays.
+    """
+    relative = np.maximum(noise, _LEAST_NOISE) / steps[0]
+    return np.asarray(density_at_boundaries(relative).mean(axis=-1, keepdims=True))
 
 
 def places_of_stored(means: np.ndarray) -> Places:
@@ -170,10 +179,9 @@ class StoredMeans:
     numbers of their noise in equal steps from a random first one (systematic sampling).
     """
 
-    def __init__(self, steps: FloatArray, bands: int, noise: float) -> None:
-        self._dithered = np.float32(dithered_fraction(noise, steps)) if noise else np.float32(0.0)
+    def __init__(self, steps: FloatArray) -> None:
+        self._steps = steps
         self._step = steps[0].astype(np.float32)
-        self._bands = bands
         self._transform = _cosine_transform()
 
     def store(self, means: np.ndarray, variance: np.ndarray, numbers: np.ndarray) -> np.ndarray:
@@ -209,18 +217,19 @@ class StoredMeans:
         coefficient += spread
         error = np.rint(coefficient) - coefficient
         change = np.where(is_even, np.float32(0.0), error).mean(axis=1, keepdims=True)
-        if self._dithered < _FULLY_DITHERED:
+        noise = np.sqrt(variance.mean(axis=(1, 2), dtype=np.float64))
+        own_part = 1.0 - dithered_fraction(noise[:, None], self._steps)
+        if own_part.max() > _NEGLIGIBLE_PART:
             own = error + spread
-            change = change + (np.float32(1.0) - self._dithered) * (
-                own - own.mean(axis=1, keepdims=True)
-            )
+            own -= own.mean(axis=1, keepdims=True)
+            change = change + own_part.astype(np.float32)[:, :, None, None] * own
         change *= self._step / np.float32(math.sqrt(8.0))
         stored = (change @ self._transform).reshape(images, change.shape[1], -1)
         return np.asarray((means + stored)[..., :columns])
 
 
 _EVEN_NOISE = 0.6  # noise of a coefficient, in steps, above which its rounding has no mean error
-_FULLY_DITHERED = 0.99  # dithered fraction above which the blocks' own changes are neglected
+_NEGLIGIBLE_PART = 0.01  # of what rounding changes in single blocks that is neglected
 
 
 @lru_cache(maxsize=1)

@@ -54,7 +54,7 @@ class BrightPixels:
             likeliest = np.argmax(in_row, axis=1)
             missed = np.flatnonzero(across.any(axis=1) & ~down.any(axis=1))
             down[missed, likeliest[missed]] = True
-        found = across.any(axis=1)
+        found = np.asarray(across.any(axis=1))
         of_rows, of_columns = self._dark_rows(), self._dark_columns()
         ends = [
             [*_bright_ends(down[found], of_rows[found], drawn[found, :2])],
@@ -69,7 +69,8 @@ class BrightPixels:
     def _dark_columns(self) -> FloatArray:
         """Return the logarithm of the probability that a column has no bright pixel."""
         dark = self.span.rows * _log_dark(self.inside).mean(axis=1)
-        return dark + (self.size[0] - self.span.rows) * _log_dark(self.beside)
+        dark += (self.size[0] - self.span.rows) * _log_dark(self.beside)
+        return np.asarray(dark)
 
     def _dark_rows(self) -> FloatArray:
         """Return the logarithm of the probability that a row has no bright pixel."""
@@ -79,11 +80,11 @@ class BrightPixels:
         dark = bands[:, np.clip(band, 0, bands.shape[1] - 1)]
         is_beside = (rows < span.first_row) | (rows >= span.last_row)
         dark[:, is_beside] = _log_dark(self.beside).sum(axis=1, keepdims=True)
-        return dark
+        return np.asarray(dark)
 
 
 def _log_dark(bright: Pixels) -> Pixels:
-    return np.log1p(-np.minimum(bright, np.float32(_MAX_PROBABILITY)))
+    return np.asarray(np.log1p(-np.minimum(bright, np.float32(_MAX_PROBABILITY))))
 
 
 def _bright_ends(
@@ -122,7 +123,7 @@ def _first_bright(
     seen = np.minimum(start[:, None] + place, dark.shape[1] - 1)
     own = np.where(place < count[:, None], np.take_along_axis(dark, seen, axis=1), 0.0)
     some_bright = -np.expm1(np.cumsum(own, axis=1))
-    return np.argmax(some_bright >= drawn[:, None] * some_bright[:, -1:], axis=1)
+    return np.asarray(np.argmax(some_bright >= drawn[:, None] * some_bright[:, -1:], axis=1))
 
 
 class _Fractions(NamedTuple):

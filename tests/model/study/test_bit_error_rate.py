@@ -52,13 +52,13 @@ def test_the_same_seed_gives_the_same_errors() -> None:
 def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
     """Return the plan with which each picture of a measurement is simulated."""
     used: list[Plan] = []
-    whole = success_rate.observe_picture
+    whole = success_rate.observe_batch
 
     def reading(*arguments: Any) -> Any:
         used.append(arguments[1])
         return whole(*arguments)
 
-    monkeypatch.setattr(success_rate, "observe_picture", reading)
+    monkeypatch.setattr(success_rate, "observe_batch", reading)
     occ.bit_error_rate(scene, bits=bits, seed=2)
     return used
 

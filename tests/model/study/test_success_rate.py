@@ -2,19 +2,19 @@
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.effect import paper_view_of
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate as module
-from occ_model.study.observation import observe_profile, panel_span
+from occ_model.study.signals.batch import Image, Observation, simulate_images
+from occ_model.study.signals.pictures import observe_images, picture_itself
 
 
 @pytest.fixture
@@ -54,8 +54,7 @@ def test_the_rate_is_the_fraction_of_correct_bits_and_only_accepted_payloads_are
 def test_the_profile_path_has_the_images_signal_with_noise(scene: Scene) -> None:
     noisy = {"sensor-noise": True}
     chosen = occ.plan(scene, tolerance=np.inf, force=noisy)
-    random = np.random.default_rng(2)
-    by_profile = observe_profile(paper_view_of(scene), panel_span(scene), chosen, random)
+    (by_profile,) = simulate_images([picture_itself(scene, chosen, seed=2)])
     assert by_profile.region is not None
     region = by_profile.region
     image = occ.render(scene, tolerance=np.inf, force=noisy, seed=3).image.astype(float)
@@ -69,21 +68,14 @@ def test_the_profile_path_has_the_images_signal_with_noise(scene: Scene) -> None
     assert 0.5 < deviation.std() < 1.1
 
 
-def test_a_panel_that_is_not_level_is_measured_by_its_image(scene: Scene) -> None:
-    for axis in ("yaw", "pitch"):
-        with pytest.raises(occ.ParameterError, match="level"):
-            occ.success_rate(scene.replace(rows=3000, **{axis: 0.3}), 1, path="profile")
-    tilted = scene.replace(roll=0.02)
-    with pytest.raises(occ.ParameterError, match="level"):
-        occ.success_rate(tilted, 1, path="profile")
-    assert occ.success_rate(tilted, 1) == 100.0
-
-
-def test_an_image_effect_is_measured_by_the_image(scene: Scene) -> None:
-    blurred = scene.replace(point_spread=3.0)
-    with pytest.raises(occ.ParameterError, match="an image effect"):
-        occ.success_rate(blurred, 1, tolerance=0.0, path="profile")
-    assert occ.success_rate(blurred, 1, tolerance=0.0) == 100.0
+@pytest.mark.parametrize("changes", [{"roll": 0.02}, {"yaw": 0.3}, {"point_spread": 3.0}])
+def test_every_name_of_a_path_without_pixels_measures_the_same(
+    scene: Scene, changes: dict[str, float]
+) -> None:
+    at = scene.replace(switching_frequency=14.3e3, **changes)
+    rates = {occ.success_rate(at, 4, path=path) for path in ("auto", "profile", "rows")}
+    assert len(rates) == 1
+    assert occ.success_rate(scene.replace(**changes), 1) == 100.0
 
 
 def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
@@ -116,7 +108,7 @@ def test_a_study_without_pixels_simulates_all_effects_of_the_scene(
     }
     assert len(rates) == 1
     with pytest.raises(AssertionError, match="estimated"):
-        occ.success_rate(scene, 3, path="rows")
+        occ.success_rate(scene.replace(rows=300), 3, path="image")
     with pytest.raises(AssertionError, match="estimated"):
         occ.success_rate(scene, 3, tolerance=math.inf)
 
@@ -124,15 +116,13 @@ def test_a_study_without_pixels_simulates_all_effects_of_the_scene(
 def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.study import observation
+    simulated: list[Image] = []
 
-    simulated: list[object] = []
+    def simulate(images: Sequence[Image], *others: Any) -> Iterator[Observation | None]:
+        simulated.extend(images)
+        return observe_images(images, *others)
 
-    def simulate(*arguments: Any) -> observation.Observation | None:
-        simulated.append(arguments)
-        return observation.observe(*arguments)
-
-    monkeypatch.setattr(module, "observe", simulate)
+    monkeypatch.setattr(module, "observe_images", simulate)
     at = scene.replace(distance=1.0371)
     rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
     assert len(simulated) == 3

@@ -163,7 +163,8 @@ class ExposurePlot(QWidget):
             self.column.setValue(column)
         self.hold.setChecked(is_held)
 
-    def show_window(self, window: ExposureWindow, level: float) -> None:
+    def show_window(self, window: ExposureWindow, level: float, *, has_edges: bool = False) -> None:
+        """Show a column's exposure and level; ``has_edges``: whether that is lit by slow edges."""
         edges = window.edges * _MICRO
         start, end = window.start * _MICRO, window.end * _MICRO
         last = edges[-1]
@@ -182,7 +183,8 @@ class ExposurePlot(QWidget):
         fraction = f"{100.0 * window.on_time / window.exposure_time:.0f} %"
         light = f"light {fraction}"
         if np.isin(window.levels, (0.0, 1.0)).all():
-            light = f"LED on for {SECOND.format(window.on_time, 4)} ({fraction})"
+            verb, delay = ("switched on", ", lit later by its rise,") if has_edges else ("on", "")
+            light = f"LED {verb} for {SECOND.format(window.on_time, 4)} ({fraction}){delay}"
         text = (
             f"Column {window.column}: {SECOND.format(window.exposure_time, 4)} exposure, "
             f"{light} → {level:.1f} grey levels"

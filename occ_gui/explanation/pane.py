@@ -80,7 +80,8 @@ class ExposureController(QObject):
         self._plot.show_column(self._column, len(profile), self._is_held)
         self._picker.show_column(self._column, self._is_held)
         window = exposure_window(snapshot.frame.scene, self._column)
-        self._plot.show_window(window, float(profile[self._column]))
+        level, has_edges = float(profile[self._column]), snapshot.has_edges
+        self._plot.show_window(window, level, has_edges=has_edges)
 
 
 class ExplanationView(QWidget):

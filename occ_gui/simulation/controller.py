@@ -141,14 +141,14 @@ class SimulationController(QObject):
             report(reading)
             reading = None
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
-        report(MoveTime.of(frame))
         if reading is not None:
             reading = replace(reading, has_picture=True)
         report(Picture.of(frame, request.picture_kind, request, reading))
         report.wait_for_paint(_LONGEST_PAINT)
         if reading is not None:
             report.give_way()  # the verdict is shown already, so a later scene comes first
-        snapshot = snapshot_of(request, frame)
+        snapshot = snapshot_of(request, frame)  # which may need the receiver's picture, too
+        report(MoveTime.of(frame))
         if failed_decoders(snapshot):
             report(snapshot)
         return explain_failures(snapshot, report.give_way)

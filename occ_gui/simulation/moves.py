@@ -5,7 +5,12 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import TypeAlias
 
-from occ_gui.simulation.jobs import draft_of, reading_by_profile, reading_of_draft
+from occ_gui.simulation.jobs import (
+    draft_of,
+    reading_by_profile,
+    reading_of_draft,
+    snapshot_of,
+)
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.accuracy import MeasuredCosts, TimeFractions, Times
@@ -64,6 +69,7 @@ def time_move(request: SimulationRequest, *, with_draft: bool) -> list[MoveTime]
         if move.draft is not None:
             times.append(MoveTime.of(move.draft, move.draft_seconds))
     frame = render_with(request.scene, request.settings, planned=planned)
+    snapshot_of(request, frame)  # which may need the receiver's picture, too
     return [*times, MoveTime.of(frame)]
 
 

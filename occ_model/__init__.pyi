@@ -32,6 +32,10 @@ from .photo.reading.load import (
     load_photo as load_photo,
 )
 from .photo.stripes.find import find_stripes as find_stripes
+from .receiver.colour import (
+    decode_colours as decode_colours,
+    measure_mixing as measure_mixing,
+)
 from .receiver.decode import decode as decode, decoders as decoders
 from .receiver.decoder import Decoder as Decoder, read_payload as read_payload
 from .results.bands import (
@@ -42,6 +46,10 @@ from .results.bands import (
 from .results.bars_answer import BarsAnswer as BarsAnswer, UnlitRows as UnlitRows
 from .results.bit_errors import BitErrors as BitErrors, MostBits as MostBits
 from .results.camera import CameraMeasurement as CameraMeasurement
+from .results.colour import (
+    ColourFrame as ColourFrame,
+    ColourReading as ColourReading,
+)
 from .results.decoding import (
     DecodeResult as DecodeResult,
     Region as Region,
@@ -108,6 +116,7 @@ from .simulation.band_model import (
     band_lengths as band_lengths,
     band_profile as band_profile,
 )
+from .simulation.colour import render_colour as render_colour
 from .simulation.render import render as render
 from .study.accuracy import accuracy as accuracy
 from .study.bands.advice import band_advice as band_advice

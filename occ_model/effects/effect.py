@@ -28,6 +28,7 @@ from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.projection import panel_corners
 from occ_model.results.decoding import Region
 from occ_model.results.frame import Stage
+from occ_model.scene.colour_scenes import check_monochrome
 from occ_model.scene.scene import Scene
 
 
@@ -62,6 +63,7 @@ def paper_view_of(
 
     ``end_stage`` is called with the name of each stage at its end.
     """
+    check_monochrome(scene)
     corners = panel_corners(scene)
     corner_bytes = corners.tobytes()
     outline = _outline_of(corner_bytes, scene.camera.rows, scene.camera.columns)

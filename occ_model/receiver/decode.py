@@ -23,6 +23,7 @@ from occ_model.receiver.matched.decoder import DECODER as MATCHED
 from occ_model.receiver.signal import column_means, locate
 from occ_model.receiver.threshold import DECODER as THRESHOLD
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region, RunHistogram, Runs
+from occ_model.scene.colour_scenes import check_monochrome
 from occ_model.scene.payload import MAX_PAYLOAD_BITS, form_of, payload_of_bits
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.plugin_checks import (
@@ -285,6 +286,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     PluginError
         The decoder is a plug-in that cannot be imported; if it fails later, ``failure`` names it.
     """
+    check_monochrome(scene)
     decoder_named(decoder)
     try:
         image = np.asarray(image)

@@ -12,6 +12,7 @@ from occ_model.scene.argument_checks import check_choice, check_seed, check_swit
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.parameters.camera import Camera as Camera, Lens as Lens, Sensor as Sensor
+from occ_model.scene.parameters.colour import Colours as Colours
 from occ_model.scene.parameters.light import (
     Surroundings as Surroundings,
     Transmitter as Transmitter,
@@ -102,6 +103,7 @@ class Scene:
     surroundings: Surroundings = field(default_factory=Surroundings)
     receiver: Receiver = field(default_factory=Receiver)
     model: Model = field(default_factory=Model)
+    colours: Colours = field(default_factory=Colours)
 
     def replace(self, **changes: ParameterValue) -> Self:
         """Return the scene with some parameters changed.
@@ -130,11 +132,30 @@ class Scene:
         return value
 
     def tables(self) -> dict[str, dict[str, ParameterValue]]:
-        """Return all parameters, one table for each group."""
+        """Return all parameters, one table for each group; none of colour without a colour camera.
+
+        A camera without a Bayer pattern has none of them.
+        """
+        groups = (group for group in GROUPS if group != "colours" or self.colours != Colours())
         return {
-            group: {name: getattr(getattr(self, group), name) for name in names}
-            for group, names in GROUPS.items()
+            group: {name: getattr(getattr(self, group), name) for name in GROUPS[group]}
+            for group in groups
         }
+
+    def colour(self, name: str) -> "Scene":
+        """Return the ordinary scene of one LED and the colour camera's own pixels for it.
+
+        ``name`` is ``"red"``, ``"green"`` or ``"blue"``; see :mod:`occ_model.scene.colour_scenes`.
+
+        Raises
+        ------
+        ParameterError
+            There is no such colour, the camera is monochrome, or the scene is none of a colour
+            camera, such as one that averages pixel values.
+        """
+        from occ_model.scene.colour_scenes import colour_scene  # needed by colour cameras only
+
+        return colour_scene(self, name)
 
     def to_toml(self) -> str:
         """Write the scene as the text of a scene file."""

@@ -10,6 +10,7 @@ from typing import TypeVar
 from occ_model.errors import ParameterError, quote
 from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Payload, Quantity
 from occ_model.scene.parameters.camera import Camera, Lens, Sensor
+from occ_model.scene.parameters.colour import Colours
 from occ_model.scene.parameters.group import Group
 from occ_model.scene.parameters.light import Surroundings, Transmitter
 from occ_model.scene.parameters.pose_receiver_model import Model, Pose, Receiver
@@ -25,6 +26,7 @@ _GROUPS: tuple[type[Group], ...] = (
     Surroundings,
     Receiver,
     Model,
+    Colours,
 )
 
 PARAMETERS: dict[str, Parameter] = {

@@ -1,0 +1,178 @@
+"""Read the three colours of a picture by a colour camera.
+
+Each colour is read from its own pixels, which demosaicing leaves as they are: the signal of a
+monochrome camera (:meth:`occ_model.Scene.colour`), which any decoder reads. If a filter lets other
+LEDs' light through, the means of the light are first unmixed by the inverse of the mixing matrix.
+In columns without pixels of a channel, its light is interpolated from four others by a cubic.
+"""
+
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.mosaic import light_of_greys, mosaic_of
+from occ_model.camera.photometry import WHITE
+from occ_model.errors import DecodeInputError, ParameterError
+from occ_model.receiver.csk import read_symbols
+from occ_model.receiver.decode import decoder_named, read_with
+from occ_model.receiver.signal import column_means, locate
+from occ_model.results.colour import ColourReading
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
+from occ_model.scene.colour_scenes import check_colour
+from occ_model.scene.parameters.colour import COLOURS, CSK_ORDERS
+from occ_model.scene.scene import Scene
+
+_CUBIC = np.array([-1.0, 0.0, 9.0, 16.0, 9.0, 0.0, -1.0]) / 16.0
+"""Half-way between samples by the cubic through four of them, and the samples themselves."""
+
+
+def decode_colours(
+    image: NDArray[np.uint8], scene: Scene, decoder: str = PAPER_DECODER
+) -> ColourReading:
+    """Read the codes of three LEDs, or a packet of colours.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (rows, columns, 3) or (rows, columns)
+        Red, green and blue, or a raw mosaic, with the columns as scan axis and the Bayer pattern's
+        first pixel first.
+    scene
+        What the receiver knows, with the Bayer pattern and the mixing matrix.
+    decoder
+        A name from :func:`occ_model.decoders`; colour shift keying has a receiver of its own.
+
+    Raises
+    ------
+    DecodeInputError
+        The image is not of this kind.
+    ParameterError
+        The scene is none of a colour camera, or the decoder does not exist.
+    """
+    check_colour(scene)
+    decoder_named(decoder)
+    signals = colour_signals(image, scene)
+    if signals is None:
+        failure = "No panel found: all pixels have nearly the same grey level."
+        return ColourReading((DecodeResult(decoder, failure=failure),) * 3, None)
+    kind = scene.colours.colour_light
+    if kind in CSK_ORDERS:
+        return ColourReading((read_symbols(signals.light(), scene),), signals.region)
+    results = (
+        replace(read_with(decoder, signal, scene.colour(colour)), region=signals.region)
+        for colour, signal in zip(COLOURS, signals.own(), strict=True)
+    )
+    return ColourReading(tuple(results), signals.region)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ColourSignals:
+    """The column means of each colour's pixels on the panel."""
+
+    scene: Scene
+    region: Region
+    # Shape (3, columns): grey levels or light of each channel; NaN in columns without its pixels
+    greys: FloatArray
+    lights: FloatArray
+
+    def own(self) -> list[FloatArray]:
+        """Return the grey levels of each LED, in the columns with pixels of its colour."""
+        seen = ~np.isnan(self.greys)
+        if not self.scene.colours.mixes:
+            return [row[has] for row, has in zip(self.greys, seen, strict=True)]
+        tone = 1.0 / self.scene.camera.gamma
+        greys = WHITE * np.maximum(self.light(), 0.0) ** tone
+        return [row[has] for row, has in zip(greys, seen, strict=True)]
+
+    def light(self) -> FloatArray:
+        """Return the light of each LED in every column, unmixed; that of white is 1."""
+        gains = np.array(self.scene.colours.gains)[:, None]
+        filled = np.array([_interpolate(row) for row in self.lights]) / gains
+        return np.asarray(np.linalg.solve(np.array(self.scene.colours.matrix), filled))
+
+
+def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | None:
+    """Find the panel and return the means of its pixels by column; None if there is none."""
+    image = np.asarray(image)
+    is_kind = image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)
+    if image.dtype != np.uint8 or not is_kind or min(image.shape[:2]) < 2:
+        raise DecodeInputError(
+            f"Three colours are read from 8-bit pixels of shape (rows, columns, 3), or a raw mosaic "
+            f"(rows, columns) of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
+        )
+    mosaic = mosaic_of(image, scene)
+    rows, columns = (size // 2 for size in mosaic.shape)
+    cells = cv2.resize(
+        mosaic[: 2 * rows, : 2 * columns], (columns, rows), None, 0, 0, cv2.INTER_AREA
+    )
+    location = locate(np.asarray(cells, dtype=np.uint8), scene.receiver.bright_fraction)
+    if location is None:
+        return None
+    greys = np.full((2, 3, 2 * location.region.columns), np.nan)
+    light = light_of_greys(scene.camera.gamma)
+    for place, letter in enumerate(scene.colours.bayer):
+        row, column = place // 2, place % 2
+        own = np.ascontiguousarray(mosaic[row : 2 * rows : 2, column : 2 * columns : 2])
+        means = greys[:, "rgb".index(letter), column::2]
+        means[0] = column_means(own, location.region)
+        means[1] = _mean_light(location.region.crop(own), light)
+    part = location.region
+    region = Region(
+        2 * part.first_row, 2 * part.last_row, 2 * part.first_column, 2 * part.last_column
+    )
+    return ColourSignals(scene, region, greys[0], greys[1])
+
+
+def _mean_light(pixels: ByteArray, light: FloatArray) -> FloatArray:
+    values = cv2.LUT(np.ascontiguousarray(pixels), light.astype(np.float32))
+    return np.asarray(cv2.reduce(values, 0, cv2.REDUCE_AVG, dtype=cv2.CV_64F)[0], dtype=np.float64)
+
+
+def _interpolate(row: FloatArray) -> FloatArray:
+    """Fill the columns without samples, which are every second one or none."""
+    missing = np.isnan(row)
+    if not missing.any():
+        return row
+    padded = np.pad(row, 4, mode="reflect")  # of period 2, so that samples stay in their places
+    return np.convolve(np.nan_to_num(padded), _CUBIC, mode="same")[4:-4]
+
+
+def measure_mixing(pictures: list[NDArray[np.uint8]], scene: Scene) -> Scene:
+    """Return the scene with the mixing matrix measured in a calibration stage.
+
+    Parameters
+    ----------
+    pictures
+        Four pictures of one camera: with the red, the green and the blue LED alone steadily lit,
+        and with none.
+
+    Raises
+    ------
+    ParameterError
+        The light of the four pictures gives no matrix that can be inverted.
+    DecodeInputError
+        A picture is none of a colour camera, or shows no panel.
+    """
+    if len(pictures) != 4:
+        raise ParameterError.of("pictures", f"{len(pictures)}", "4: red, green, blue and none lit")
+    lit = colour_signals(pictures[1], scene)
+    if lit is None:
+        raise DecodeInputError("The picture of the green LED shows no panel.")
+    means = [_channel_light(picture, lit.region, scene) for picture in pictures]
+    matrix = np.array([mean - means[3] for mean in means[:3]]).T
+    matrix = np.maximum(matrix / max(float(matrix.sum(axis=1).max()), 1e-9), 0.0)
+    text = " / ".join(" ".join(f"{number:.5f}" for number in row) for row in matrix)
+    return scene.replace(mixing=text)
+
+
+def _channel_light(picture: NDArray[np.uint8], region: Region, scene: Scene) -> FloatArray:
+    """Return the mean light of each channel in a region, before the white balance."""
+    light = light_of_greys(scene.camera.gamma)[region.crop(mosaic_of(picture, scene))]
+    sums, counts = np.zeros(3), np.zeros(3)
+    for place, letter in enumerate(scene.colours.bayer):
+        own = light[place // 2 :: 2, place % 2 :: 2]
+        sums["rgb".index(letter)] += own.sum()
+        counts["rgb".index(letter)] += own.size
+    return np.asarray(sums / counts / np.array(scene.colours.gains))

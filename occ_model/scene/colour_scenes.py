@@ -1,0 +1,153 @@
+"""Ordinary scenes from which colour pictures are made and read.
+
+A colour camera has a filter on each pixel, in a Bayer pattern: a sensor's line (a column here) has
+red and green pixels, or green and blue ones. So the red pixels are those of a monochrome camera
+that reads out a column every 2 t_r, with half the columns and half the rows; so are the blue ones,
+t_r later or earlier. Green pixels are in every column, in half the rows. What is known of a
+monochrome scene, such as decoders, limits and sweeps, thus holds for each colour of a raw picture.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from occ_model.errors import ParameterError, quote
+from occ_model.scene.csk import levels_of_colour
+from occ_model.scene.parameters.camera import DIAGONAL_35MM
+from occ_model.scene.parameters.colour import COLOURS, CSK_ORDERS
+from occ_model.scene.scene import Scene
+
+
+def is_colour(scene: Scene) -> bool:
+    """Return whether a scene has a colour camera."""
+    return scene.colours.bayer != "none"
+
+
+def check_monochrome(scene: Scene) -> None:
+    """Refuse a scene of a colour camera where one colour is simulated or read."""
+    if is_colour(scene):
+        raise ParameterError.of(
+            "bayer", scene.colours.bayer,
+            "none, or one colour of the scene: scene.colour('red'), --colour red",
+            parameters=("bayer",),
+        )  # fmt: skip
+
+
+def check_colour(scene: Scene) -> None:
+    """Refuse a scene that has no colour camera, or one whose light does not add up."""
+    if not is_colour(scene):
+        raise ParameterError.of("bayer", "none", "a pattern such as rggb", parameters=("bayer",))
+    if scene.model.averaging != "light":
+        raise ParameterError.of(
+            "averaging", scene.model.averaging, "light", condition="for a colour camera",
+            parameters=("averaging", "bayer"),
+        )  # fmt: skip
+    sent, kind = scene.transmitter, scene.colours.colour_light
+    if kind == "white":
+        return
+    if sent.light != "code" or (kind == "three-codes" and (sent.payload or sent.pattern)):
+        raise ParameterError.of(
+            "colour_light", kind, "white",
+            condition="for a light other than a code, or three codes with a payload or pattern",
+            parameters=("colour_light", "light"),
+        )  # fmt: skip
+    for name, code in scene.colours.codes.items() if kind == "three-codes" else ():
+        if code >= 2**sent.bits:
+            raise ParameterError.of(
+                name, f"{code}", f"0 to {2**sent.bits - 1}",
+                condition=f"with {sent.bits} bits", parameters=(name, "bits"),
+            )  # fmt: skip
+
+
+def led_scene(scene: Scene, index: int) -> Scene:
+    """Return the monochrome scene of one LED, and of all the camera's pixels, without a file."""
+    sent, kind = scene.transmitter, scene.colours.colour_light
+    colour = COLOURS[index]
+    if kind == "three-codes" and index:
+        sent = replace(sent, code=scene.colours.codes[f"{colour}_code"])
+    elif kind in CSK_ORDERS:
+        levels = levels_of_colour(kind, sent.payload_bits, index)
+        sent = replace(sent, light="waveform", levels=levels, waveform_file="")
+    elif kind in COLOURS and kind != colour:
+        sent = replace(sent, light="waveform", levels="1", waveform_file="")
+    return replace(
+        scene,
+        transmitter=sent,
+        camera=replace(scene.camera, jpeg_quality=0),
+        model=replace(scene.model, enhancement="none"),
+        colours=type(scene.colours)(),
+    )
+
+
+def channel_scene(scene: Scene, index: int) -> Scene:
+    """Return the monochrome scene of one channel: of its sensitivity to white, and its gain.
+
+    Its transmitter is the LED's of that colour alone; the lights are mixed when it is exposed.
+    """
+    own, colours = led_scene(scene, index), scene.colours
+    sensitivity = sum(colours.matrix[index])
+    return own.replace(
+        iso=own.camera.iso * colours.gains[index],
+        luminance=own.transmitter.luminance * sensitivity,
+        illuminance=own.surroundings.illuminance * sensitivity,
+    )
+
+
+def noise_gain(scene: Scene, index: int) -> float:
+    """Return by how much solving the mixing matrix enlarges the noise of one LED's light.
+
+    It is the norm of a row of the inverse, as for channels that are equally noisy.
+    """
+    return float(np.linalg.norm(np.linalg.inv(scene.colours.matrix)[index]))
+
+
+def colour_scene(scene: Scene, name: str) -> Scene:
+    """Return the scene of one LED and of the pixels with its filter.
+
+    Fewer rows stand for the noise that solving the mixing matrix adds. The picture's geometry is
+    kept for a panel that faces the camera; a rim can be half a pixel off.
+    """
+    if name not in COLOURS:
+        raise ParameterError.of("colour", quote(name), ", ".join(COLOURS))
+    check_colour(scene)
+    index = COLOURS.index(name)
+    own = led_scene(scene, index)
+    row, column = scene.colours.first_pixel(name)
+    camera, sensor, sent, pose = own.camera, own.sensor, own.transmitter, own.pose
+    every = 1 if name == "green" else 2
+    columns = camera.columns if every == 1 else len(range(column, camera.columns, 2))
+    rows = max(1, round(len(range(row, camera.rows, 2)) / noise_gain(scene, index) ** 2))
+    # Pixels need not be square: a panel of another height stands for rows of another height.
+    height = rows / camera.rows * every
+    diagonal = (rows**2 + columns**2) ** 0.5
+    return replace(
+        own,
+        transmitter=sent.replaced({"panel_height": sent.panel_height * height}),
+        camera=camera.replaced(
+            {
+                "iso": camera.iso * scene.colours.gains[index],
+                "rows": rows,
+                "columns": columns,
+                "readout_time": every * camera.readout_time,
+                "equivalent_focal_length": camera.focal_length_pixels
+                / every
+                * DIAGONAL_35MM
+                / diagonal,
+            }
+        ),
+        # A pixel of twice the pitch that catches a quarter of the light is as noisy.
+        sensor=sensor.replaced(
+            {
+                "pixel_pitch": sensor.pixel_pitch * every,
+                "quantum_efficiency": sensor.quantum_efficiency / every**2,
+            }
+        ),
+        lens=own.lens.replaced({"point_spread": own.lens.point_spread / every}),
+        pose=pose.replaced({"offset_y": pose.offset_y * height}),
+        model=own.model.replaced(
+            {
+                "start_time": own.model.start_time
+                + (column * camera.readout_time if every == 2 else 0.0)
+            }
+        ),
+    )

@@ -33,7 +33,19 @@ def _rows_text(rows: list[tuple[float, float]]) -> str:
     )
 
 
+def _matrix_text(numbers: list[int]) -> str:
+    rows = (numbers[first : first + 3] for first in (0, 3, 6))
+    # A large diagonal can be inverted.
+    return " / ".join(
+        " ".join(f"{(number + 10 * (row == column)) / 4:g}" for column, number in enumerate(line))
+        for row, line in enumerate(rows)
+    )
+
+
 LIGHT_TEXTS = {
+    "mixing": st.one_of(
+        st.just(""), st.lists(st.integers(0, 4), min_size=9, max_size=9).map(_matrix_text)
+    ),
     "levels": LEVEL_LINES,
     "waveform_file": st.one_of(st.just(""), _ROWS.map(_rows_text)),
 }
@@ -57,5 +69,10 @@ def values_of(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
 
 
 def presets_of_codes() -> tuple[str, ...]:
-    """Return the names of the presets whose transmitter sends a code."""
-    return tuple(name for name in presets() if load_preset(name).transmitter.light == "code")
+    """Return the names of the presets whose transmitter sends one code."""
+    scenes = {name: load_preset(name) for name in presets()}
+    return tuple(
+        name
+        for name, scene in scenes.items()
+        if scene.transmitter.light == "code" and scene.colours.bayer == "none"
+    )

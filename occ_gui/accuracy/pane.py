@@ -68,7 +68,7 @@ class AccuracyController(QObject):
         return not is_busy and self.forecasts.is_idle
 
     def _request(self) -> SimulationRequest:
-        return SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
+        return SimulationRequest(self._scenes.seen, self._scenes.settings.settings)
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible

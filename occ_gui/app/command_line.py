@@ -68,7 +68,7 @@ def read_start(options: argparse.Namespace) -> Start:
     _check_qt()
     settings = simulation_settings_of(options)
     has_settings = settings != simulation_settings_of(make_parser().parse_args([]))
-    return start_of(options, scene_of(options), settings, has_settings)
+    return start_of(options, scene_of(options, may_have_colours=True), settings, has_settings)
 
 
 def _check_qt() -> None:

@@ -23,7 +23,7 @@ class BandsPane(Pane[Scene]):
         self.view = BandsView()
         super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
-        self._ages, self._shown_scene = ResultAges(scenes.scene), scenes.scene
+        self._ages, self._shown_scene = ResultAges(scenes.seen), scenes.seen
         self._task: Task[Scene, SceneBars] = Task(lambda scene, _: compute_bars(scene), "bars")
         self._answers: Task[LampQuestion, BarsAnswer] = Task(
             lambda question, _: answer_question(question), "answer of bars"
@@ -49,7 +49,7 @@ class BandsPane(Pane[Scene]):
 
     def _show_lamp(self) -> None:
         question = self.view.lamp.form.question
-        scene = as_bright(self._scenes.scene, question.exposure_time)
+        scene = as_bright(self._scenes.seen, question.exposure_time)
         self._scenes.put(question.apply_to(scene), "lamp that makes bars")
 
     def _show(self, bars: SceneBars) -> None:
@@ -65,5 +65,5 @@ class BandsPane(Pane[Scene]):
         self.view.outdated.show_age(self._ages.age(self._shown_scene), text)
 
     def _set_exposure(self, exposure: float) -> None:
-        scene = as_bright(self._scenes.scene, exposure)
+        scene = as_bright(self._scenes.seen, exposure)
         self._scenes.put(scene, "shutter speed without bars")

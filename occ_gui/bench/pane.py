@@ -85,7 +85,7 @@ class BenchController(QObject):
     def start(self) -> None:
         self.channel.cancel()
         try:
-            request = request_of(self._choice, self._scenes.scene)
+            request = request_of(self._choice, self._scenes.seen)
             check_bench(request)
         except OccError as refusal:
             self._view.show_ended(str(refusal))
@@ -143,7 +143,7 @@ class BenchController(QObject):
         if self._request is None:
             return
         try:
-            request = request_of(self._choice, self._scenes.scene)
+            request = request_of(self._choice, self._scenes.seen)
         except OccError:
             self._view.show_outdated(True)
             return

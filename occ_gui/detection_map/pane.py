@@ -69,7 +69,7 @@ class DetectionMapController(QObject):
     def _request(self) -> MapRequest:
         x, y = self._axes
         defaults = {name: quantity(name).default for name in self._axes}
-        scene = self._scenes.scene.replace(**{**UNSEEN_PARAMETERS, **defaults})
+        scene = self._scenes.seen.replace(**{**UNSEEN_PARAMETERS, **defaults})
         return MapRequest(scene, x, y, self._scenes.settings.settings, self._with_image_effects)
 
     def set_visible(self, visible: bool) -> None:
@@ -96,7 +96,7 @@ class DetectionMapController(QObject):
     def _follow_change(self) -> None:
         if not self._is_visible:
             return
-        self._view.show_scene(self._scenes.scene)
+        self._view.show_scene(self._scenes.seen)
         self._show_omissions()
         request = self._request()
         self._ages.begin(request)
@@ -113,7 +113,7 @@ class DetectionMapController(QObject):
         self.channel.put(request, jobs)
 
     def _show_omissions(self) -> None:
-        scene, settings = self._scenes.scene, self._scenes.settings.settings
+        scene, settings = self._scenes.seen, self._scenes.settings.settings
         self._view.show_omissions(
             () if self._with_image_effects else find_omitted_effects(scene, settings)
         )

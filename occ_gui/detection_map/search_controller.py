@@ -164,7 +164,7 @@ class AdvisorController(SearchController):
 
     def _request(self) -> AdviceRequest:
         settings = self._scenes.settings.settings
-        return AdviceRequest(self._scenes.scene, settings, self._with_image_effects)
+        return AdviceRequest(self._scenes.seen, settings, self._with_image_effects)
 
     def start(self, rank: int = FIRST_RANK) -> None:
         """Search for the limits of the present scene."""
@@ -221,7 +221,7 @@ class MostBitsController(SearchController):
 
     def _request(self) -> MostBitsRequest:
         workspace = self._scenes.store.workspace
-        return MostBitsRequest(most_bits.reset_varied(workspace.scene), workspace.frame_rate)
+        return MostBitsRequest(most_bits.reset_varied(self._scenes.seen), workspace.frame_rate)
 
     def start(self) -> None:
         """Search at the exposure and the distance of the present scene."""

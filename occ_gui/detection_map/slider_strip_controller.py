@@ -77,7 +77,7 @@ class RateController(QObject):
 
     def _request(self) -> RateRequest:
         decoder = self._scenes.store.workspace.decoder
-        return RateRequest(self._scenes.scene, self._scenes.settings.settings, decoder)
+        return RateRequest(self._scenes.seen, self._scenes.settings.settings, decoder)
 
     def _follow_change(self) -> None:
         raise NotImplementedError

@@ -27,13 +27,13 @@ class EquationController(QObject):
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible
-        if visible and self._shown_scene != self._scenes.scene:
+        if visible and self._shown_scene != self._scenes.seen:
             self._shown_scene = None  # changes made while hidden are not recent
-            self._show(self._scenes.scene)
+            self._show(self._scenes.seen)
 
     def show_only(self, name: str) -> None:
         self._only_name, self._shown_scene = name, None
-        self._show(self._scenes.scene)
+        self._show(self._scenes.seen)
 
     def _show(self, scene: Scene) -> None:
         if not self._is_visible:

@@ -69,7 +69,9 @@ class ControlPanel(QWidget):
         self.light = row_for(PARAMETERS["light"])
         self.code = CodeEntry()
         self.forced = ForcedEffects()
-        others = [name for name in PARAMETERS if name not in (*MAIN, *effects, "code", "light")]
+        colours = GROUPS["colours"]
+        elsewhere = (*MAIN, *effects, *colours, "code", "light")
+        others = [name for name in PARAMETERS if name not in elsewhere]
         model = [name for name in others if name in (*GROUPS["model"], *GROUPS["receiver"])]
         self._scene: Scene | None = None
         self._editor: SceneEditor | None = None
@@ -79,7 +81,10 @@ class ControlPanel(QWidget):
             "Effects": ParameterPage(
                 effects, lambda: ParameterPanel(effects, self._headings(stages))
             ),
-            "Model": ParameterPage(model),
+            "Model": ParameterPage(
+                [*model, *colours],
+                lambda: ParameterPanel([*model, *colours], {colours[0]: "Colour camera"}),
+            ),
         }
         self._main = self._pages["Main"].panel()
         for page in self._pages.values():

@@ -21,9 +21,12 @@ from occ_gui.scene.slider_scale import SliderScale
 from occ_gui.widgets.building import embolden, fill
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_model.results.teaching import MarkedValue
+from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene, Transmitter
+from occ_model.scene.scene import GROUPS, Scene, Transmitter
+
+_OF_COLOURS = frozenset(GROUPS["colours"]) - {"bayer"}  # of a colour camera only
 
 _SPACE_ABOVE = 6  # pixels above the label of each row but the first
 
@@ -46,7 +49,7 @@ class ParameterPanel(QWidget):
         self.rows: dict[str, ParameterRow] = {}
         self.labels: dict[str, QLabel] = {}
         self._spaces: dict[str, QSpacerItem] = {}
-        self._light = ""
+        self._shown_for = ("", False)
         layout = fill(QVBoxLayout(self), margins=_MARGINS, spacing=2)
         for name in names:
             self._spaces[name] = QSpacerItem(0, _SPACE_ABOVE)
@@ -65,14 +68,14 @@ class ParameterPanel(QWidget):
         layout.addStretch(1)
         self.show_light(Transmitter().light)
 
-    def show_light(self, light: str) -> None:
-        """Show the rows that scenes with this kind of light have."""
-        if light == self._light:
+    def show_light(self, light: str, *, has_colours: bool = False) -> None:
+        """Show the rows of scenes with this kind of light, and those of three colours."""
+        if (light, has_colours) == self._shown_for:
             return
-        self._light = light
+        self._shown_for = light, has_colours
         space_above = 0
         for name, row in self.rows.items():
-            is_shown = PARAMETERS[name].is_of(light)
+            is_shown = PARAMETERS[name].is_of(light) and (has_colours or name not in _OF_COLOURS)
             for part in (row, self.labels[name], self.play_buttons.get(name)):
                 if part is not None:
                     part.setVisible(is_shown)
@@ -96,7 +99,7 @@ class ParameterPanel(QWidget):
             layout.addWidget(widget)
 
     def show_scene(self, scene: Scene) -> None:
-        self.show_light(scene.transmitter.light)
+        self.show_light(scene.transmitter.light, has_colours=is_colour(scene))
         for name in ("levels", "switching_frequency"):  # unused if a recorded waveform is sent
             if name in self.rows:
                 self.rows[name].setEnabled(not replaces_levels(scene))

@@ -9,7 +9,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, Signal
 from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.scene.forced_effects import switch_text
-from occ_model.errors import OccError
+from occ_model.errors import OccError, ParameterError
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import refusal_of
@@ -77,6 +77,20 @@ class SceneStore(QObject):
     @property
     def scene(self) -> Scene:
         return self.store.workspace.scene
+
+    @property
+    def seen(self) -> Scene:
+        """The scene that one picture is about: of a colour camera, that of the shown colour.
+
+        If a colour camera's values do not go together, it is the scene itself, which is refused.
+        """
+        scene = self.scene
+        if scene.colours.bayer == "none":
+            return scene
+        try:
+            return scene.colour()
+        except ParameterError:
+            return scene
 
     def change(self, gesture: int = NO_GESTURE, **changes: ParameterValue) -> None:
         """Change parameters; an invalid change is refused with a sentence."""

@@ -110,7 +110,7 @@ class SimulationController(QObject):
             self.runner.ask(self._request())
 
     def _request(self) -> SimulationRequest:
-        scene = self._scenes.scene
+        scene = self._scenes.seen
         step = self._draft_rows.choose_step(scene.camera.rows, self._rows_per_pixel())
         picture_kind = self._scenes.store.workspace.picture_kind
         settings = self._scenes.settings.settings

@@ -20,6 +20,10 @@ from occ_model.camera.photometry import WHITE
 from occ_model.scene.scene import Scene
 
 _FULL = 65535.0  # light of a white pixel in 16 bits
+_SAMPLINGS = {
+    "subsampled": cv2.IMWRITE_JPEG_SAMPLING_FACTOR_420,
+    "full": cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444,
+}
 _BAND = 16  # rows that are converted at once
 _METHODS = {"bilinear": "", "vng": "_VNG", "edge-aware": "_EA"}
 
@@ -77,12 +81,12 @@ def mosaic_of(image: ByteArray, scene: Scene) -> ByteArray:
 
 
 def store_as_jpeg(image: ByteArray, quality: int, chroma: str) -> ByteArray:
-    """Return a colour picture as read from a JPEG file of some chroma resolution.
+    """Return a colour picture as read from a JPEG file with ``"full"`` or ``"subsampled"`` chroma.
 
-    Where the chroma of ``"4:2:0"`` has lost a stripe, all channels hold its luma alone: 0.299,
+    Where the chroma has lost a stripe, all channels hold its luma alone: 0.299,
     0.587 and 0.114 of the red, green and blue stripes (ITU-R BT.601).
     """
-    sampling = getattr(cv2, f"IMWRITE_JPEG_SAMPLING_FACTOR_{chroma.replace(':', '')}")
+    sampling = _SAMPLINGS[chroma]
     options = [
         cv2.IMWRITE_JPEG_QUALITY, quality, cv2.IMWRITE_JPEG_SAMPLING_FACTOR, sampling,
     ]  # fmt: skip

@@ -24,13 +24,16 @@ from occ_model.commands.options import (
 from occ_model.errors import ParameterError, inflect, one_line
 from occ_model.files.reading import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.photo.reading.colours import ColourPhoto, load_colours
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE
+from occ_model.receiver.colour import decode_colours, measure_mixing
 from occ_model.receiver.decode import DECODERS, decode
 from occ_model.receiver.signal import white_fraction
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, overexposed_text
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
+from occ_model.scene.colour_scenes import check_monochrome, is_colour
 from occ_model.scene.light_words import describe_light
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
@@ -67,6 +70,11 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--follow", action="store_true", help="for a film: print what is known after each frame"
     )
+    parser.add_argument(
+        "--calibration", type=Path, nargs=4, metavar=("RED", "GREEN", "BLUE", "DARK"),
+        help="of a colour camera: pictures with one LED steadily lit, and with none, by which "
+        "the mixing matrix is measured",
+    )  # fmt: skip
     add_tolerances(parser)
     parser.add_argument(
         "--offset-to",
@@ -79,7 +87,12 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    scene = scene_of(options)
+    scene = scene_of(options, may_have_colours=True)
+    if is_colour(scene) and not (options.follow or is_film(options.file)):
+        return _read_colours(options, scene)
+    check_monochrome(scene)
+    if options.calibration:
+        raise ParameterError("--calibration is for a colour camera; set bayer, such as bayer=rggb.")
     check_code(scene.transmitter, instead="match its picture")
     tolerances = tolerances_of(options)
     if options.follow or is_film(options.file):
@@ -90,6 +103,28 @@ def _run(options: argparse.Namespace) -> int:
     for sentence in _remarks(result, image, scene):
         print(sentence, file=sys.stderr)
     return 0 if result.failure is None else EXIT_FAILURE
+
+
+def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
+    """Read the three colours of a picture, and print one line with all of them first."""
+
+    def load(path: Path) -> ColourPhoto:
+        return load_colours(path, gamma=scene.camera.gamma, scan_axis=options.scan_axis)
+
+    photo = load(options.file)
+    if photo.bayer:
+        scene = scene.replace(bayer=photo.bayer)
+    if options.calibration:
+        scene = measure_mixing([load(path).image for path in options.calibration], scene)
+        print(f"mixing       {scene.colours.mixing}")
+    reading = decode_colours(photo.image, scene, options.decoder)
+    print(f"colours      {reading}")
+    if reading.region is not None:
+        print(f"region       {reading.region}")
+    for colour, result in reading.by_colour.items():
+        if result.failure is not None:
+            print(f"{colour}: {result.failure}", file=sys.stderr)
+    return 0 if reading.is_read else EXIT_FAILURE
 
 
 def _remarks(result: DecodeResult, image: ByteArray, scene: Scene) -> list[str]:

@@ -19,6 +19,7 @@ INPUTS = {  # options that name files to read, with the files' names in messages
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",
     "offset_to": "the film of --offset-to",
+    "calibration": "one of the files of --calibration",
 }
 
 OUTPUTS = {  # options that name a file or folder to write

@@ -31,7 +31,9 @@ from occ_model.results.limits import (
     two_packets_text,
 )
 from occ_model.results.sweep_request import RateSettings
+from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.parameters import quantity
+from occ_model.scene.parameters.colour import COLOURS
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
@@ -72,8 +74,18 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    scene = scene_of(options)
+    scene = scene_of(options, may_have_colours=True)
     FRAME_RATE.check(options.fps)
+    if not is_colour(scene):
+        return _print_limits(options, scene)
+    codes = []
+    for colour in COLOURS:
+        print(f"{colour.capitalize()}:")
+        codes.append(_print_limits(options, scene.colour(colour)))
+    return max(codes)
+
+
+def _print_limits(options: argparse.Namespace, scene: Scene) -> int:
     decoders = tuple(dict.fromkeys(options.decoder or DECODERS))
     with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
 

@@ -13,8 +13,10 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, quote
 from occ_model.program import discard
 from occ_model.receiver.decode import DECODERS, decoders
+from occ_model.scene.colour_scenes import check_monochrome
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
 from occ_model.scene.parameters import parameter_named
+from occ_model.scene.parameters.colour import COLOURS
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import (
     OBSERVABLES,
@@ -99,6 +101,10 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         "--scene", type=Path, metavar="FILE", help="a scene file in place of a preset"
     )
     parser.add_argument(
+        "--colour", choices=COLOURS,
+        help="of a colour camera: only the LED and the pixels of this colour",
+    )  # fmt: skip
+    parser.add_argument(
         "--set",
         dest="settings",
         metavar="NAME=VALUE",
@@ -109,7 +115,8 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def scene_of(options: argparse.Namespace) -> Scene:
+def scene_of(options: argparse.Namespace, *, may_have_colours: bool = False) -> Scene:
+    """Return the chosen scene, or one colour of it; only some commands work for all three."""
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
     new_scene = change_scene(scene, options.settings)
     light = new_scene.transmitter.light
@@ -121,6 +128,10 @@ def scene_of(options: argparse.Namespace) -> Scene:
                 f"{declared.name} changes nothing in the light {light}; set {lights} as well.",
                 parameters=(declared.name, "light"),
             )
+    if options.colour:
+        return new_scene.colour(options.colour)
+    if not may_have_colours:
+        check_monochrome(new_scene)
     return new_scene
 
 

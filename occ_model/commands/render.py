@@ -18,8 +18,10 @@ from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
+from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.from_text import write_scene_file
-from occ_model.scene.scene import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.simulation.colour import plan_colours, render_colour_with
 from occ_model.simulation.render import overexposed_fraction, render_with
 
 
@@ -48,9 +50,11 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    scene = scene_of(options)
+    scene = scene_of(options, may_have_colours=True)
     settings = simulation_settings_of(options)
     check_image_path(options.out)  # before seconds of work
+    if is_colour(scene):
+        return _render_colours(options, scene, settings)
     frame = render_with(scene, settings, options.rows_step)
     image, title = frame.picture(options.picture), frame.picture_title(options.picture)
     write_image(options.out, image, title)
@@ -71,6 +75,21 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _render_colours(options: argparse.Namespace, scene: Scene, settings: SimulationSettings) -> int:
+    frame = render_colour_with(scene, settings)
+    write_image(options.out, frame.image, frame.title)
+    if options.save_scene:
+        write_scene_file(options.save_scene, scene)
+    rows, columns = frame.image.shape[:2]
+    size = f"{inflect(columns, 'column')}, {inflect(rows, 'row')}"
+    milliseconds = 1e3 * sum(frame.timings.values())
+    description = f"{frame.title[:1].lower()}{frame.title[1:]}"
+    print(
+        f"{one_line(str(options.out))}: {size}, simulated in {milliseconds:.1f} ms, {description}"
+    )
+    return 0
+
+
 def _add_plan(commands: Commands) -> None:
     parser = commands.add_parser("plan", help="list the effects that a scene needs, and why")
     add_scene_options(parser)
@@ -80,6 +99,7 @@ def _add_plan(commands: Commands) -> None:
 
 
 def _list_effects(options: argparse.Namespace) -> int:
-    scene, settings = scene_of(options), simulation_settings_of(options)
-    print(plan_with(scene, settings))
+    scene = scene_of(options, may_have_colours=True)
+    settings = simulation_settings_of(options)
+    print(plan_colours(scene, settings) if is_colour(scene) else plan_with(scene, settings))
     return 0

@@ -99,15 +99,14 @@ def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | No
     is_kind = image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)
     if image.dtype != np.uint8 or not is_kind or min(image.shape[:2]) < 2:
         raise DecodeInputError(
-            f"Three colours are read from 8-bit pixels of shape (rows, columns, 3), or a raw mosaic "
-            f"(rows, columns) of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
+            "Three colours are read from 8-bit pixels of shape (rows, columns, 3), or a raw mosaic "
+            f"(rows, columns), of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
         )
     mosaic = mosaic_of(image, scene)
     rows, columns = (size // 2 for size in mosaic.shape)
-    cells = cv2.resize(
-        mosaic[: 2 * rows, : 2 * columns], (columns, rows), None, 0, 0, cv2.INTER_AREA
-    )
-    location = locate(np.asarray(cells, dtype=np.uint8), scene.receiver.bright_fraction)
+    whole = mosaic[: 2 * rows, : 2 * columns]
+    cells = np.asarray(cv2.resize(whole, (columns, rows), interpolation=cv2.INTER_AREA), np.uint8)
+    location = locate(cells, scene.receiver.bright_fraction)
     if location is None:
         return None
     greys = np.full((2, 3, 2 * location.region.columns), np.nan)

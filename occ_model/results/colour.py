@@ -36,6 +36,11 @@ class ColourFrame:
     region: Region
     timings: Mapping[str, float]
 
+    @property
+    def title(self) -> str:
+        """What the picture is, as a title."""
+        return "Colour camera's picture" if self.image.ndim == 3 else "Colour camera's raw mosaic"
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ColourReading:
@@ -54,13 +59,17 @@ class ColourReading:
 
     @property
     def is_read(self) -> bool:
+        """Whether every colour was read."""
         return all(result.failure is None for result in self.results)
 
+    @property
+    def by_colour(self) -> dict[str, DecodeResult]:
+        """The readings by colour; that of colour shift keying by "colours"."""
+        names = COLOURS if len(self.results) == len(COLOURS) else ("colours",)
+        return dict(zip(names, self.results, strict=True))
+
     def __str__(self) -> str:
-        if len(self.results) == 1:
-            return _describe(self.results[0])
-        pairs = zip(COLOURS, self.results, strict=True)
-        return ", ".join(f"{colour} {_describe(result)}" for colour, result in pairs)
+        return ", ".join(f"{name} {_describe(result)}" for name, result in self.by_colour.items())
 
 
 def _describe(result: DecodeResult) -> str:

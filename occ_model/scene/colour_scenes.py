@@ -12,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.errors import ParameterError, quote
-from occ_model.scene.csk import levels_of_colour
 from occ_model.scene.parameters.camera import DIAGONAL_35MM
 from occ_model.scene.parameters.colour import COLOURS, CSK_ORDERS
 from occ_model.scene.scene import Scene
@@ -24,8 +23,16 @@ def is_colour(scene: Scene) -> bool:
 
 
 def check_monochrome(scene: Scene) -> None:
-    """Refuse a scene of a colour camera where one colour is simulated or read."""
-    if is_colour(scene):
+    """Refuse a scene of three colours where one is simulated or read."""
+    if not is_colour(scene):
+        if scene.colours.colour_light != "white":
+            raise ParameterError.of(
+                "colour_light", scene.colours.colour_light, "white",
+                condition="for a monochrome camera, whose bayer is none",
+                parameters=("colour_light", "bayer"),
+            )  # fmt: skip
+    else:
+        check_colour(scene)
         raise ParameterError.of(
             "bayer", scene.colours.bayer,
             "none, or one colour of the scene: scene.colour('red'), --colour red",
@@ -66,6 +73,8 @@ def led_scene(scene: Scene, index: int) -> Scene:
     if kind == "three-codes" and index:
         sent = replace(sent, code=scene.colours.codes[f"{colour}_code"])
     elif kind in CSK_ORDERS:
+        from occ_model.scene.csk import levels_of_colour  # needed by this light only
+
         levels = levels_of_colour(kind, sent.payload_bits, index)
         sent = replace(sent, light="waveform", levels=levels, waveform_file="")
     elif kind in COLOURS and kind != colour:

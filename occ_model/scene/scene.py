@@ -142,10 +142,11 @@ class Scene:
             for group in groups
         }
 
-    def colour(self, name: str) -> "Scene":
+    def colour(self, name: str = "") -> "Scene":
         """Return the ordinary scene of one LED and the colour camera's own pixels for it.
 
-        ``name`` is ``"red"``, ``"green"`` or ``"blue"``; see :mod:`occ_model.scene.colour_scenes`.
+        ``name`` is ``"red"``, ``"green"`` or ``"blue"``; by default the scene's ``shown_colour``.
+        See :mod:`occ_model.scene.colour_scenes`.
 
         Raises
         ------
@@ -155,7 +156,7 @@ class Scene:
         """
         from occ_model.scene.colour_scenes import colour_scene  # needed by colour cameras only
 
-        return colour_scene(self, name)
+        return colour_scene(self, name or self.colours.shown_colour)
 
     def to_toml(self) -> str:
         """Write the scene as the text of a scene file."""

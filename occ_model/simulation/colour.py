@@ -7,7 +7,7 @@ stored, as a whole.
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -63,29 +63,20 @@ def render_colour(
     return render_colour_with(scene, settings)
 
 
+def plan_colours(scene: Scene, settings: SimulationSettings) -> Plan:
+    """Decide which effects of a colour camera's picture are simulated."""
+    return _prepare(scene, settings, StageTimer()).plan
+
+
 def render_colour_with(scene: Scene, settings: SimulationSettings) -> ColourFrame:
     """Simulate a colour camera's picture with some settings, as :func:`render_colour` does."""
-    check_colour(scene)
-    check_size(scene.camera)
-    settings = settings.check(NAMES)
     timer = StageTimer()
-    leds = [paper_view_of(led_scene(scene, index)) for index in range(3)]
-    timer.end_stage("exposure")
-    plan = plan_of_any(_different(leds), replace(settings, force=_without_file(settings.force)))
-    timer.end_stage("plan")
-    views = channel_views(scene, leds, plan)
-    sensed = replace(plan, decisions=tuple(d for d in plan.decisions if d.stage != "light"))
-    columns = [expose_columns(view, sensed) for view in views]
-    timer.end_stage("exposure")
-    mosaic = _expose_mosaic(scene, views, columns, sensed, settings.seed, timer)
-    stores = scene.camera.jpeg_quality > 0 and settings.force.get(Jpeg.name, True)
-    image = process(mosaic, scene, stores=stores, timer=timer)
-    region = views[1].region
-    decisions = colour_decisions(scene, plan, leds, [c.profile for c in columns], stores=stores)
-    timer.end_stage("estimates of colour")
+    prepared = _prepare(scene, settings, timer)
+    image = _process(_expose_mosaic(scene, prepared, settings.seed, timer), prepared, timer)
+    region = prepared.views[0].region
     return ColourFrame(
         scene=scene,
-        plan=replace(plan, decisions=decisions),
+        plan=prepared.plan,
         image=image,
         profiles=channel_means(image, scene, region),
         region=region,
@@ -93,24 +84,42 @@ def render_colour_with(scene: Scene, settings: SimulationSettings) -> ColourFram
     )
 
 
-def _without_file(force: Mapping[str, bool]) -> dict[str, bool]:
-    """Keep the monochrome file effect out: a colour file is written after the demosaicing."""
-    return {**force, Jpeg.name: False}
+@dataclass(frozen=True, eq=False, slots=True)
+class _Prepared:
+    scene: Scene
+    plan: Plan
+    views: list[PaperView]  # What each channel sees
+    columns: list[Columns]  # The same, exposed
 
 
-def _different(views: list[PaperView]) -> list[PaperView]:
-    return list({view.scene: view for view in views}.values())
+def _prepare(scene: Scene, settings: SimulationSettings, timer: StageTimer) -> _Prepared:
+    check_colour(scene)
+    check_size(scene.camera)
+    settings = settings.check(NAMES)
+    leds = [paper_view_of(led_scene(scene, index)) for index in range(3)]
+    timer.end_stage("exposure")
+    different = list({view.scene: view for view in leds}.values())
+    plan = plan_of_any(different, settings)
+    timer.end_stage("plan")
+    views = channel_views(scene, leds, plan)
+    columns = [expose_columns(view, sensor_plan(plan)) for view in views]
+    timer.end_stage("exposure")
+    profiles = [each.profile for each in columns]
+    stores = scene.camera.jpeg_quality > 0 and settings.force.get(Jpeg.name, True)
+    decisions = colour_decisions(scene, plan, leds, profiles, stores=stores)
+    timer.end_stage("plan")
+    return _Prepared(scene, replace(plan, decisions=decisions), views, columns)
 
 
-def _expose_mosaic(
-    scene: Scene,
-    views: list[PaperView],
-    columns: list[Columns],
-    plan: Plan,
-    seed: int,
-    timer: StageTimer,
-) -> ByteArray:
+def sensor_plan(plan: Plan) -> Plan:
+    """Return the part of a plan that is left for each channel: not its light, nor the file."""
+    apart = ("light", "processing")
+    return replace(plan, decisions=tuple(d for d in plan.decisions if d.stage not in apart))
+
+
+def _expose_mosaic(scene: Scene, prepared: _Prepared, seed: int, timer: StageTimer) -> ByteArray:
     """Expose every second row with its two colours, then the others."""
+    views, columns, plan = prepared.views, prepared.columns, sensor_plan(prepared.plan)
     size = scene.camera.rows, scene.camera.columns
     mosaic = np.empty(size, dtype=np.uint8)
     # A lens blurs each colour's light, not the mosaic, and a gain changes the law of the noise.
@@ -149,16 +158,14 @@ def _expose_rows(
     return exposure.pictures(none, PictureNumbers(seed, count)).camera_image
 
 
-def process(
-    mosaic: ByteArray, scene: Scene, *, stores: bool, timer: StageTimer | None = None
-) -> ByteArray:
+def _process(mosaic: ByteArray, prepared: _Prepared, timer: StageTimer) -> ByteArray:
     """Demosaic and store a raw picture, as the scene's camera does."""
-    timer = timer or StageTimer()
-    if scene.colours.demosaicing == "none":
+    scene, plan = prepared.scene, prepared.plan
+    if "demosaicing" not in plan:
         return mosaic
     image = demosaic(mosaic, scene)
     timer.end_stage("demosaicing")
-    if stores:
+    if Jpeg.name in plan:
         image = store_as_jpeg(image, scene.camera.jpeg_quality, scene.colours.chroma)
         timer.end_stage(Jpeg.name)
     return image

@@ -154,10 +154,10 @@ def test_stripes_of_a_column_keep_only_luma_in_a_file_of_half_chroma() -> None:
     for channel, weight in enumerate((0.299, 0.587, 0.114)):
         image = np.full((32, 128, 3), 120, dtype=np.uint8)
         image[:, :, channel] = row
-        read = store_as_jpeg(image, 100, "4:2:0").astype(np.float64)[8:-8, 16:-16]
+        read = store_as_jpeg(image, 100, "subsampled").astype(np.float64)[8:-8, 16:-16]
         swing = read[:, 1::2].mean(axis=(0, 1)) - read[:, ::2].mean(axis=(0, 1))
         assert swing == pytest.approx(np.full(3, 60.0 * weight), abs=1.0)
-        full = store_as_jpeg(image, 100, "4:4:4").astype(np.float64)[8:-8, 16:-16]
+        full = store_as_jpeg(image, 100, "full").astype(np.float64)[8:-8, 16:-16]
         swing = full[:, 1::2].mean(axis=(0, 1)) - full[:, ::2].mean(axis=(0, 1))
         # Luma, chroma times up to 1.772, and the result are rounded, on both sides.
         assert swing[channel] == pytest.approx(60.0, abs=2 * (0.5 + 1.772 / 2 + 0.5))

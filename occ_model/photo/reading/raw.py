@@ -54,6 +54,7 @@ _CR3 = b"ftypcrx "  # bytes 4 to 11 of Canon's newer files
 
 _GREEN = b"G"[0]
 _ANY = "brightest"
+MOSAIC = "mosaic"  # all photosites, of a sensor with colours
 _NO_COLOUR = 6  # LibRaw's colour number for a sensor without filters
 
 _ORIENTATIONS = {0: 1, 1: 2, 2: 4, 3: 3, 4: 5, 5: 8, 6: 6, 7: 7}
@@ -75,10 +76,18 @@ class Mosaic:
     white: float  # The white level of the photosites that are read
     notes: CameraNotes
     orientation: int  # The EXIF orientation, which is not applied to the photosites
+    pattern: str = ""  # Filters of the first two photosites of the first two lines, such as rggb
 
     @property
     def channel(self) -> str:
         return "grey" if self.is_green.all() else "green"
+
+    def all_photosites(self) -> Samples:
+        """Return the light of every photosite in its place; 65535 is the green ones' white."""
+        picture = np.empty(self.photosites.shape, np.uint16)
+        for row, column in np.ndindex(2, 2):
+            picture[row::2, column::2] = self._light(row, column)
+        return picture
 
     def one_plane(self) -> Samples:
         """Return the light of one green photosite of each square of four."""
@@ -143,7 +152,7 @@ def read_mosaic(
     """Read the photosites of a RAW file.
 
     ``channel``: ``"green"`` or ``"brightest"``, as the others have photosites only in every second
-    line.
+    line; or MOSAIC for the photosites of all three.
     """
     name = one_line(str(path))
     try:
@@ -152,7 +161,7 @@ def read_mosaic(
         raise PhotoError(
             f"{name} is a camera's RAW file; to read it: pip install occ-explorer[raw]."
         ) from None
-    if channel not in (_ANY, "green"):
+    if channel not in (_ANY, "green", MOSAIC):
         raise PhotoError(
             f"{name} is a camera's RAW file, which is read in green only: red and blue are in "
             f"every second line of the sensor. The channel is {channel}; allowed: green or {_ANY}."
@@ -175,7 +184,7 @@ def read_mosaic(
             check_bytes(path, width, height, _BYTES_A_PIXEL * width * height, size)
             raw.unpack()
             report(DECODED_FRACTION)
-            return _make_mosaic(name, file, raw, tags)
+            mosaic = _make_mosaic(name, file, raw, tags)
     except (rawpy.LibRawError, rawpy.NotSupportedError) as error:
         if report.ended_by is not None:
             raise report.ended_by from None
@@ -183,6 +192,9 @@ def read_mosaic(
             f"{name} cannot be read: the file is damaged or of an unknown kind "
             f"({_message_of(error)})."
         ) from None
+    if channel == MOSAIC and not mosaic.pattern:
+        raise PhotoError(f"{name} has no three colours: it is of a sensor without filters.")
+    return mosaic
 
 
 def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
@@ -202,7 +214,9 @@ def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any])
     )
     if pattern.shape == (1, 1) or (colours == _NO_COLOUR).all():
         is_green, colours = np.ones((2, 2), np.bool_), np.zeros((2, 2), np.int64)
+        letters = ""
     else:
+        letters = "".join(chr(raw.color_desc[c]) for c in colours.ravel()).lower()
         is_green = np.array([[raw.color_desc[c] == _GREEN for c in line] for line in colours])
     if pattern.shape not in ((1, 1), (2, 2)) or not (
         is_green.all() or (is_green.sum() == 2 and is_green[0, 0] == is_green[1, 1])
@@ -234,6 +248,7 @@ def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any])
         white=white,
         notes=notes_of(tags_of_metadata | tags),
         orientation=_ORIENTATIONS.get(sizes.flip, 1),
+        pattern=letters if sorted(letters) == ["b", "g", "g", "r"] else "",
     )
 
 

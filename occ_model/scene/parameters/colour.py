@@ -4,7 +4,6 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from occ_model.errors import ParameterError
 from occ_model.scene.parameters.group import (
     Group,
     choice_field,
@@ -94,20 +93,15 @@ class Colours(Group):
     )
     chroma: str = choice_field(
         "JPEG chroma", "",
-        "Resolution of a JPEG file's colours: full, or one value for four pixels.",
-        ("4:2:0", "4:4:4"), "4:2:0",
+        "Colours of a JPEG file: one value for four pixels (4:2:0), or one for each (4:4:4).",
+        ("subsampled", "full"), "subsampled",
+    )
+    shown_colour: str = choice_field(
+        "Shown colour", "",
+        "The LED and the pixels that profiles, decoders and studies of one colour are about.",
+        COLOURS, "green",
     )
     # fmt: on
-
-    def _check_together(self) -> None:
-        if self.bayer == "none" and self.colour_light != "white":
-            raise ParameterError.of(
-                "colour_light",
-                self.colour_light,
-                "white",
-                condition="for a monochrome camera, whose bayer is none",
-                parameters=("colour_light", "bayer"),
-            )
 
     @property
     def codes(self) -> dict[str, int]:

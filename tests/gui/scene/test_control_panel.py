@@ -26,7 +26,7 @@ from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.light import LIGHTS
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import GROUPS, Scene
 
 EFFECTS = ("edge_time", "jpeg_quality")
 PRESETS = [("small", "A small scene"), ("large", "A large scene")]
@@ -112,9 +112,19 @@ def test_only_the_rows_of_the_scenes_light_are_shown(panel: ControlPanel, light:
     for page in panel.panels.values():
         for name, row in page.rows.items():
             parts = (row, page.labels[name], page.play_buttons.get(name, row))
-            assert {part.isHidden() for part in parts} == {not PARAMETERS[name].is_of(light)}
+            is_of_colours = name in GROUPS["colours"] and name != "bayer"
+            is_hidden = is_of_colours or not PARAMETERS[name].is_of(light)
+            assert {part.isHidden() for part in parts} == {is_hidden}
     for part in (panel.code, panel.code.title):
         assert part.isHidden() == (light != "code")
+
+
+def test_parameters_of_colour_are_shown_for_a_colour_camera(panel: ControlPanel) -> None:
+    panel.show_scene(Scene().replace(bayer="rggb"))
+    rows = panel.panels["Model"].rows
+    assert not any(rows[name].isHidden() for name in GROUPS["colours"])
+    panel.show_scene(Scene())
+    assert rows["crosstalk"].isHidden()
 
 
 def test_other_lights_leave_no_gap_between_the_rows(panel: ControlPanel, qtbot: QtBot) -> None:

@@ -31,6 +31,14 @@ def test_a_change_is_emitted_with_the_new_scene(
     assert store.scene == scenes[0]
 
 
+def test_panes_of_one_colour_see_the_shown_one(store: SceneStore, small_scene: Scene) -> None:
+    assert store.seen == small_scene
+    store.change(bayer="rggb", averaging="light", shown_colour="blue")
+    assert store.seen == store.scene.colour("blue")
+    store.change(averaging="pixel-value")  # refused where it is simulated
+    assert store.seen == store.scene
+
+
 @pytest.mark.parametrize(
     ("changes", "preset"),
     [

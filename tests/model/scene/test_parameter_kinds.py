@@ -112,7 +112,7 @@ def test_a_count_refuses_all_but_whole_numbers_in_its_range(count: Count) -> Non
 @every_choice
 def test_a_choice_accepts_its_words_and_nothing_else(choice: Choice) -> None:
     assert [choice.parse(f" {word} ") for word in choice.choices] == list(choice.choices)
-    for value in ("", "x", choice.choices[0].upper(), 0, None, choice.choices):
+    for value in ("", "x", choice.choices[0].upper(), 0, None, choice.choices[:2]):
         with pytest.raises(ParameterError) as refused:
             choice.check(value)
         assert str(refused.value) == (

@@ -27,6 +27,10 @@ from .photo.lamps.find import find_lamps as find_lamps
 from .photo.lamps.match import match_lamps as match_lamps
 from .photo.many.match_photos import match_photos as match_photos
 from .photo.match import match_photo as match_photo
+from .photo.reading.colours import (
+    ColourPhoto as ColourPhoto,
+    load_colours as load_colours,
+)
 from .photo.reading.load import (
     Photo as Photo,
     load_photo as load_photo,

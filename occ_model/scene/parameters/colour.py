@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 
 from occ_model.scene.parameters.group import (
     Group,
@@ -43,8 +42,9 @@ def _canonical_matrix(text: str) -> str:
 
 
 def _determinant(rows: list[list[float]]) -> float:
-    (a, b, c), (d, e, f), (g, h, i) = ([Fraction(number) for number in row] for row in rows)
-    return float(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
+    """Return the determinant of a matrix whose rows are divided by their sums."""
+    (a, b, c), (d, e, f), (g, h, i) = ([number / sum(row) for number in row] for row in rows)
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -269,3 +269,60 @@ def test_what_hides_the_bars_of_a_picture_is_named(capsys: pytest.CaptureFixture
         assert "in pixel values 0 % and 0 %" in second
         assert third.startswith("  Not visible, since ")
         assert what in third
+
+
+COLOUR = ("--preset", "phone-68us-colour", "--set", "rows=240", "--set", "panel_height=5cm")
+
+
+@pytest.mark.parametrize("demosaicing", ["none", "bilinear"])
+def test_a_colour_camera_is_rendered_and_read(
+    command: Command, tmp_path: Path, demosaicing: str
+) -> None:
+    options = (*COLOUR, "--set", f"demosaicing={demosaicing}")
+    made = command(
+        "render", *options, "-o", tmp_path / "x.png", "--save-scene", tmp_path / "x.toml"
+    )
+    assert (made.code, made.err) == (0, "")
+    read = command("decode", tmp_path / "x.png", "--scene", tmp_path / "x.toml")
+    assert read.code == 0
+    assert read.out.splitlines()[0] == "colours      red 718, green 345, blue 201"
+
+
+def test_a_calibration_gives_the_matrix_that_the_camera_has(
+    command: Command, tmp_path: Path
+) -> None:
+    mixing = ("--set", "mixing=0.8 0.15 0.05 / 0.1 0.6 0.3 / 0.05 0.2 0.75")
+    command("render", *COLOUR, *mixing, "-o", tmp_path / "x.png")
+    full = occ.load_preset("phone-68us-colour").replace(rows=240, panel_height=0.05)
+    names = []
+    for colour in ("red", "green", "blue", "dark"):
+        lit = {"red": 0, "green": 1, "blue": 2}.get(colour)
+        matrix = np.array([[0.8, 0.15, 0.05], [0.1, 0.6, 0.3], [0.05, 0.2, 0.75]])
+        # The light of one LED alone is that of its column of the matrix, white on each channel.
+        share = np.full(3, 1e-3) if lit is None else matrix[:, lit]
+        diagonal = " / ".join(
+            " ".join(f"{share[row] if row == column else 0.0:g}" for column in range(3))
+            for row in range(3)
+        )
+        steady = full.replace(
+            mixing=diagonal, colour_light="white", light="waveform", levels="1", illuminance=0.0
+        )
+        names.append(tmp_path / f"{colour}.png")
+        Image.fromarray(occ.render_colour(steady, tolerance=float("inf")).image).save(names[-1])
+    read = command("decode", tmp_path / "x.png", *COLOUR, "--calibration", *names)
+    assert read.code == 0
+    found = report(read)["mixing"].replace("/", " ").split()
+    matrix = np.array([float(number) for number in found]).reshape(3, 3)
+    expected = np.array([[0.8, 0.15, 0.05], [0.1, 0.6, 0.3], [0.05, 0.2, 0.75]])
+    assert matrix / matrix.sum() == pytest.approx(expected / 3.0, abs=3e-3)
+    assert "red 718, green 345, blue 201" in read.out
+
+
+def test_commands_of_one_colour_ask_which(command: Command) -> None:
+    asked = command("sweep", *COLOUR, "--vary", "distance=1m")
+    assert asked.code == 2
+    assert "--colour red" in asked.err
+    answer = command("plan", *COLOUR, "--colour", "red")
+    assert answer.code == 0
+    assert "Crosstalk" not in answer.out
+    assert "Crosstalk" in command("plan", *COLOUR).out

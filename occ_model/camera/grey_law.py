@@ -6,7 +6,7 @@ adds a variance of a sixth of a step's square on average; the table is sharpened
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import cv2
@@ -22,6 +22,7 @@ _PER_GREY = 16  # levels to a grey level, where noise is far less
 _FEWEST_TO_WHITE = 256.0
 _MOST_TO_WHITE, _MOST = 4096.0, 8192.0
 _BLOCK = 256  # levels to which a table's height is rounded up
+_MOST_GAIN = 4.0  # standard deviations that a pixel's gain differs from the mean
 _BRIGHTEST = 7.0  # deviations above white, or a full well, at which all pixels have the top code
 
 
@@ -53,6 +54,11 @@ class GreyLaw:
     def last(self) -> float:
         """The last level, up to which values are told apart."""
         return len(self.below) - 1.001
+
+    @cached_property
+    def is_whole(self) -> bool:
+        """Whether all brighter pixels are those of the last level."""
+        return not self.below[-1].any()
 
     def mean(self, values: FloatArray, curve: FloatArray) -> FloatArray:
         """Return the mean of ``curve``, given for each of 256 grey levels, over pixels.
@@ -143,6 +149,15 @@ def grey_law(noise: PixelNoise, brightest: float) -> GreyLaw:
     return _tabulate(noise, min(blocks * _BLOCK, math.ceil(end)))
 
 
+def law_of_known_gains(noise: PixelNoise, brightest: float) -> GreyLaw:
+    """Return the law of pixels whose gains are known, for mean values up to a brightest one.
+
+    The mean values with their gains may be brighter by as much as any gain is larger.
+    """
+    largest = 1.0 + _MOST_GAIN * noise.gain_variation
+    return grey_law(replace(noise, gain_variation=0.0), brightest * largest ** (1.0 / noise.gamma))
+
+
 @lru_cache(maxsize=64)
 def _scale(noise: PixelNoise) -> tuple[float, float, float]:
     """Return the level of white, the power of a value, and the level of none but top codes."""
@@ -164,7 +179,10 @@ def _tabulate(noise: PixelNoise, levels: int) -> GreyLaw:
     to_white, power, end = _scale(noise)
     relative = np.arange(levels + 2) / to_white
     below = noise.fractions(noise.white * relative ** (noise.gamma / power))
-    below[1:-1] -= (below[2:] - 2.0 * below[1:-1] + below[:-2]) / 12.0
+    around = below[2:] + below[:-2]
+    around /= 12.0
+    below[1:-1] *= 7.0 / 6.0
+    below[1:-1] -= around
     below = np.clip(below[:-1], 0.0, 1.0)
     np.maximum.accumulate(below, axis=1, out=below)
     if levels >= math.ceil(end):

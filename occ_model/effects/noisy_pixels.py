@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.grey_law import GreyLaw, grey_law
+from occ_model.camera.grey_law import GreyLaw, grey_law, law_of_known_gains
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.effects.effect import PixelEffect
@@ -86,7 +86,10 @@ class NoisyPixels:
     def _drawn_variance(self, noise: PixelNoise | None, values: FloatArray) -> FloatArray:
         if noise is None or not noise.is_drawn:
             return np.zeros(len(values))
-        law = grey_law(replace(noise, gain_variation=0.0), self.brightest)
+        whole = self.noise(self._names) or noise
+        # One law for the pixels with and without gains that vary.
+        noise = replace(noise, gain_variation=whole.gain_variation)
+        law = law_of_known_gains(noise, self.brightest)
         return law.moments(values, _GREYS)[1] ** 2
 
     def _gain_slope(self, values: FloatArray) -> FloatArray:

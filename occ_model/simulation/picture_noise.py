@@ -1,21 +1,18 @@
 """The noise of a picture's pixels: their gains, and their grey levels, drawn by bands of rows."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, Pixels
-from occ_model.camera.grey_law import grey_law
+from occ_model.camera.grey_law import grey_law, law_of_known_gains
 from occ_model.camera.picture_rows import Rows
 from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
 from occ_model.simulation.pixel_draw import GainPattern, Numbers, Scratch, dither, grey_table
-
-_MOST_GAIN = 4.0  # standard deviations of the gain that the pattern reaches
 
 _TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
 
@@ -49,12 +46,9 @@ class PictureNoise:
         has_pattern = variation > 0.0 and (numbers.has_pattern or not self.is_drawn)
         power = 1.0 / noise.gamma
         if self.is_drawn:
-            if has_pattern:
-                noise = replace(noise, gain_variation=0.0)
-                brightest *= (1.0 + _MOST_GAIN * variation) ** power
-            self._law = grey_law(noise, brightest)
+            make_law = law_of_known_gains if has_pattern else grey_law
+            self._law = make_law(noise, brightest)
             self._table = grey_table(self._law)
-            self._is_bright = self._law.level_of(brightest) + 2.0 > self._law.last
             power *= self._law.power
         size = (scene.camera.rows, scene.camera.columns)
         seed = scene.sensor.sensor_seed
@@ -76,7 +70,7 @@ class PictureNoise:
             drawn = buffer[: part.stop - start]
             self._vary(levels, part, drawn)
             drawn += dither(mean.rows[part], self._columns)
-            if self._is_bright:
+            if self._law.is_whole:
                 np.minimum(drawn, np.float32(self._law.last), out=drawn)
             end_stage(FixedPattern.name)
             self._table.draw(drawn, next(numbers), out[part], scratch)

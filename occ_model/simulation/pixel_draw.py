@@ -40,16 +40,14 @@ class GreyTable:
     """
 
     def __init__(self, law: GreyLaw) -> None:
-        ends = np.rint(law.below * _WHOLE).astype(np.int64)
-        chances = np.diff(ends, axis=1, prepend=0, append=_WHOLE)
-        is_seen = chances > 0
-        first = is_seen.argmax(axis=1)[:, None]
-        span = int((len(law.greys) - is_seen[:, ::-1].argmax(axis=1) - first[:, 0]).max())
+        first = (law.below < 0.5 / _WHOLE).sum(axis=1)
+        last = (law.below < 1.0 - 0.5 / _WHOLE).sum(axis=1)
+        span = int((last - first).max()) + 1
         self._bits = max(math.ceil(math.log2(span)), _FEWEST_CELL_BITS)
-        cells = first + np.arange(1 << self._bits)
-        ranks = np.minimum(cells, len(law.greys) - 1)
-        own = np.where(cells == ranks, np.take_along_axis(chances, ranks, axis=1), 0)
-        moved, other = _fill_cells(own, _WHOLE >> self._bits)
+        ranks = np.minimum(first[:, None] + np.arange(1 << self._bits), len(law.greys) - 1)
+        below = np.concatenate([law.below, np.ones((len(first), 1))], axis=1)
+        ends = np.rint(np.take_along_axis(below, ranks, axis=1) * _WHOLE).astype(np.int64)
+        moved, other = _fill_cells(np.diff(ends, axis=1, prepend=0), _WHOLE >> self._bits)
         greys = law.greys[ranks].ravel()
         self._entries = self._pack(greys, greys[other], (_WHOLE >> self._bits) - moved)
 
@@ -91,11 +89,12 @@ def _fill_cells(own: IndexArray, capacity: int) -> tuple[IndexArray, IndexArray]
     rows = (2 * _WHOLE) * np.arange(len(own))[:, None]
     missing, spare = np.maximum(capacity - own, 0), np.maximum(own - capacity, 0)
     filled, given = rows + missing.cumsum(axis=1), rows + spare.cumsum(axis=1)
-    over = filled.ravel()[np.searchsorted(filled.ravel(), given.ravel())] - given.ravel()
-    moved = np.where(spare.ravel() > 0, over, missing.ravel())
-    start = np.where(spare > 0, given, filled - missing).ravel()
-    source = np.minimum(np.searchsorted(given.ravel(), start, side="right"), own.size - 1)
-    return moved, np.where(moved > 0, source, np.arange(own.size))
+    giving, moved = np.flatnonzero(spare), missing.ravel()
+    levels, start = given.ravel()[giving], (filled - missing).ravel()
+    moved[giving] = filled.ravel()[np.searchsorted(filled.ravel(), levels)] - levels
+    start[giving] = levels
+    source = np.searchsorted(levels, start, side="right")
+    return moved, np.where(moved > 0, np.append(giving, 0)[source], np.arange(own.size))
 
 
 @lru_cache(maxsize=4)

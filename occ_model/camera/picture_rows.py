@@ -27,7 +27,7 @@ from occ_model.camera.row_interpolation import (
 )
 from occ_model.scene.scene import Camera
 
-BLOCK_ROWS = 64  # rows that are computed at once, a whole number of blocks of a JPEG file
+BLOCK_ROWS = 128  # rows that are computed at once, a whole number of blocks of a JPEG file
 _JPEG_ROWS = 8
 _BLOCK_PIXELS = 2**22  # most pixels that are computed at once, where rows are very long
 

@@ -85,9 +85,9 @@ def test_an_error_of_the_heartbeat_ends_a_picture() -> None:
     scene = occ.load_preset("phone-68us").replace(rows=640, columns=500)
     beats: list[int] = []
     render_with(scene, SimulationSettings(), heartbeat=lambda: beats.append(1))
-    # Once for each band of up to 64 rows; bands also begin at the panel and below it.
+    # Once for each band of up to 128 rows; bands also begin at the panel and below it.
     bands = len(beats)
-    assert bands == 12
+    assert bands == 7
 
     def stop() -> None:
         beats.append(1)

@@ -36,7 +36,7 @@ def test_a_polynomial_of_few_terms_is_exact(rows: range, degree: int) -> None:
 def test_a_curve_with_a_bend_is_not_smooth() -> None:
     rows = range(BLOCK_ROWS)
     place = node_rows(rows)
-    bends = np.linspace(2.0, 61.0, 200)
+    bends = np.linspace(0.03, 0.95, 200) * BLOCK_ROWS
     bent = np.maximum(place[:, None] - bends, 0.0).astype(np.float32)
     assert not find_smooth_columns(bent).any()
 

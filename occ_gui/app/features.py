@@ -36,6 +36,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.bands(scenes),
         panes.equations(scenes, lambda: shell.pane("profile").view.plot),
         panes.spectrum(),
+        panes.colour(),
         panes.compare(parts.pins),
         panes.lessons(scenes, parts.results_store, parts.controls, preferences),
         panes.video(scenes, parts.results_store),

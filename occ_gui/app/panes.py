@@ -225,6 +225,16 @@ def spectrum() -> Feature[Any]:
     )
 
 
+def colour() -> Feature[Any]:
+    return Feature(
+        name="colour",
+        title="Three colours",
+        help="model.md#a-colour-camera",
+        make=defer("occ_gui.colour.pane:ColourPane"),
+        part=lambda workspace, _: (workspace.scene, workspace.settings, workspace.decoder),
+    )
+
+
 def compare(pins: PinController) -> Feature[Any]:
     return Feature(
         name="compare",

@@ -39,12 +39,23 @@ class ColourStrip(QWidget):
         if self._pixels is None or not self._pixels.size:
             return
         size = QSize(max(1, self.width()), self.height()) * self.devicePixelRatio()
-        mean = cv2.resize(self._pixels, (size.width(), size.height()), interpolation=cv2.INTER_AREA)
-        drawn = np.ascontiguousarray(mean)
+        drawn = np.ascontiguousarray(_resize(self._pixels, size.width(), size.height()))
         image = QImage(
             drawn.data, size.width(), size.height(), drawn.strides[0], QImage.Format.Format_RGB888
         )
         QPainter(self).drawImage(self.rect(), image)
+
+
+def _resize(pixels: ByteArray, width: int, height: int) -> ByteArray:
+    """Average pixels along an axis that gets smaller, and repeat them along one that grows.
+
+    OpenCV averages along neither if one of them grows.
+    """
+    rows, columns = pixels.shape[:2]
+    smaller = min(width, columns), min(height, rows)
+    mean = cv2.resize(pixels, smaller, interpolation=cv2.INTER_AREA)
+    grown = cv2.resize(mean, (width, height), interpolation=cv2.INTER_NEAREST)
+    return np.asarray(grown, dtype=np.uint8)
 
 
 class ColourView(QWidget):

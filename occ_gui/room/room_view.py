@@ -9,9 +9,11 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayou
 
 from occ_gui.room.jobs import PLACES_PER_SIDE, FloorMap, RoomPicture, RoomPlan
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
-from occ_gui.widgets.building import fill, heading_font, paragraph, push_button
+from occ_gui.widgets.answer import Answer
+from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_model.errors import inflect, one_line
 from occ_model.room.locate import RoomReading
+from occ_model.room.place_text import ANGLES, POSITION, format_place
 from occ_model.room.room import Room
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import METRE
@@ -74,8 +76,7 @@ class RoomView(QWidget):
             "locate it.",
             self.map_asked,
         )
-        self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()
-        self.headline.setFont(heading_font(self.font()))
+        self.answer, self.floor = Answer(), paragraph()
         self.plan, self.picture = PlanPlot(), PicturePlot()
         for plot in (self.plan, self.picture):
             plot.setMinimumHeight(_LEAST_HEIGHT)
@@ -85,8 +86,7 @@ class RoomView(QWidget):
         )  # fmt: skip
         row = fill(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
         fill(
-            QVBoxLayout(self), buttons, self.headline, self.sentences, (row, 1), paragraph(_LEGEND),
-            self.floor,
+            QVBoxLayout(self), buttons, self.answer, (row, 1), paragraph(_LEGEND), self.floor,
         )  # fmt: skip
 
     def show_name(self, name: str) -> None:
@@ -97,17 +97,17 @@ class RoomView(QWidget):
         """Show lamps and camera, and clear the results of the last picture."""
         self.plan.show_plan(plan, room.camera, is_new=is_new)
         self.plan.show_place(None, room.camera)
-        self.headline.setText("Reading the picture…")
-        self.sentences.setText("")
+        self.answer.show_answer("Reading the picture…")
 
     def show_picture(self, picture: RoomPicture, *, is_present: bool) -> None:
         self.picture.show_room(picture)
         self._show_photo(picture)
         if picture.reading is None or not is_present:
             return
-        self.headline.setText(_make_headline(picture.reading))
         scale = self.plan.show_place(picture.reading.located, picture.room.camera)
-        self.sentences.setText(_describe_reading(picture, picture.reading, scale))
+        details = _describe_reading(picture, picture.reading, scale)
+        reasons = " ".join(picture.reading.reasons)
+        self.answer.show_answer(_make_headline(picture.reading), details, reasons)
 
     def _show_photo(self, picture: RoomPicture) -> None:
         is_photo = picture.source.photo is not None
@@ -118,8 +118,7 @@ class RoomView(QWidget):
             self.focal_length.setValue(1e3 * picture.room.scene.camera.equivalent_focal_length)
 
     def show_failure(self, sentence: str) -> None:
-        self.headline.setText(sentence)
-        self.sentences.setText("")
+        self.answer.show_answer(sentence)
 
     def show_progress(self, fraction: float) -> None:
         self.floor.setText(f"Measuring the floor: {100.0 * fraction:.0f} %")
@@ -132,37 +131,26 @@ class RoomView(QWidget):
 def _make_headline(reading: RoomReading) -> str:
     if reading.located is None:
         return "The place is not determined"
-    place, errors = reading.located.place, reading.located.errors
-    text = ", ".join(
-        f"{name} {METRE.format_estimate(getattr(place, name), error)}"
-        for name, error in zip("xyz", errors[:3].tolist(), strict=True)
-    )
+    text = format_place(reading.located.place, reading.located, POSITION)
     return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"
 
 
-def _describe_reading(picture: RoomPicture, reading: RoomReading, scale: float) -> str:
+def _describe_reading(picture: RoomPicture, reading: RoomReading, scale: float) -> list[str]:
     names = [
         lamp.name + (f" ({lamp.light_words})" if lamp.code is None else "")
         for lamp in reading.lamps if lamp.name
     ]  # fmt: skip
     lines = [f"{len(names)} of {len(reading.lamps)} lamps named: {', '.join(names) or 'none'}."]
-    lines += reading.reasons
     if reading.located is not None:
-        place, errors, true = reading.located.place, reading.located.errors, picture.room.camera
+        place, true = reading.located.place, picture.room.camera
         distance = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
-        angles = " ± ".join((
-            ", ".join(_degrees(getattr(place, name)) for name in _ANGLES),
-            f"{math.degrees(float(errors[3:].max())):.2g}°",
-        ))  # fmt: skip
         parts = [] if picture.source.photo else [f"{METRE.format(distance, 2)} from the true place"]
         parts += [f"drawn {scale:g} times larger"] if scale > 1.0 else []
-        lines.append("; ".join([*parts, f"yaw, pitch, roll: {angles}"]).capitalize() + ".")
+        angles = format_place(place, reading.located, ANGLES)
+        lines.append("; ".join([*parts, f"the camera is turned by {angles}"]).capitalize() + ".")
     if picture.assumptions:
         lines.append("Assumed: " + " ".join(picture.assumptions))
-    return "\n".join(lines)
-
-
-_ANGLES = ("yaw", "pitch", "roll")
+    return lines
 
 
 def _describe_map(floor_map: FloorMap) -> str:
@@ -179,7 +167,3 @@ def _describe_map(floor_map: FloorMap) -> str:
     if sure:
         text += f" Median error: {METRE.format(float(np.median([p.error for p in sure])), 2)}."
     return text
-
-
-def _degrees(angle: float) -> str:
-    return f"{round(math.degrees(angle), 2) + 0.0:g}°"  # no minus before 0

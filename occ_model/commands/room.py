@@ -24,9 +24,9 @@ from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.room.locate import RoomReading, read_room, read_room_photo
-from occ_model.room.pose_fit import Located
+from occ_model.room.place_text import AXES, format_place
 from occ_model.room.render import RoomFrame, render_room
-from occ_model.room.room import Place, Room
+from occ_model.room.room import Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import change_scene
 from occ_model.scene.scene import TOLERANCE, SimulationSettings
@@ -40,7 +40,6 @@ from occ_model.study.room_map import (
 )
 from occ_model.study.sweep.sweep import Progress
 
-_AXES = tuple(Place.__dataclass_fields__)
 _FOCAL_LENGTH = "equivalent_focal_length"
 
 
@@ -73,7 +72,7 @@ def add_to(commands: Commands) -> None:
         epilog="If it is stopped, by Ctrl-C or otherwise, the results so far are in the file of "
         "--out; the same command continues from there.",
     )  # fmt: skip
-    _add_room(floor, _AXES[2:])  # x and y are those of places on the floor
+    _add_room(floor, AXES[2:])  # x and y are those of places on the floor
     _add_floor(floor, 5)
     add_work_options(floor)
     floor.set_defaults(command=_run_map, writes={"out": TABLE})
@@ -85,7 +84,7 @@ def _add_codes(kinds: Commands) -> None:
         "codes",
         help="compare lengths of codes for many lamps: their distances, and what is read",
     )
-    _add_room(parser, _AXES[2:])
+    _add_room(parser, AXES[2:])
     add_option(parser, "--lamps", 1024, "lamps with a code each, some of which are in the room")
     parser.add_argument(
         "--bits", type=whole_number, action="append", default=[],
@@ -105,7 +104,7 @@ def _add_floor(parser: argparse.ArgumentParser, side: int) -> None:
     parser.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
 
 
-def _add_room(parser: argparse.ArgumentParser, axes: Sequence[str] = _AXES) -> None:
+def _add_room(parser: argparse.ArgumentParser, axes: Sequence[str] = AXES) -> None:
     parser.add_argument(
         "--room", default="office", help=f"{', '.join(rooms())}, or a room file; default: office"
     )
@@ -123,7 +122,7 @@ def _room_of(options: argparse.Namespace) -> Room:
     changed = change_scene(room.scene, options.settings)
     names = [text.split("=", 1)[0].strip() for text in options.settings]
     room = room.with_sent(**{name: changed.value(name) for name in names})
-    given = {name: value for name in _AXES if (value := getattr(options, name, None)) is not None}
+    given = {name: value for name in AXES if (value := getattr(options, name, None)) is not None}
     return room.replace(
         **{name: v if name in "xyz" else math.radians(v) for name, v in given.items()}
     )
@@ -235,7 +234,7 @@ def _run_locate(options: argparse.Namespace) -> int:
             print(f"Assumed. {sentence}")
     _print_reading(reading)
     if options.file is None:
-        print("True place: " + _format_place(room.camera))
+        print("True place: " + format_place(room.camera))
     return 0 if reading.located else EXIT_FAILURE
 
 
@@ -247,21 +246,7 @@ def _print_reading(reading: RoomReading) -> None:
     for reason in reading.reasons:
         print(reason)
     for result in filter(None, (reading.located, *reading.alternatives)):
-        print("I am here:  " + _format_place(result.place, result))
+        print("I am here:  " + format_place(result.place, result))
         if result.focal_error:
             focal, error = 1e3 * result.focal_length, 1e3 * result.focal_error
             print(f"Focal length that fits: {focal:.2f} ± {error:.2g} mm equivalent.")
-
-
-def _format_place(place: Place, located: Located | None = None) -> str:
-    texts = []
-    errors = np.zeros(len(_AXES)) if located is None else located.errors
-    for name, error in zip(_AXES, errors.tolist(), strict=True):
-        value = getattr(place, name)
-        scale, unit, digits = (1.0, "m", 4) if name in "xyz" else (180.0 / math.pi, "°", 2)
-        if error:  # show two digits of it
-            digits = max(digits, 1 - math.floor(math.log10(error * scale)))
-        error_text = f" ± {error * scale:.{digits}f}" if located else ""
-        rounded = round(value * scale, digits) + 0.0  # no -0
-        texts.append(f"{name} {rounded:.{digits}f}{error_text} {unit}")
-    return ", ".join(texts)

@@ -189,15 +189,15 @@ def test_rooms_files_and_photos_are_steps(
 def test_the_place_is_shown_with_its_errors_and_the_lamps_with_their_names(
     pane: RoomPane, qtbot: QtBot
 ) -> None:
-    assert re.match(r"I am here: x 0\.\d+ ± 0\.0\d+ m, y ", pane.view.headline.text())
-    assert "4 of 4 lamps named" in pane.view.sentences.text()
-    assert "times larger" in pane.view.sentences.text()
+    assert re.match(r"I am here: x 0\.\d+ ± 0\.0\d+ m, y ", pane.view.answer.line.text())
+    assert "4 of 4 lamps named" in pane.view.answer.details.text()
+    assert "times larger" in pane.view.answer.details.text()
     shown = wait_until_read(qtbot, pane)
     assert shown.reading is not None
     located = not_none(shown.reading.located)
     # The ellipse is the covariance's, enlarged by the stated factor, around the place found.
     x, _ = pane.view.plan.ellipse.getData()
-    enlarged = float(pane.view.sentences.text().split("drawn ")[1].split(" times")[0])
+    enlarged = float(pane.view.answer.details.text().split("drawn ")[1].split(" times")[0])
     assert np.ptp(x) == pytest.approx(4.0 * enlarged * located.errors[0], rel=0.02)
     middle = pane.room.camera.x + enlarged * (located.place.x - pane.room.camera.x)
     assert (x.min() + x.max()) / 2.0 == pytest.approx(middle, abs=1e-9)
@@ -213,7 +213,7 @@ def test_a_dragged_camera_is_read_anew_and_the_old_place_removed(
     pane: RoomPane, qtbot: QtBot
 ) -> None:
     pane.view.plan.camera.setPos(0.3, 0.5)
-    assert pane.view.headline.text() == "Reading the picture…"
+    assert pane.view.answer.line.text() == "Reading the picture…"
     assert (pane.room.camera.x, pane.room.camera.y) == (0.3, 0.5)
     assert pane.view.plan.ellipse.getData()[0] is None or not len(
         pane.view.plan.ellipse.getData()[0]
@@ -243,9 +243,9 @@ def test_an_opened_file_is_named_and_an_unreadable_room_or_photo_is_reported(
     rooms.textActivated.emit("corridor")
     assert (rooms.currentText(), pane.room) == ("corridor", load_room("corridor"))
     pane.open(tmp_path / "none.toml")
-    assert "none.toml" in pane.view.headline.text()
+    assert "none.toml" in pane.view.answer.line.text()
     pane.open_photo(tmp_path / "none.jpg")
-    qtbot.waitUntil(lambda: "none.jpg" in pane.view.headline.text())
+    qtbot.waitUntil(lambda: "none.jpg" in pane.view.answer.line.text())
     assert (rooms.currentText(), pane.room) == ("corridor", load_room("corridor"))
     path = tmp_path / "mine.toml"
     path.write_text(ROOM.to_toml(), encoding="utf-8")
@@ -323,15 +323,15 @@ def test_a_photo_is_located_and_its_focal_length_can_be_entered(
     assert not view.focal_length.isVisible()
     pane.open_photo(save_as_taken(tmp_path / "room.jpg", _image(), focal_length=26))
     wait_until_read(qtbot, pane)
-    assert view.headline.text().startswith("I am here: x 0.")
-    assert "as the EXIF data say" in view.sentences.text()
-    assert "true place" not in view.sentences.text()
+    assert view.answer.line.text().startswith("I am here: x 0.")
+    assert "as the EXIF data say" in view.answer.details.text()
+    assert "true place" not in view.answer.details.text()
     assert view.plan.camera.pos().x() == pytest.approx(0.4, abs=0.03)
     assert view.focal_length.isVisible()
     assert view.focal_length.value() == 26.0
     view.focal_length.setValue(26.5)
     wait_until_read(qtbot, pane)
-    assert "26.5 mm equivalent, as given" in view.sentences.text()
+    assert "26.5 mm equivalent, as given" in view.answer.details.text()
     shown = wait_until_read(qtbot, pane)
     assert shown.reading is not None
     drawing = room_drawing(shown.room, shown.image, shown.reading, is_photo=True)
@@ -339,7 +339,7 @@ def test_a_photo_is_located_and_its_focal_length_can_be_entered(
     assert rows["x"][1] is None
     view.close_photo.click()
     wait_until_read(qtbot, pane)
-    assert "from the true place" in view.sentences.text()
+    assert "from the true place" in view.answer.details.text()
     assert not view.focal_length.isVisible()
 
 
@@ -348,10 +348,10 @@ def test_another_room_is_sought_in_the_photo_and_dragging_closes_the_photo(
 ) -> None:
     pane.open_photo(save_as_taken(tmp_path / "room.jpg", _image()))
     wait_until_read(qtbot, pane)
-    assert "the photo has no EXIF data on it" in pane.view.sentences.text()
+    assert "the photo has no EXIF data on it" in pane.view.answer.details.text()
     pane.choose("other", ROOM.with_sent(code=900))
     wait_until_read(qtbot, pane)
-    assert pane.view.headline.text() == "The place is not determined"
+    assert pane.view.answer.line.text() == "The place is not determined"
     pane.view.plan.camera.setPos(0.3, 0.5)
     assert pane.source is not None
     assert pane.source.photo is None

@@ -105,6 +105,8 @@ def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
     assert observables == ["image"]
 
     assert observables == ["image"]
+
+
 @pytest.mark.parametrize("jpeg", [0, 80])
 def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
     bench: SimulationBench, pictures: list[Picture], jpeg: int

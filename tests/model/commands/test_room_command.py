@@ -9,7 +9,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands.room import _format_place
+from occ_model.room.place_text import format_place
 from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
@@ -61,12 +61,12 @@ def test_no_error_is_printed_as_zero_and_no_zero_as_negative() -> None:
     errors = np.array([2e-3, 3e-4, 8.71e-5, *np.radians([0.0042, 0.028, 0.00057])])
     yaw, roll = math.radians(-0.0003), math.radians(40.0012)
     place = Place(x=0.5009, y=-0.2001, z=1.1997, yaw=yaw, pitch=-1e-12, roll=roll)
-    said = _format_place(place, Located(place, np.diag(errors**2), 1.0, 1))
+    said = format_place(place, Located(place, np.diag(errors**2), 1.0, 1))
     assert said == (
         "x 0.5009 ± 0.0020 m, y -0.20010 ± 0.00030 m, z 1.199700 ± 0.000087 m, "
         "yaw -0.0003 ± 0.0042 °, pitch 0.000 ± 0.028 °, roll 40.00120 ± 0.00057 °"
     )
-    assert _format_place(place).endswith("yaw 0.00 °, pitch 0.00 °, roll 40.00 °")
+    assert format_place(place).endswith("yaw 0.00 °, pitch 0.00 °, roll 40.00 °")
 
 
 def test_a_picture_without_a_named_lamp_fails_with_the_reason(

@@ -76,6 +76,7 @@ class FilmReading:
     states: ByteArray = field(default_factory=lambda: np.zeros(0, dtype=np.uint8))
     packets: Marks = field(default_factory=Marks)
     text: str = ""
+    answer: str = ""  # what was read, in one line
     facts: tuple[Fact, ...] = ()
     sentences: tuple[str, ...] = ()
 

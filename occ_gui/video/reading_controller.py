@@ -11,6 +11,7 @@ import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.video.film_reading import FilmReading, Marks, MarkState
 from occ_model.errors import inflect
+from occ_model.results.film_sentence import describe_film
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
@@ -104,6 +105,7 @@ class _Collector:
             states=np.array(self._states, dtype=np.uint8),
             packets=self._packets,
             text=text,
+            answer=describe_film(progress, reading),
             facts=film_facts(progress, reading),
             sentences=sentences_of(progress, reading, self._request.film.problem),
         )
@@ -155,8 +157,6 @@ def sentences_of(
     progress: FilmProgress, reading: VideoReading | None, problem: str | None
 ) -> tuple[str, ...]:
     sentences = [problem] if problem else []
-    if reading is not None and reading.failure is not None:
-        sentences.append(reading.failure)
     if reading is not None:
         sentences += [*reading.problems, *filter(None, [reading.faults])]
     elif progress.clock is not None:

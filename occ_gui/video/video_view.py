@@ -22,6 +22,7 @@ from occ_gui.video.film_reading import FilmReading, MarkLegend, Marks
 from occ_gui.video.frame_views import FilmPictures, FrameRows
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
+from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import (
     ElidedLabel,
     KeyedComboBox,
@@ -168,7 +169,7 @@ _LEAST_FORM = QSize(240, 80)
 
 
 class DataView(QWidget):
-    """The text that was read, facts about the reading, and remarks."""
+    """What was read in a line, the text, remarks, and the facts that unfold beside it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -179,15 +180,21 @@ class DataView(QWidget):
         self.sentences = paragraph(name="What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.rows: list[tuple[QLabel, QLabel]] = []
-        self._grid = QGridLayout()
+        table = QWidget()
+        self._grid = QGridLayout(table)
+        self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(2)
         self._grid.setRowStretch(100, 1)
-        line = fill(QHBoxLayout(), (self.text, 1), self._grid, margins=0, spacing=12)
-        fill(QVBoxLayout(self), (line, 1), self.sentences, margins=(6, 6, 6, 4))
+        self.answer = Answer(table)
+        parts = (self.answer, (self.text, 1), self.sentences)
+        left = fill(QVBoxLayout(), *parts, margins=0, spacing=4)
+        fill(QHBoxLayout(self), (left, 1), table, margins=(6, 6, 6, 4), spacing=12)
         self.show_reading(FilmReading())
 
     def show_reading(self, reading: FilmReading) -> None:
+        self.answer.show_answer(reading.answer)
+        self.answer.setVisible(bool(reading.answer))
         self._show_text(reading.text[-_MOST_TEXT:])
         self._show_facts(reading.facts)
         self.sentences.setText("\n".join(reading.sentences))

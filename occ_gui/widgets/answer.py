@@ -26,21 +26,18 @@ class MoreButton(QToolButton):
 
 
 class Answer(QWidget):
-    """The sentence that the user came for; ``button`` acts on it, ``below`` unfolds with it."""
+    """The sentence that the user came for; ``unfolds`` is a widget elsewhere that *More* shows."""
 
-    def __init__(self, button: QWidget | None = None, below: QWidget | None = None) -> None:
+    def __init__(self, unfolds: QWidget | None = None) -> None:
         super().__init__()
         self.line, self.note, self.details = (paragraph(is_selectable=True) for _ in range(3))
         self.line.setFont(heading_font(self.font()))
-        self._below = below
+        self._unfolds = unfolds
         self.more = MoreButton()
         self.more.toggled.connect(lambda: self._unfold(bool(self.details.text())))
         top = Qt.AlignmentFlag.AlignTop
         row = fill(QHBoxLayout(), (self.line, 1), (self.more, 0, top), spacing=8)
-        if button is not None:
-            row.addWidget(button, 0, top)
-        parts = (self.note, self.details, *(() if below is None else (below,)))
-        fill(QVBoxLayout(self), row, *parts, margins=0, spacing=4)
+        fill(QVBoxLayout(self), row, self.note, self.details, margins=0, spacing=4)
         self.show_answer("")
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
@@ -58,7 +55,11 @@ class Answer(QWidget):
         self._unfold(bool(text))
 
     def _unfold(self, has_details: bool) -> None:
-        self.more.setVisible(has_details or self._below is not None)
+        self.more.setVisible(has_details or (self._unfolds is not None and self._has_line))
         self.details.setVisible(has_details and self.more.isChecked())
-        if self._below is not None:
-            self._below.setVisible(self.more.isChecked())
+        if self._unfolds is not None:
+            self._unfolds.setVisible(self.more.isChecked() and self._has_line)
+
+    @property
+    def _has_line(self) -> bool:
+        return bool(self.line.text())

@@ -24,7 +24,7 @@ def film_facts(progress: FilmProgress, reading: VideoReading | None) -> tuple[Fa
         ),
         Fact(
             "known",
-            "Packet known",
+            "Payload known",
             f"{100.0 * progress.known:.0f} %",
             meaning="Fraction of the chips of a period that are known, including a header's.",
         ),
@@ -68,7 +68,7 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
     (counts,) = reading.rates(1)
     yield Fact(
         "packet_error_rate",
-        "Packet error rate",
+        "Packet loss",
         *error_rate(counts.packets_lost, counts.packets, "packets"),
         f"Fraction of the packets sent that were lost: {reading.cut_off} were cut off by the edge "
         "of a frame or fell in the gap, which happens even where every frame is read.",

@@ -22,7 +22,7 @@ def view(qtbot: QtBot) -> DataView:
 
 def reading(text: str = "", *figures: str, sentences: tuple[str, ...] = ()) -> FilmReading:
     shown = tuple(Fact(name, name, f"{name} 1", meaning=f"What {name} is.") for name in figures)
-    return FilmReading(text=text, facts=shown, sentences=sentences)
+    return FilmReading(text=text, answer="It is read.", facts=shown, sentences=sentences)
 
 
 def test_text_that_grows_keeps_what_is_selected_and_is_followed_where_its_end_is_in_view(
@@ -49,11 +49,14 @@ def test_text_that_grows_keeps_what_is_selected_and_is_followed_where_its_end_is
     assert bar.value() == 7
 
 
-def test_facts_are_shown_in_order_above_the_remarks(view: DataView, qtbot: QtBot) -> None:
+def test_facts_unfold_in_order_beside_the_remarks(view: DataView, qtbot: QtBot) -> None:
     def shown() -> list[str]:
         return [name.text() for name, value in view.rows if value.isVisible()]
 
     view.show_reading(reading("", "b", "d"))
+    assert view.answer.line.text() == "It is read."
+    assert shown() == []
+    view.answer.more.click()
     view.show_reading(reading("", "a", "b", "c", "d"))
     assert shown() == list("abcd")
 

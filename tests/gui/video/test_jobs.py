@@ -149,7 +149,7 @@ def test_rates_name_what_they_count_and_have_only_significant_digits(
     whole: VideoReading, packets: str, bits: str | None
 ) -> None:
     figures = texts_of_facts(whole)
-    assert figures["Packet error rate"] == packets
+    assert figures["Packet loss"] == packets
     assert figures.get("Bit error rate") == bits
 
 

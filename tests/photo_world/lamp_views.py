@@ -15,7 +15,7 @@ from photo_world.tone_curves import any_camera_curve
 
 _SAMPLES = 4096  # of a period
 _LONGEST = 700  # columns of a lamp
-_LEAST_CONTRAST = 0.05  # of the stripes, as a fraction of their brightest light
+_LEAST_CONTRAST = 0.05  # of the stripes, and of what is in view, over the brightest light
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,12 @@ def lamp_view(seed: int) -> LampView:
     while True:
         recipe = _recipe(random)
         wave = _seen_light(np.linspace(0.0, 1.0, 500), recipe)
-        if np.ptp(wave) > _LEAST_CONTRAST * wave.max():
+        if np.ptp(wave) <= _LEAST_CONTRAST * wave.max():
+            continue
+        light = _light(random, recipe)
+        if light is not None:
             break
-    image = _taken(random, recipe, _light(random, recipe))
+    image = _taken(random, recipe, light)
     return LampView(
         image, recipe.period * recipe.scale, recipe.duty, recipe.exposure, _classes(recipe)
     )
@@ -139,8 +142,8 @@ def _seen_light(time: np.ndarray, recipe: _Recipe) -> np.ndarray:
     return np.asarray((until(time + recipe.exposure) - until(time)) / recipe.exposure)
 
 
-def _light(random: np.random.Generator, recipe: _Recipe) -> np.ndarray:
-    """Return the light of each pixel before the camera, 1 is white."""
+def _light(random: np.random.Generator, recipe: _Recipe) -> np.ndarray | None:
+    """Return the light of each pixel before the camera, 1 is white; None if all lines are dark."""
     across = max(recipe.periods * recipe.period, 40.0)
     is_round = random.random() < 0.6
     down = across * float(random.uniform(0.7, 1.0)) if is_round else random.uniform(30.0, 250.0)
@@ -166,7 +169,10 @@ def _light(random: np.random.Generator, recipe: _Recipe) -> np.ndarray:
     line = np.arange(columns) // recipe.lines * recipe.lines
     wave = _seen_light(line / recipe.period + random.uniform(0.0, 1.0), recipe)
     light = lens * wave
-    light *= recipe.peak / np.quantile(light, 0.998)
+    brightest = float(np.quantile(light, 0.998))
+    if brightest < _LEAST_CONTRAST * float(lens.max()):
+        return None
+    light *= recipe.peak / brightest
     room = _room(random, recipe, light.shape)
     if recipe.cut:
         first, last = random.uniform(0.0, 0.3, 2)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from occ_model.arrays import BoolArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 
@@ -74,7 +74,7 @@ def _bounds(mask: BoolArray, margin: float) -> tuple[int, int, int, int]:
 def _inside(part: FloatArray, mask: BoolArray, region: Region, white: int) -> LampPlace | None:
     """Return the pixels of a mask without its rim; a picture's border is no rim."""
     kernel = np.ones((2 * _RIM_PIXELS + 1,) * 2, dtype=np.uint8)
-    inner = cv2.erode(mask.astype(np.uint8), kernel).astype(bool)
+    inner = cv2.erode(_hull(mask), kernel).astype(bool)
     counts = inner.sum(axis=0)
     shown = np.flatnonzero(counts > _LEAST_PART * counts.max(initial=0))
     if len(shown) < _LEAST_COLUMNS:
@@ -87,6 +87,17 @@ def _inside(part: FloatArray, mask: BoolArray, region: Region, white: int) -> La
         region.first_column + first, region.first_column + last,
     )  # fmt: skip
     return LampPlace(place, part[rows, columns].astype(np.float32) / white, inner[rows, columns])
+
+
+def _hull(mask: BoolArray) -> ByteArray:
+    """Return the convex hull of a mask.
+
+    Where a lamp is faint the mask ends at edges of stripes. Of columns beside such an edge other
+    rows would be averaged, which moves the edge outwards.
+    """
+    corners = cv2.convexHull(np.argwhere(mask)[:, ::-1].astype(np.int32))
+    hull = np.zeros(mask.shape, dtype=np.uint8)
+    return np.asarray(cv2.fillConvexPoly(hull, corners, 1), dtype=np.uint8)
 
 
 def _patch(part: FloatArray) -> BoolArray | None:

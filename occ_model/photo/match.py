@@ -98,6 +98,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
             match = match_lamp(
                 photo, scene, within,
                 estimate=estimate, is_duty_known=sent == "scene", fit_gamma=fit_gamma,
+                check=report.again,
             )  # fmt: skip
         except MatchError as error:
             raise MatchError(*error.reasons, *advice) from None

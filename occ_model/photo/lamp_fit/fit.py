@@ -1,7 +1,7 @@
 """Fit the model of a lamp's stripes to a profile, from several starts."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -85,9 +85,17 @@ class LampFit:
 
 
 def fit_lamp(
-    profile: LampProfile, periods: Sequence[float], *, is_linear: bool = False
+    profile: LampProfile,
+    periods: Sequence[float],
+    *,
+    is_linear: bool = False,
+    check: Callable[[], object] = lambda: None,
 ) -> list[LampFit]:
-    """Return fits of a profile, the most likely first, from some periods and multiples of them."""
+    """Return fits of a profile, the most likely first, from some periods and multiples of them.
+
+    ``check`` is called every few hundredths of a second, and may raise an exception to end the
+    work.
+    """
     starts: list[float] = []
     longest = len(profile.values) / 1.2
     for period in periods:
@@ -97,13 +105,16 @@ def fit_lamp(
                 abs(tried / other - 1.0) > _SAME_PERIOD for other in starts
             ):
                 starts.append(tried)
-    rough = [_from_period(profile, period, is_linear, _FIRST_STEPS) for period in starts]
+
+    def fitted(period: float, steps: Sequence[int]) -> LampFit:
+        check()
+        return _from_period(profile, period, is_linear, steps)
+
+    rough = [fitted(period, _FIRST_STEPS) for period in starts]
     rough.sort(key=lambda fit: -fit.score)
-    found = [
-        _from_period(profile, start.wave.period, is_linear, _STEPS)
-        for start in rough[:_FITTED_STARTS]
-    ]
+    found = [fitted(start.wave.period, _STEPS) for start in rough[:_FITTED_STARTS]]
     if found:
+        check()
         best = max(found, key=lambda fit: fit.score)
         found += [_with_stiffness(best, factor) for factor in _OTHER_STIFFNESSES]
     return sorted([*found, *rough[_FITTED_STARTS:]], key=lambda fit: -fit.score)

@@ -1,6 +1,7 @@
 """Match the stripes of a lamp in a photo: its frequency or the readout time, duty and exposure."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -45,6 +46,7 @@ def match_lamp(
     estimate: str,
     is_duty_known: bool,
     fit_gamma: bool = False,
+    check: Callable[[], object] = lambda: None,
 ) -> Match:
     """Match the brightest lamp within a region of a photo.
 
@@ -58,6 +60,8 @@ def match_lamp(
         Whether the scene's duty is the lamp's; else it is read from the stripes.
     fit_gamma
         Whether gamma is estimated, too, unless samples are in proportion to the light.
+    check
+        Called every few hundredths of a second; what it raises ends the match.
 
     Raises
     ------
@@ -72,7 +76,7 @@ def match_lamp(
     place = find_place(photo, region)
     if place is None:
         raise MatchError("No lamp is found: nothing in the photo is brighter than the rest.")
-    reading = read_lamp(place, is_linear=photo.is_linear)
+    reading = read_lamp(place, is_linear=photo.is_linear, check=check)
     period = reading.period
     readout = scene.camera.readout_time
     if estimate == "readout_time":

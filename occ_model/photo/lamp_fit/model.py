@@ -143,11 +143,12 @@ def _leaving(levels: FloatArray, away: int) -> FloatArray:
 
     Of shape as ``levels``, whose last axis counts the columns; beyond the ends levels go on.
     """
-    padded = np.concatenate(
-        [levels[..., :1]] * away + [levels] + [levels[..., -1:]] * away, axis=-1
-    )
-    size = levels.shape[-1]
-    return np.asarray(padded[..., :size] + padded[..., 2 * away :] - 2.0 * levels)
+    gained = -2.0 * levels
+    gained[..., :-away] += levels[..., away:]
+    gained[..., away:] += levels[..., :-away]
+    gained[..., :away] += levels[..., :1]
+    gained[..., -away:] += levels[..., -1:]
+    return np.asarray(gained)
 
 
 def envelope_basis(count: int, knots: int) -> FloatArray:

@@ -1,6 +1,7 @@
 """Read a lamp's period, place, duty and exposure from a place in a photo."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -93,8 +94,10 @@ class LampReading:
         return doubts(self.cues, self.gap, self.other_period, has_note)
 
 
-def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
-    """Fit a lamp's stripes.
+def read_lamp(
+    place: LampPlace, *, is_linear: bool, check: Callable[[], object] = lambda: None
+) -> LampReading:
+    """Fit a lamp's stripes; ``check`` as in :func:`fit_lamp`.
 
     Raises
     ------
@@ -110,7 +113,8 @@ def read_lamp(place: LampPlace, *, is_linear: bool) -> LampReading:
     more = profile.reduction(0.5 * min(periods))
     profile, step = profile.averaged(more, 0), together * more
     bands = _bands(place, step, first)
-    ranked = fit_lamp(profile, [each / more for each in periods], is_linear=is_linear)
+    starts = [each / more for each in periods]
+    ranked = fit_lamp(profile, starts, is_linear=is_linear, check=check)
     if not ranked:
         raise MatchError("No period of stripes is found in it.")
     fit, cues = ranked[0], cues_of(ranked[0], bands)

@@ -88,6 +88,24 @@ def test_the_scene_of_a_match_begins_where_the_photo_does() -> None:
     assert np.corrcoef(found.stripes.flattened, simulated)[0, 1] > 0.97
 
 
+def test_a_match_can_be_ended_while_it_fits() -> None:
+    picture = draw_lamp(np.random.default_rng(5), duty=0.3, exposure=0.12, periods=7.7)
+    whole, asked = region_within(picture.photo, None), 0
+
+    def stop_at_third() -> None:
+        nonlocal asked
+        asked += 1
+        if asked == 3:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        match_lamp(
+            picture.photo, SCENE, whole,
+            estimate="readout_time", is_duty_known=False, check=stop_at_third,
+        )  # fmt: skip
+    assert asked == 3
+
+
 def stripes(shift: float = 0.0, floor: float = 0.0, exposure: float = 0.2) -> occ.Photo:
     """Photograph an evenly lit lamp, shifted by some columns from the first row to the last."""
     random, rows = np.random.default_rng(9), 40

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
+import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
@@ -99,8 +100,8 @@ class Levels:
             (by_light * by_floor * steep)[None],
             by_light[None],
             by_tone,
-            _leaving(levels, 1)[None],
-            _leaving(levels, 2)[None],
+            _mixed(levels, -2.0, 1.0, 0.0)[None],
+            _mixed(levels, -2.0, 0.0, 1.0)[None],
             by_envelope * self.envelope.T,
         ])  # fmt: skip
         before = [*range(NEAR), *range(COUNT, len(slopes))]
@@ -114,7 +115,7 @@ class Levels:
 
     def _processed(self, values: FloatArray, levels: FloatArray) -> FloatArray:
         near, far = values[NEAR], values[FAR]
-        return np.asarray(levels + near * _leaving(levels, 1) + far * _leaving(levels, 2))
+        return _mixed(levels, 1.0 - 2.0 * (near + far), near, far)
 
     def _light(self, values: FloatArray, wave: FloatArray) -> tuple[FloatArray, FloatArray, float]:
         log = np.clip(self.envelope @ values[COUNT:], -_LARGEST_LOG, _LARGEST_LOG)
@@ -138,17 +139,15 @@ class Levels:
         return np.concatenate([means / deviations, np.zeros(bends)]), slopes
 
 
-def _leaving(levels: FloatArray, away: int) -> FloatArray:
-    """Return what columns gain if all levels of those so far away, on both sides, take their place.
+def _mixed(levels: FloatArray, own: float, near: float, far: float) -> FloatArray:
+    """Mix each column with the two on either side; beyond the ends levels go on.
 
-    Of shape as ``levels``, whose last axis counts the columns; beyond the ends levels go on.
+    Of shape as ``levels``, whose last axis counts the columns.
     """
-    gained = -2.0 * levels
-    gained[..., :-away] += levels[..., away:]
-    gained[..., away:] += levels[..., :-away]
-    gained[..., :away] += levels[..., :1]
-    gained[..., -away:] += levels[..., -1:]
-    return np.asarray(gained)
+    kernel = np.array([[far, near, own, near, far]])
+    rows = levels.reshape(-1, levels.shape[-1])
+    mixed = cv2.filter2D(rows, -1, kernel, borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(mixed, dtype=np.float64).reshape(levels.shape)
 
 
 def envelope_basis(count: int, knots: int) -> FloatArray:

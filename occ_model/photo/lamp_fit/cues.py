@@ -46,6 +46,8 @@ class Cues:
         Of the tone curve.
     narrowest
         Length of the shorter of a stripe and the gap between two, in columns.
+    white
+        Fraction of the columns in which pixels are clipped.
     """
 
     floor: float
@@ -64,6 +66,7 @@ class Cues:
     dips: int
     gamma: float
     narrowest: float
+    white: float
 
     @property
     def bits(self) -> float:
@@ -99,6 +102,7 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
         dips=_dips(fit),
         gamma=fit.gamma,
         narrowest=min(wave.width, 1.0 - wave.width) * wave.period,
+        white=float(fit.profile.clipped.mean()),
     )
 
 

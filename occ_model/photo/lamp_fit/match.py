@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from occ_model.camera.photometry import WHITE
-from occ_model.errors import MatchError
+from occ_model.errors import MatchError, distinct_texts
 from occ_model.photo.fitted_scene import (
     DOUBTFUL_EXPOSURE_DEVIATION,
     doubts_by_enhancement,
@@ -36,6 +36,8 @@ _MOST_DEVIATIONS, _DUTY_ERROR = 3.0, 0.02
 curves outside the model add to them."""
 
 _LEAST_RAMP, _LEAST_PERIOD = 1.0, 10.0  # columns from which duty and exposure are sure
+_RAMP_BY_NOISE = 200.0  # columns, for columns that differ from the model by the stripes' height
+_MOST_WHITE = 0.15  # of the columns, up to which duty and exposure are sure
 
 
 def match_lamp(
@@ -108,7 +110,7 @@ def match_lamp(
     scene = round_estimates(scene, errors)
     stripes = Stripes(
         place.region, WHITE * reading.profile.values, low, high,
-        period, reading.period_error * reading.step,
+        period, reading.errors.period * reading.step,
         float((place.pixels[place.shown] >= SATURATED_LEVEL).mean()),
     )  # fmt: skip
     model = WHITE * reading.levels
@@ -148,7 +150,7 @@ def _choose(
 ) -> tuple[StripeReading, tuple[StripeReading, ...]]:
     """Return the duty and exposure that the floor, and what is known, leave, and others as good."""
     floor, most = reading.fit.floor, floor_limit(reading.cues)
-    errors = reading.ramp_error, reading.width_error
+    errors = reading.errors.ramp, reading.errors.width
 
     def away(one: StripeReading) -> float:
         known = 0.0
@@ -171,7 +173,7 @@ def _choose(
 
 def _doubts_by_duty(reading: LampReading, chosen: StripeReading, known: float | None) -> list[str]:
     """Doubt a known duty that is not that of the stripes."""
-    error = reading.width_error if chosen.is_width_of_pulses else reading.ramp_error
+    error = reading.errors.width if chosen.is_width_of_pulses else reading.errors.ramp
     if known is None or abs(chosen.duty - known) <= _MOST_DEVIATIONS * math.hypot(
         error, _DUTY_ERROR
     ):
@@ -183,15 +185,22 @@ def _doubts_by_duty(reading: LampReading, chosen: StripeReading, known: float | 
 
 
 def _doubts_by_columns(reading: LampReading) -> list[str]:
-    """Doubt duty and exposure where compression and blur make most of the stripes' shape."""
-    ramp, period = reading.cues.ramp, reading.cues.period
-    if ramp >= _LEAST_RAMP and period >= _LEAST_PERIOD:
-        return []
-    return [
-        f"The stripes' edges last {ramp:.2g} of the {period:.3g} columns of a period, so that blur "
-        f"and compression hide duty and exposure; at least {_LEAST_RAMP:.0f} of "
-        f"{_LEAST_PERIOD:.0f} are needed."
-    ]
+    """Doubt duty and exposure where compression, blur or white hide the stripes' shape."""
+    cues = reading.cues
+    least, found = max(_LEAST_RAMP, _RAMP_BY_NOISE * cues.unexplained), []
+    if cues.ramp < least or cues.period < _LEAST_PERIOD:
+        found.append(
+            f"The stripes' edges last {cues.ramp:.2g} of the {cues.period:.3g} columns of a "
+            "period, so that blur and compression hide duty and exposure; at least "
+            f"{least:.2g} of {_LEAST_PERIOD:.0f} are needed."
+        )
+    if cues.white > _MOST_WHITE:
+        white, most = distinct_texts(100.0 * cues.white, 100.0 * _MOST_WHITE)
+        found.append(
+            f"{white} % of the columns have white pixels, which hides duty and exposure; at most "
+            f"{most} % are allowed."
+        )
+    return found
 
 
 def _doubts_by_readings(
@@ -226,11 +235,11 @@ def _uncertainties(
     is_duty_known: bool,
 ) -> dict[str, float]:
     """Return the standard deviations of the estimates, in SI units."""
-    relative = reading.period_error / reading.fit.wave.period
-    of_duty, of_exposure = reading.width_error, reading.ramp_error
+    relative = reading.errors.period / reading.fit.wave.period
+    of_duty, of_exposure = reading.errors.width, reading.errors.ramp
     if not chosen.is_width_of_pulses:
         of_duty, of_exposure = of_exposure, of_duty
-    of_place = reading.place_error * reading.step * readout
+    of_place = reading.errors.place * reading.step * readout
     found = {
         "exposure_time": of_exposure / frequency,
         "start_time": math.hypot(of_place, 0.5 * math.hypot(of_duty, of_exposure) / frequency),

@@ -1,5 +1,6 @@
 """The profile of a place in a photo, as the fit takes it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -52,6 +53,19 @@ class LampProfile:
 
     def lines_at_once(self) -> tuple[int, int]:
         """Return how many lines the sensor reads together, and the first that begins a group."""
+        return next(
+            ((count, first) for count, first, has_ramps in self._groups() if has_ramps), (1, 0)
+        )
+
+    def most_lines_at_once(self) -> int:
+        """Return how many lines the sensor may read together where edges without ramps hide it."""
+        return max((count for count, _, has_ramps in self._groups() if not has_ramps), default=1)
+
+    def _groups(self) -> Iterator[tuple[int, int, bool]]:
+        """Yield numbers of lines with steps between their groups only.
+
+        Each with the first line that begins a group, and whether ramps show that it is no chance.
+        """
         steps = np.square(np.diff(self.values))
         for count in _GROUPS:
             if len(steps) < 8 * count:
@@ -62,10 +76,9 @@ class LampProfile:
             others = np.delete(means, largest)
             between = steps[largest:whole:count]
             notable = between > _NOTABLE_STEP**2 * between.max()
-            has_ramps = np.count_nonzero(notable[1:] & notable[:-1]) >= _LEAST_RAMPS
-            if has_ramps and others.max() < _LEAST_STEP_RATIO**2 * means[largest]:
-                return count, (largest + 1) % count
-        return 1, 0
+            has_ramps = int(np.count_nonzero(notable[1:] & notable[:-1])) >= _LEAST_RAMPS
+            if others.max() < _LEAST_STEP_RATIO**2 * means[largest]:
+                yield count, (largest + 1) % count, has_ramps
 
     def averaged(self, count: int, first: int) -> "LampProfile":
         """Average every ``count`` columns from the column ``first`` on."""

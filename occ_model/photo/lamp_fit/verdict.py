@@ -4,16 +4,19 @@ from occ_model.photo.lamp_fit.cues import Cues
 
 _MOST_FLOOR, _FLOOR_PART = 0.06, 0.15  # of the stripes' height, and of the floor that is expected
 _MOST_BLUR, _BLUR_PART = 1.0, 0.25  # columns, and of the ramp
-_MOST_DRIFT, _MOST_ROWS_SCATTER = 0.35, 0.35  # columns
-_DRIFT_DEVIATIONS = 4.0
+_MOST_DRIFT, _MOST_ROWS_SCATTER = 0.2, 0.35  # columns
+_DRIFT_DEVIATIONS = 2.5
 _MOST_SCATTER, _SCATTER_PART, _SCATTER_DEVIATIONS = 0.12, 0.002, 2.6
 _LEAST_BITS = 9.0
-_GAMMAS = (0.9, 6.0)
+_GAMMAS = (1.2, 4.5)
 _LEAST_PERIOD = 4.0  # columns
 _MOST_MISFIT = 0.06  # of the swing
 _MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # of the swing; of lamps 0.06 at most
 _LEAST_GAP = 6.0  # natural logarithms between the best period and the next
 _FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
+_LIT_GAPS, _FEW_LOW_EDGES, _MOST_WHITE = 0.9, 8, 0.1
+"""Light between the stripes over their height from which they are low; most edges of low stripes
+that the lamp's own shape may pretend, and part of white columns that may hide more of them."""
 _LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap
 _REFUSED_BITS, _REFUSED_FLOOR, _REFUSED_MISFIT, _REFUSED_SCATTER = 4.0, 0.25, 0.12, 0.1
 """Limits of a refusal: bits, fractions of the height and of the swing, part of the period."""
@@ -64,6 +67,15 @@ def _doubts_by_light(cues: Cues, has_note: bool) -> list[str]:
         found.append(
             "Between the stripes there is light, as with an exposure of a period or more, and the "
             "photo notes no exposure time."
+        )
+    if cues.floor_expected >= _LIT_GAPS and (
+        cues.edges <= _FEW_LOW_EDGES or cues.white > _MOST_WHITE
+    ):
+        found.append(
+            f"The light between the stripes is {cues.floor_expected:.2g} times as high as they "
+            f"are. Of such stripes more than {_FEW_LOW_EDGES} edges are needed, of which "
+            f"{cues.edges} are in view, and at most {100.0 * _MOST_WHITE:.0f} % white columns, of "
+            f"which there are {100.0 * cues.white:.0f} %."
         )
     low, high = _GAMMAS
     if not low <= cues.gamma <= high:

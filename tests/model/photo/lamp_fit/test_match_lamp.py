@@ -73,12 +73,12 @@ def test_exchanging_duty_and_exposure_exchanges_their_errors() -> None:
     )
     assert short.duty == pytest.approx(long.exposure_time * FREQUENCY, rel=0.05)
     for match, of_duty, of_exposure in (
-        (short, reading.width_error, reading.ramp_error),
-        (long, reading.ramp_error, reading.width_error),
+        (short, reading.errors.width, reading.errors.ramp),
+        (long, reading.errors.ramp, reading.errors.width),
     ):
         assert match.uncertainties["duty"] == pytest.approx(of_duty)
         assert match.uncertainties["exposure_time"] == pytest.approx(of_exposure / FREQUENCY)
-    assert reading.width_error != pytest.approx(reading.ramp_error, rel=0.05)
+    assert reading.errors.width != pytest.approx(reading.errors.ramp, rel=0.05)
 
 
 def test_the_scene_of_a_match_begins_where_the_photo_does() -> None:
@@ -162,6 +162,19 @@ def test_sharp_edges_whole_groups_apart_are_no_lines_that_are_read_together(peri
     noise = np.random.default_rng(6).normal(0.0, 1e-3, pixels.shape)
     for seen in (pixels, pixels + noise):
         assert LampProfile.of(seen, np.ones(seen.shape, dtype=bool)).lines_at_once() == (1, 0)
+
+
+def test_the_errors_of_sharp_edges_hold_where_lines_may_be_read_together() -> None:
+    """Edges of five groups of four lines a period, less a little, all lie on whole groups."""
+    groups = np.repeat(np.arange(36.0) * 4.0, 4)
+    on = (groups + 1.0) % 19.9 < 9.95
+    random = np.random.default_rng(8)
+    light = np.clip(0.6 * np.tile(on, (24, 1)) + random.normal(0.0, 0.004, (24, 144)), 0.0, 1.0)
+    found = occ.match_photo(photo_of(srgb(light)), SCENE)
+    error = found.uncertainties["readout_time"]
+    assert found.lines_at_once == 1
+    assert is_near(found.readout_time, readout_of(19.9), error, 3.0)
+    assert error / found.readout_time > 2e-3
 
 
 def test_a_known_duty_that_is_not_the_stripes_own_is_doubted() -> None:

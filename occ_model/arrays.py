@@ -9,3 +9,5 @@ ByteArray = NDArray[np.uint8]
 Samples = NDArray[np.uint8 | np.uint16]  # 8 or 16 bits, with white as the largest number
 Pixels = NDArray[np.float32]
 BoolArray = NDArray[np.bool_]
+
+LARGEST_BYTE = 255.0  # white in a picture of bytes

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 from occ_gui.background.task import Report
-from occ_gui.simulation.moves import time_move
+from occ_gui.simulation.jobs import time_move
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.effects.plan import plan_with
 from occ_model.errors import OccError

@@ -16,8 +16,7 @@ from occ_gui.widgets.building import check_box, fill, paragraph, push_button
 from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
-from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import WHITE
+from occ_model.arrays import LARGEST_BYTE, FloatArray
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.scene import Transmitter
 
@@ -260,7 +259,7 @@ class ProfileView(QWidget):
             (float(profile.max()) for profile in profiles if profile is not None), default=0.0
         )
         step = 20.0
-        top = min(max(step, np.ceil(largest / step) * step), WHITE)
+        top = min(max(step, np.ceil(largest / step) * step), LARGEST_BYTE)
         self.plot.setYRange(0.0, top, padding=0.06)
 
     def _fit_columns(self, reading: Reading) -> None:

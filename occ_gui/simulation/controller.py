@@ -28,11 +28,12 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import (
     DraftRows,
+    begin_move,
     explain_failures,
     is_fast,
     snapshot_of,
 )
-from occ_gui.simulation.moves import MoveLog, MoveTime, begin_move
+from occ_gui.simulation.moves import MoveLog, MoveTime
 from occ_gui.simulation.snapshot import SOURCES, Picture, Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest

@@ -2,11 +2,12 @@
 
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
 import occ_model as occ
+from occ_gui.simulation.moves import MoveTime
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
@@ -21,7 +22,7 @@ from occ_model.results.frame import Frame
 from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
-from occ_model.simulation.render import PlannedScene, overexposed_fraction, render_with
+from occ_model.simulation.render import PlannedScene, overexposed_fraction, plan_scene, render_with
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.observation import ProfileReading, read_profile
@@ -117,6 +118,27 @@ def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     return Reading(source="draft", error=frame.plan.error, **fields)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class BegunMove:
+    """A move until its draft: the plan, and what can be shown of it so far."""
+
+    planned: PlannedScene
+    reading: Reading | None
+    draft: Frame | None
+    draft_seconds: float
+
+
+def begin_move(request: SimulationRequest) -> BegunMove:
+    """Plan a scene, read it by its profile, and simulate and read a draft if that is needed."""
+    start = perf_counter()
+    planned = plan_scene(request.scene, request.settings)  # once for all that follows
+    reading = reading_by_profile(request, planned)
+    draft = draft_of(request, planned)
+    if draft is not None:
+        reading = reading or reading_of_draft(request, draft)
+    return BegunMove(planned, reading, draft, perf_counter() - start)
+
+
 def _scale_rows(result: DecodeResult, draft: Frame) -> DecodeResult:
     """Return a draft's result with its region in the rows of the picture, and no location."""
     region, step = result.region, draft.rows_step
@@ -143,6 +165,20 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         reading_seconds=seconds,
         **fields,
     )
+
+
+def time_move(request: SimulationRequest, *, with_draft: bool) -> list[MoveTime]:
+    """Simulate a scene as after a slider's move, and time it."""
+    times = []
+    planned = None
+    if with_draft:
+        move = begin_move(request)
+        planned = move.planned
+        if move.draft is not None:
+            times.append(MoveTime.of(move.draft, move.draft_seconds))
+    frame = render_with(request.scene, request.settings, planned=planned)
+    snapshot_of(request, frame)  # which may need the receiver's picture, too
+    return [*times, MoveTime.of(frame)]
 
 
 def explain_failures(snapshot: Snapshot, heartbeat: Heartbeat = lambda: None) -> Snapshot:

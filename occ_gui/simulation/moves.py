@@ -2,43 +2,12 @@
 
 from collections import deque
 from dataclasses import dataclass
-from time import perf_counter
 from typing import TypeAlias
 
-from occ_gui.simulation.jobs import (
-    draft_of,
-    reading_by_profile,
-    reading_of_draft,
-    snapshot_of,
-)
-from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.accuracy import MeasuredCosts, TimeFractions, Times
 from occ_model.results.frame import Frame
-from occ_model.simulation.render import PlannedScene, plan_scene, render_with
 
 _KEPT = 9  # last moves that count
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class BegunMove:
-    """A move until its draft: the plan, and what can be shown of it so far."""
-
-    planned: PlannedScene
-    reading: Reading | None
-    draft: Frame | None
-    draft_seconds: float
-
-
-def begin_move(request: SimulationRequest) -> BegunMove:
-    """Plan a scene, read it by its profile, and simulate and read a draft if that is needed."""
-    start = perf_counter()
-    planned = plan_scene(request.scene, request.settings)  # once for all that follows
-    reading = reading_by_profile(request, planned)
-    draft = draft_of(request, planned)
-    if draft is not None:
-        reading = reading or reading_of_draft(request, draft)
-    return BegunMove(planned, reading, draft, perf_counter() - start)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,20 +26,6 @@ class MoveTime:
         size = camera.rows, camera.columns
         picture = times if draft_seconds is None else None
         return cls(size, times.included, picture, draft_seconds)
-
-
-def time_move(request: SimulationRequest, *, with_draft: bool) -> list[MoveTime]:
-    """Simulate a scene as after a slider's move, and time it."""
-    times = []
-    planned = None
-    if with_draft:
-        move = begin_move(request)
-        planned = move.planned
-        if move.draft is not None:
-            times.append(MoveTime.of(move.draft, move.draft_seconds))
-    frame = render_with(request.scene, request.settings, planned=planned)
-    snapshot_of(request, frame)  # which may need the receiver's picture, too
-    return [*times, MoveTime.of(frame)]
 
 
 _Key: TypeAlias = tuple[tuple[int, int], frozenset[str]]

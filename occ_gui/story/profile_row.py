@@ -15,8 +15,7 @@ from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
 from occ_gui.widgets.guarded_paint import are_equal
-from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import WHITE
+from occ_model.arrays import LARGEST_BYTE, FloatArray
 from occ_model.results.decoding import DecodeResult
 
 _Level = TypeVar("_Level", float, FloatArray)  # one level, or one for each column
@@ -47,7 +46,7 @@ class ProfileRow(StoryRow):
         self._photo: PhotoProfile | None = None
         self._picture_kind = "camera"
         self._drawn_inputs: tuple[object, ...] = ()
-        self._top = WHITE
+        self._top = LARGEST_BYTE
         self.threshold: tuple[float, float] | None = None
         """The levels between which the decoder's threshold lies; None if it has none."""
 
@@ -108,7 +107,7 @@ class ProfileRow(StoryRow):
         photo = self.photo
         curves = (self.levels, self.band, None if photo is None else photo[1])
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
-        self._top = min(max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP), WHITE)
+        self._top = min(max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP), LARGEST_BYTE)
         region = None if self._result is None else self._result.region
         inputs = (*curves, self.threshold, region, self._photo)
         # Results from the picture are mostly equal to the earlier ones.

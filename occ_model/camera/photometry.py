@@ -13,11 +13,11 @@ from typing import Self
 import cv2
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import LARGEST_BYTE, FloatArray
 from occ_model.camera.exposure import lit_fraction
 from occ_model.scene.scene import Camera, Scene
 
-WHITE = 255.0  # the largest pixel value
+WHITE = LARGEST_BYTE  # the largest pixel value
 FLAT_SPAN = 1.0  # least span in grey levels that is enhanced; stretching less would invent stripes
 _MID_GREY = 118.0  # the pixel value at the luminance to which the meter is calibrated
 

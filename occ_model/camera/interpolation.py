@@ -22,7 +22,9 @@ def split_levels(levels: FloatArray) -> Places:
 def interpolate_at(table: FloatArray, places: Places) -> FloatArray:
     """Interpolate a table at the places of values; the result has the values' shape."""
     below, fraction = places
-    return np.asarray(table.take(below) + fraction * differences(table).take(below))
+    # At the last level the fraction is 0, so that any difference will do.
+    slopes = differences(table).take(below, mode="clip")
+    return np.asarray(table.take(below) + fraction * slopes)
 
 
 def divide_weights(weights: FloatArray, places: Places, count: int) -> FloatArray:

@@ -31,6 +31,8 @@ class AdviceLine:
     destination: tuple[str, float, str] | None = None
     is_title: bool = False
     is_common: bool = False  # whether the line is the same for every decoder
+    detail: str = ""  # how the text is known, which unfolds with the lines that are details
+    is_detail: bool = False
 
 
 def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
@@ -52,14 +54,16 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
         if values.gaps:
             lines.append(AdviceLine(gaps_text(values)))
         if values.most_chips is not None:
-            lines.append(AdviceLine(search_end_text(values)))
+            lines.append(AdviceLine(search_end_text(values), is_detail=True))
         if values.faults:
             lines.append(AdviceLine(values.faults))
         if theory.two_packets is not None:
-            lines.append(AdviceLine(two_packets_text(theory.two_packets)))
-        lines.append(AdviceLine(theory_text(parameter, theory), is_common=True))
+            lines.append(AdviceLine(two_packets_text(theory.two_packets), is_detail=True))
+        lines.append(AdviceLine(theory_text(parameter, theory), is_common=True, is_detail=True))
     lines.append(AdviceLine(present_rate_text(advice.limits, frames_a_second)))
-    lines += [AdviceLine(text, is_common=True) for text in search_sentences(advice.limits)]
+    lines += [
+        AdviceLine(text, is_common=True, is_detail=True) for text in search_sentences(advice.limits)
+    ]
     return lines
 
 
@@ -104,8 +108,10 @@ def _make_title(limits: Limits) -> str:
 
 
 def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
-    sentence = f"The {limit} that it reads is {format_end(parameter, end)}: "
-    sentence += end_text(parameter, end)
+    place, detail = format_end(parameter, end), end_text(parameter, end)
+    detail = f"{detail[:1].upper()}{detail[1:]}"
     if end.inside is None:
-        return AdviceLine(f"{sentence} No value within the limits is sure to be read.")
-    return AdviceLine(sentence, (parameter, end.stated, format_end(parameter, end)))
+        text = f"The {limit} that it reads is about {place}; no value within is sure to be read."
+        return AdviceLine(text, detail=detail)
+    text = f"The {limit} that it reads is {place}."
+    return AdviceLine(text, (parameter, end.stated, place), detail=detail)

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.detection_map.advice_sentences import AdviceLine, describe_outdated, make_advice_lines
 from occ_gui.detection_map.limit_cards import LimitCards
+from occ_gui.widgets.answer import MoreButton
 from occ_gui.widgets.building import (
     ElidedLabel,
     ScrollPane,
@@ -45,9 +46,11 @@ class AdviceView(QWidget):
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._frames_a_second = FRAMES_A_SECOND
         self.lines: list[QWidget] = []
-        self.destinations: dict[QPushButton, tuple[str, QLabel]] = {}
-        """The parameter that each button changes, and the sentence beside it."""
+        self.destinations: dict[QPushButton, tuple[str, QLabel, QLabel]] = {}
+        """The parameter that each button changes, and the sentences beside it."""
         self._common_texts: list[str] = []
+        self._more: dict[str, MoreButton] = {}
+        """The button that unfolds the details of a decoder; by an empty name, those of all."""
         self._end_sentence = ""
         self.back = push_button("Back to the map", "Show the map again.", self.map_requested)
         self.search_again = push_button(
@@ -91,7 +94,7 @@ class AdviceView(QWidget):
         for line in self.lines:
             self._column.removeWidget(line)
             line.deleteLater()
-        self.lines, self.destinations, self._common_texts = [], {}, []
+        self.lines, self.destinations, self._common_texts, self._more = [], {}, [], {}
         self.progress.setValue(0)
         self._show_running(True)
         self.cards.show_begun()
@@ -132,8 +135,8 @@ class AdviceView(QWidget):
         for line in self.lines:
             for label in line.findChildren(QLabel):
                 label.setEnabled(not outdated)
-        for button, (parameter, label) in self.destinations.items():
-            for widget in (button, label):
+        for button, (parameter, *labels) in self.destinations.items():
+            for widget in (button, *labels):
                 widget.setEnabled(not outdated or parameter in valid_parameters)
 
     def _add_common(self, line: AdviceLine) -> None:
@@ -144,17 +147,23 @@ class AdviceView(QWidget):
         self._insert(self._column.count() - 1 - len(self._common_texts), line, decoder)
 
     def _insert(self, place: int, line: AdviceLine, decoder: str = "") -> None:
-        row = QWidget()
-        label = paragraph(line.text, is_selectable=True)
-        # Without a minimum height, which is computed for a narrow label and would be too large.
-        label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        row, label, detail = QWidget(), _make_label(line.text), _make_label(line.detail)
         font = label.font()
         font.setBold(line.is_title)
         label.setFont(font)
-        layout = fill(QHBoxLayout(row), (label, 1), margins=0)
+        texts = fill(QVBoxLayout(), label, detail, margins=0, spacing=0)
+        layout = fill(QHBoxLayout(row), (texts, 1), margins=0)
+        if line.is_title:
+            self._more[decoder] = MoreButton()
+            layout.addWidget(self._more[decoder], 0, Qt.AlignmentFlag.AlignTop)
+        for part, unfolds in ((row, line.is_detail), (detail, bool(line.detail))):
+            if unfolds:
+                self._more[decoder].toggled.connect(part.setVisible)
+        detail.setVisible(False)
+        row.setVisible(not line.is_detail)
         if line.destination is not None:
             button = self._make_button(*line.destination, decoder)
-            self.destinations[button] = (line.destination[0], label)
+            self.destinations[button] = (line.destination[0], label, detail)
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(place, row)
         self.lines.append(row)
@@ -165,3 +174,10 @@ class AdviceView(QWidget):
             f"Change the scene to {text}, where it read every bit.",
             lambda: self.destination_chosen.emit(name, value, decoder),
         )
+
+
+def _make_label(text: str) -> QLabel:
+    label = paragraph(text, is_selectable=True)
+    # Without a minimum height, which is computed for a narrow label and would be too large.
+    label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+    return label

@@ -92,7 +92,14 @@ class LimitCards(QWidget):
             frequencies = advice.limits.frequency
             bits = present_rate_text(advice.limits, self.frames_a_second)
             end = "" if frequencies.most_chips is None else search_end_text(frequencies)
-            texts = (advice.cause, line.text, frequencies.faults, gaps_text(frequencies), end, bits)
+            texts = (
+                advice.cause,
+                f"{line.text} {line.detail}".strip(),
+                frequencies.faults,
+                gaps_text(frequencies),
+                end,
+                bits,
+            )
             tip = "\n".join(text for text in texts if text)
             card.show_limit(frequencies.highest, tip)
             card.show_range(frequencies, "" if frequencies.intervals else advice.cause)

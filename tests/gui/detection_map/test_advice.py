@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.detection_map import advice_worker, map_schedule, search_controller as module
 from occ_gui.detection_map.advice_sentences import make_advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
+from occ_gui.widgets.answer import MoreButton
 from occ_model.commands.limits import format_row, sentences
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decode import DECODERS
@@ -97,16 +98,18 @@ def advice_bench(
 
 
 def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Scene) -> None:
-    lines = [line.text for line in make_advice_lines(advice_on(small_scene))]
-    assert lines[1].startswith("The lowest frequency that it reads is 14.7 kHz: ")
+    lines = [
+        f"{each.text} {each.detail}".strip() for each in make_advice_lines(advice_on(small_scene))
+    ]
+    assert lines[1].startswith("The lowest frequency that it reads is about 14.7 kHz; ")
     assert lines[2] == (
-        "The highest frequency that it reads is 14.55 kHz: there it read every bit of 381 images; "
+        "The highest frequency that it reads is 14.55 kHz. There it read every bit of 381 images; "
         "at 14.7 kHz 100 % in 20 images (83.9 to 100.0 %), at 14.73 kHz 0 % in 20 images "
         "(0.0 to 16.1 %). The end is between 14.66 kHz and 14.72 kHz (95 %)."
     )
-    assert lines[5].startswith("The shortest exposure that it reads is 10 µs: ")
+    assert lines[5].startswith("The shortest exposure that it reads is 10 µs. ")
     assert "values beyond were not tried" in lines[5]
-    assert lines[6].startswith("The longest exposure that it reads is 194 µs: ")
+    assert lines[6].startswith("The longest exposure that it reads is 194 µs. ")
     assert lines[8] == (
         f"At 10 kHz it read 20 of 20 pictures of code {small_scene.transmitter.code}, 100 % of the "
         f"bits (83.9 to 100.0 %): 300 bits a second, if others are read as well."
@@ -125,7 +128,7 @@ def test_an_end_without_a_sure_value_has_no_destination(small_scene: Scene) -> N
     only = replace(frequencies, intervals=(interval,))
     doubtful = replace(advice, limits=replace(advice.limits, frequency=only))
     line = make_advice_lines(doubtful)[2]
-    assert line.text.endswith("No value within the limits is sure to be read.")
+    assert line.text.endswith("; no value within is sure to be read.")
     assert line.destination is None
 
 
@@ -165,7 +168,7 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     for line in make_advice_lines(advice):
         if line.destination is not None:
             assert line.destination[2] in shell
-            assert all(text in shell for text in re.findall(r"\d+ % in \d+ images", line.text))
+            assert all(text in shell for text in re.findall(r"\d+ % in \d+ images", line.detail))
     (bits,) = re.findall(r"%\): (\S+) bits a second", " ".join(
         line.text for line in make_advice_lines(advice)))  # fmt: skip
     assert format_row(advice.limits).split()[-1] == bits
@@ -177,6 +180,11 @@ def test_every_decoder_is_searched_and_each_end_has_a_button(advice_bench: MapBe
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
     assert len(advice.destinations) == 3 * len(DECODERS)
+    details = [part for part in advice.content.findChildren(QLabel) if "images" in part.text()]
+    assert not any(part.isVisible() for part in details)
+    for more in advice.findChildren(MoreButton):
+        more.click()
+    assert all(part.isVisible() for part in details)
     assert advice.search_again.isVisible()
 
 
@@ -269,8 +277,10 @@ def test_sentences_about_every_decoder_are_shown_once_at_the_end(
     for decoder in ("threshold", "matched"):
         advice = advice_on(small_scene)
         view.show_advice(replace(advice, limits=replace(advice.limits, decoder=decoder)))
+    for more in view.findChildren(MoreButton):
+        more.click()
     QApplication.processEvents()
-    labels = [label for row in view.lines for label in row.findChildren(QLabel)]
+    labels = [label for row in view.lines for label in row.findChildren(QLabel) if label.text()]
     labels.sort(key=lambda label: label.mapTo(view.content, QPoint()).y())
     texts = [label.text() for label in labels]
     common = texts.index("For every decoder")

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
+from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 
 _FULL = 65535.0  # light of a white pixel in 16 bits
@@ -24,7 +25,8 @@ _SAMPLINGS = {
     "subsampled": cv2.IMWRITE_JPEG_SAMPLING_FACTOR_420,
     "full": cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444,
 }
-_BAND = 16  # rows that are converted at once
+_BAND, _NEIGHBOURS = 32, 4  # rows that are converted at once, and rows on which one may depend
+_LEAST_SIDE = 4  # pixels of a side that can be demosaiced
 _METHODS = {"bilinear": "", "vng": "_VNG", "edge-aware": "_EA"}
 
 
@@ -53,16 +55,25 @@ def _tables(gamma: float) -> tuple[NDArray[np.uint16], ByteArray]:
 def demosaic(mosaic: ByteArray, scene: Scene) -> ByteArray:
     """Return a colour picture of a raw one, shape (rows, columns, 3): red, green, blue."""
     method, gamma = scene.colours.demosaicing, scene.camera.gamma
+    if min(mosaic.shape) < _LEAST_SIDE:
+        raise ParameterError.of(
+            "demosaicing", method, "none",
+            condition=f"for a picture of fewer than {_LEAST_SIDE} rows or columns",
+            parameters=("demosaicing", "rows", "columns"),
+        )  # fmt: skip
     code = getattr(cv2, f"COLOR_Bayer{scene.colours.bayer.upper()}2RGB{_METHODS[method]}")
     if method == "vng":
         return np.asarray(cv2.demosaicing(mosaic, code), dtype=np.uint8)
     light, greys = _tables(gamma)
     picture = np.empty((*mosaic.shape, 3), dtype=np.uint8)
-    full = np.asarray(cv2.demosaicing(cv2.LUT(mosaic, light), code), dtype=np.uint16)
-    for first in range(0, len(full), _BAND):  # in the processor's cache, in half the time
-        band = slice(first, first + _BAND)
+    # Bands stay in the processor's cache; their neighbours' rows make no difference beyond a few.
+    for first in range(0, len(mosaic), _BAND):
+        above = min(first, _NEIGHBOURS)
+        part = mosaic[first - above : first + _BAND + _NEIGHBOURS]
+        full = np.asarray(cv2.demosaicing(cv2.LUT(part, light), code), dtype=np.uint16)
+        target = picture[first : first + _BAND]
         # No 16-bit light is out of range: the mode only saves a copy.
-        greys.take(full[band], out=picture[band], mode="wrap")
+        greys.take(full[above : above + len(target)], out=target, mode="wrap")
     return picture
 
 

@@ -7,6 +7,7 @@ t_r later or earlier. Green pixels are in every column, in half the rows. What i
 monochrome scene, such as decoders, limits and sweeps, thus holds for each colour of a raw picture.
 """
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -120,43 +121,39 @@ def colour_scene(scene: Scene, name: str) -> Scene:
         raise ParameterError.of("colour", quote(name), ", ".join(COLOURS))
     check_colour(scene)
     index = COLOURS.index(name)
-    own = led_scene(scene, index)
+    own, camera = led_scene(scene, index), scene.camera
+    own = own.replace(iso=camera.iso * scene.colours.gains[index])
     row, column = scene.colours.first_pixel(name)
-    camera, sensor, sent, pose = own.camera, own.sensor, own.transmitter, own.pose
+    rows = len(range(row, camera.rows, 2)) / noise_gain(scene, index) ** 2
     every = 1 if name == "green" else 2
-    columns = camera.columns if every == 1 else len(range(column, camera.columns, 2))
-    rows = max(1, round(len(range(row, camera.rows, 2)) / noise_gain(scene, index) ** 2))
+    return pixels_scene(own, max(1, round(rows)), range(column % every, camera.columns, every))
+
+
+def filter_scene(own: Scene, place: int) -> Scene:
+    """Return the scene of the pixels at one of the four places of a Bayer pattern."""
+    row, column = divmod(place, 2)
+    camera, sensor = own.camera, own.sensor
+    # The four places are different pixels, whose gains differ.
+    own = own.replace(sensor_seed=(4 * sensor.sensor_seed + place) % 2**31)
+    return pixels_scene(own, len(range(row, camera.rows, 2)), range(column, camera.columns, 2))
+
+
+def pixels_scene(own: Scene, rows: int, columns: range) -> Scene:
+    """Return the scene of a camera that has some rows, and every k-th column, of another."""
+    camera, sensor, sent, every = own.camera, own.sensor, own.transmitter, columns.step
     # Pixels need not be square: a panel of another height stands for rows of another height.
     height = rows / camera.rows * every
-    diagonal = (rows**2 + columns**2) ** 0.5
-    return replace(
-        own,
-        transmitter=sent.replaced({"panel_height": sent.panel_height * height}),
-        camera=camera.replaced(
-            {
-                "iso": camera.iso * scene.colours.gains[index],
-                "rows": rows,
-                "columns": columns,
-                "readout_time": every * camera.readout_time,
-                "equivalent_focal_length": camera.focal_length_pixels
-                / every
-                * DIAGONAL_35MM
-                / diagonal,
-            }
-        ),
+    focal = camera.focal_length_pixels / every
+    return own.replace(
+        panel_height=sent.panel_height * height,
+        offset_y=own.pose.offset_y * height,
+        rows=rows,
+        columns=len(columns),
+        readout_time=every * camera.readout_time,
+        equivalent_focal_length=focal * DIAGONAL_35MM / math.hypot(rows, len(columns)),
         # A pixel of twice the pitch that catches a quarter of the light is as noisy.
-        sensor=sensor.replaced(
-            {
-                "pixel_pitch": sensor.pixel_pitch * every,
-                "quantum_efficiency": sensor.quantum_efficiency / every**2,
-            }
-        ),
-        lens=own.lens.replaced({"point_spread": own.lens.point_spread / every}),
-        pose=pose.replaced({"offset_y": pose.offset_y * height}),
-        model=own.model.replaced(
-            {
-                "start_time": own.model.start_time
-                + (column * camera.readout_time if every == 2 else 0.0)
-            }
-        ),
+        pixel_pitch=sensor.pixel_pitch * every,
+        quantum_efficiency=sensor.quantum_efficiency / every**2,
+        point_spread=own.lens.point_spread / every,
+        start_time=own.model.start_time + columns.start * camera.readout_time,
     )

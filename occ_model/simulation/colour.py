@@ -1,8 +1,8 @@
 """Simulate a colour camera's picture: three lights, mixed, seen by a mosaic of three colours.
 
-Each channel sees the sum of the lights, by the mixing matrix, and is exposed as a monochrome camera
-of its own; its pixels are a quarter or half of the picture's. Then the mosaic is demosaiced and
-stored, as a whole.
+Each channel sees the sum of the lights, by the mixing matrix. The pixels at each of the four places
+of the Bayer pattern are exposed as a monochrome camera of their own, so that a lens blurs the light
+and not the mosaic. Then the mosaic is demosaiced and stored, as a whole.
 """
 
 import math
@@ -15,7 +15,6 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.mosaic import demosaic, store_as_jpeg
-from occ_model.camera.picture_rows import split_into_blocks
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.effect import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of_any
@@ -26,7 +25,7 @@ from occ_model.results.decoding import Region
 from occ_model.results.frame import Plan
 from occ_model.scene.colour_scenes import check_colour, led_scene
 from occ_model.scene.scene import TOLERANCE, Observable, Scene, SimulationSettings
-from occ_model.simulation.colour_channels import channel_views
+from occ_model.simulation.colour_channels import channel_views, filter_view
 from occ_model.simulation.colour_effects import colour_decisions
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.pixel_draw import PictureNumbers
@@ -118,44 +117,28 @@ def sensor_plan(plan: Plan) -> Plan:
 
 
 def _expose_mosaic(scene: Scene, prepared: _Prepared, seed: int, timer: StageTimer) -> ByteArray:
-    """Expose every second row with its two colours, then the others."""
-    views, columns, plan = prepared.views, prepared.columns, sensor_plan(prepared.plan)
-    size = scene.camera.rows, scene.camera.columns
-    mosaic = np.empty(size, dtype=np.uint8)
-    # A lens blurs each colour's light, not the mosaic, and a gain changes the law of the noise.
-    is_apart = "defocus" in plan or len({view.scene.camera.iso for view in views}) > 1
-    for row in range(min(2, size[0])):
-        rows = range(row, size[0], 2)
-        pair = ["rgb".index(letter) for letter in scene.colours.bayer[2 * row : 2 * row + 2]]
-        if is_apart:
-            for place, index in enumerate(pair[: size[1]]):
-                own = _expose_rows(views[index], columns[index], plan, rows, seed, timer)
-                mosaic[row::2, place::2] = own[:, place::2]
-        else:
-            first, second = pair
-            both = _alternate(columns[first], columns[second])
-            mosaic[row::2] = _expose_rows(views[first], both, plan, rows, seed, timer)
-        timer.end_stage("mosaic")
+    """Expose the pixels at each place of the pattern, as a monochrome camera of their own."""
+    rows, columns = scene.camera.rows, scene.camera.columns
+    mosaic = np.empty((rows, columns), dtype=np.uint8)
+    plan = sensor_plan(prepared.plan)
+    for place, letter in enumerate(scene.colours.bayer):
+        own = mosaic[place // 2 :: 2, place % 2 :: 2]
+        if own.size:
+            view = filter_view(prepared.views["rgb".index(letter)], place)
+            own[:] = _expose_pixels(view, plan, 4 * seed + place, timer)
+            timer.end_stage("mosaic")
     return mosaic
 
 
-def _alternate(first: Columns, second: Columns) -> Columns:
-    """Take every second column's values from the second, which is exposed under the same law."""
-    is_first = np.arange(len(first.panel)) % 2 == 0
-    names = ("panel", "surroundings", "profile", "around")
-    values = {n: np.where(is_first, getattr(first, n), getattr(second, n)) for n in names}
-    return replace(first, **values)
-
-
-def _expose_rows(
-    view: PaperView, columns: Columns, plan: Plan, rows: range, seed: int, timer: StageTimer
-) -> ByteArray:
-    count = view.scene.camera.columns
+def _expose_pixels(view: PaperView, plan: Plan, seed: int, timer: StageTimer) -> ByteArray:
+    columns = expose_columns(view, plan, timer)
+    camera = view.scene.camera
     if plan.kinds <= {"column"}:
-        return paint(to_bytes(columns.profile), view.corners, rows, to_bytes(columns.around))
-    exposure = PixelExposure(view, plan, columns, timer, split_into_blocks(rows, count))
+        around = to_bytes(columns.around)
+        return paint(to_bytes(columns.profile), view.corners, range(camera.rows), around)
     none = Enhancement(columns.profile, "none")
-    return exposure.pictures(none, PictureNumbers(seed, count)).camera_image
+    exposure = PixelExposure(view, plan, columns, timer)
+    return exposure.pictures(none, PictureNumbers(seed, camera.columns)).camera_image
 
 
 def _process(mosaic: ByteArray, prepared: _Prepared, timer: StageTimer) -> ByteArray:

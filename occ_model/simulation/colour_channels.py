@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.camera.photometry import ColumnLight, panel_values
-from occ_model.effects.effect import LightEffect, PaperView
+from occ_model.effects.effect import LightEffect, PaperView, paper_view_of
 from occ_model.effects.registry import effects_planned
 from occ_model.results.frame import Plan
-from occ_model.scene.colour_scenes import channel_scene
+from occ_model.scene.colour_scenes import channel_scene, filter_scene
 from occ_model.scene.scene import Scene
 
 
@@ -34,3 +34,12 @@ def channel_views(scene: Scene, leds: Sequence[PaperView], plan: Plan) -> list[P
         values = panel_values(own, light)
         views.append(replace(leds[index], scene=own, light=light, values=values))
     return views
+
+
+def filter_view(channel: PaperView, place: int) -> PaperView:
+    """Return what the pixels at one place of the Bayer pattern see of a channel's light."""
+    own = filter_scene(channel.scene, place)
+    lit, ambient = channel.light.lit, channel.light.ambient
+    every = slice(place % 2, None, 2)
+    light = ColumnLight(lit[every], ambient[every] if len(ambient) > 1 else ambient)
+    return replace(paper_view_of(own), light=light, values=panel_values(own, light))

@@ -35,7 +35,8 @@ def test_three_codes_are_read_from_any_pattern_and_demosaicing(
 
 
 def test_mixed_codes_need_the_matrix() -> None:
-    scene = small(mixing=PHONE_MATRIX, demosaicing="none")
+    # Solving this matrix makes green's noise 6.6 times as large: it takes more rows.
+    scene = small(mixing=PHONE_MATRIX, demosaicing="none").replace(rows=1152, panel_height=0.15)
     image = occ.render_colour(scene).image
     assert codes_of(occ.decode_colours(image, scene)) == (718, 345, 201)
     reading = occ.decode_colours(image, scene.replace(mixing="", crosstalk=0.0))

@@ -3,17 +3,20 @@
 import subprocess
 import sys
 
+import cv2
 import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.camera.mosaic import demosaic
 from occ_model.scene.scene import Scene
 
 RAW = {"demosaicing": "none"}
 
 
 def small(**changes: float | str) -> Scene:
-    return occ.load_preset("phone-68us-colour").replace(rows=240, panel_height=0.05, **changes)
+    scene = occ.load_preset("phone-68us-colour").replace(rows=240, panel_height=0.05)
+    return scene.replace(**changes)
 
 
 def test_a_monochrome_picture_loads_nothing_of_colour() -> None:
@@ -142,6 +145,20 @@ def test_profiles_are_the_means_of_the_picture() -> None:
 def test_pictures_may_have_any_size(size: tuple[int, int]) -> None:
     scene = small(**RAW).replace(rows=size[0], columns=size[1])
     assert occ.render_colour(scene).image.shape == size
+
+
+def test_a_picture_too_small_to_demosaic_is_refused() -> None:
+    with pytest.raises(occ.ParameterError, match="fewer than 4 rows"):
+        occ.render_colour(small(rows=3))
+
+
+@pytest.mark.parametrize("method", ["bilinear", "edge-aware"])
+def test_bands_of_rows_are_demosaiced_as_the_whole(method: str) -> None:
+    scene = small(demosaicing=method, gamma=1.0)
+    raw = np.random.default_rng(8).integers(0, 256, (101, 40), dtype=np.uint8)
+    code = getattr(cv2, f"COLOR_BayerRGGB2RGB{'_EA' if method == 'edge-aware' else ''}")
+    whole = cv2.demosaicing(raw.astype(np.uint16) * 257, code) / 257.0
+    assert np.abs(demosaic(raw, scene) - whole).max() <= 0.51
 
 
 def test_a_blur_acts_on_light_and_not_on_the_mosaic() -> None:

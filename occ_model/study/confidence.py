@@ -1,7 +1,7 @@
 """Compute Wilson's confidence interval of a success rate, from trials or from pictures."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from statistics import NormalDist
 
 from occ_model.errors import ParameterError, quote
@@ -71,6 +71,30 @@ def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
     right, sent = sum(counts), len(counts) * bits
     low, high = interval_of_pictures(right, sent, len(counts))
     return Trial(value, right, sent, low, high, len(counts), list(counts).count(bits))
+
+
+_REFUTING_PROBABILITY = 0.025  # of wrongly rejecting a rate: one side of a 95 % interval
+_STAKES = (0.03, 0.1, 0.3)  # fractions of the maximum bet: small ones detect small deficits
+
+
+def count_until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
+    """Return counts of correct bits until they refute the fraction ``least``; None if none do.
+
+    A bet on each image that fewer bits are read, at fair odds if the fraction is reached,
+    multiplies its initial stake by c at some time with a probability of at most 1 / c (J. Ville,
+    *Etude critique de la notion de collectif*, 1939). The test therefore holds although it stops at
+    its own result.
+    """
+    wealth, refuting = [1.0] * len(_STAKES), []
+    for right in counts:
+        refuting.append(right)
+        gain = (least - right / bits) / (1.0 - least)
+        wealth = [
+            share * (1.0 + stake * gain) for share, stake in zip(wealth, _STAKES, strict=True)
+        ]
+        if sum(wealth) * _REFUTING_PROBABILITY >= len(_STAKES):
+            return refuting
+    return None
 
 
 def _interval(successes: float, failures: float, z: float) -> tuple[float, float]:

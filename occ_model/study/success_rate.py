@@ -1,6 +1,7 @@
 """Measure the success rate: the fraction of bits read correctly over several images."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections import OrderedDict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -19,12 +20,12 @@ from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
-from occ_model.study.signals.batch import Observation
+from occ_model.study.signals.batch import Observation, simulate_images
 from occ_model.study.signals.pictures import image_of, observe_images
 from occ_model.transmitter.scheme import check_code
 
-_CACHED_BATCHES = 64
-"""Batches of pictures whose signals are cached for the next decoder, enough for a search."""
+_MOST_KEPT = 2000
+"""Pictures whose signals are kept for the next decoder, enough for a search along a parameter."""
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 
@@ -114,11 +115,8 @@ def right_bits_of_images(
     """
     check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
-    force = tuple(sorted(settings.force.items()))
-    pictures = _StudyPictures(scene, settings.seed, settings.tolerance, force, settings.path)
-    first, count = 0, 1 if settings.path == "image" else _FIRST_BATCH
-    while first < settings.images:
-        last = min(first + count, settings.images)
+    pictures = _pictures_of(scene, settings)
+    for first, last in _batches(settings):
         observations = (
             _observe_cached(pictures, first, last)
             if chosen is None
@@ -128,10 +126,42 @@ def right_bits_of_images(
         for of_image in zip(*results, strict=True):
             heartbeat()
             yield tuple(_count_right_bits(result, sent) for result in of_image)
-        first, count = last, 1 if settings.path == "image" else min(3 * count, _MOST_IN_BATCH)
 
 
-_FIRST_BATCH, _MOST_IN_BATCH = 5, 40  # images that are simulated at once
+_MOST_IN_BATCH = 40  # images that are simulated at once
+
+
+def _batches(settings: RateSettings) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last number of images that are read at once: first few, then many."""
+    first, count = 0, 1
+    while first < settings.images:
+        last = min(first + count, settings.images)
+        yield first, last
+        first = last
+        if settings.path != "image":
+            count = min(4 * count, _MOST_IN_BATCH)
+
+
+def simulate_ahead(scenes: Sequence[Scene], settings: RateSettings, first: int, last: int) -> None:
+    """Simulate some images of several scenes at once, for decoders that will read them."""
+    if settings.path == "image":
+        return
+    missing = [
+        (pictures, number)
+        for pictures in (_pictures_of(scene, settings) for scene in scenes)
+        for number in range(first, last)
+        if (pictures, number) not in _observed
+    ]
+    images = [
+        image_of(pictures.scene, _plan_cached(pictures), pictures.seed, number)
+        for pictures, number in missing
+    ]
+    _keep(missing, simulate_images(images))
+
+
+def _pictures_of(scene: Scene, settings: RateSettings) -> "_StudyPictures":
+    force = tuple(sorted(settings.force.items()))
+    return _StudyPictures(scene, settings.seed, settings.tolerance, force, settings.path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,17 +179,37 @@ class _StudyPictures:
         return RateSettings(1, (), self.seed, self.tolerance, dict(self.force), self.path)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=256)
 def _plan_cached(pictures: _StudyPictures) -> Plan:
     """Choose the effects of all pictures, which differ only in phase and noise."""
     return plan_images([pictures.scene], pictures.settings)
 
 
-@lru_cache(maxsize=_CACHED_BATCHES)
+_observed: OrderedDict[tuple[_StudyPictures, int], Observation | None] = OrderedDict()
+
+
+def _keep(
+    keys: Iterable[tuple[_StudyPictures, int]], observations: Iterable[Observation | None]
+) -> None:
+    for key, observation in zip(keys, observations, strict=True):
+        _observed[key] = observation
+        if len(_observed) > _MOST_KEPT:
+            _observed.popitem(last=False)
+
+
+def forget_images() -> None:
+    """Clear the cache, so that the next images are simulated."""
+    _observed.clear()
+
+
 def _observe_cached(
     pictures: _StudyPictures, first: int, last: int
 ) -> tuple[Observation | None, ...]:
-    return observe_batch(pictures, _plan_cached(pictures), first, last)
+    keys = [(pictures, number) for number in range(first, last)]
+    if any(key not in _observed for key in keys):
+        chosen = _plan_cached(pictures)
+        _keep(keys, observe_batch(pictures, chosen, first, last))
+    return tuple(_observed[key] for key in keys)
 
 
 def observe_batch(

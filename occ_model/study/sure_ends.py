@@ -23,7 +23,7 @@ the typical fraction of lost pictures, (sum of squares) / sum.
 
 import math
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, starmap, takewhile
 
@@ -34,16 +34,13 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study.confidence import TWO_SIDED_DEVIATE, trial_of
+from occ_model.study.confidence import TWO_SIDED_DEVIATE, count_until_refuted, trial_of
 from occ_model.study.working_range import END_RATIO, ImageCounts, move_towards, right_bits_at
 
 MOST_IMAGES = 1000  # maximum at a value inside an end; rates above 99.6 % would take more
 MOST_IMAGES_OUTSIDE = 200  # maximum images at a value beyond an end
 _ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
 """Rounds of pictures, the places as fractions of the remaining interval, and pictures at each."""
-
-_REFUTING_PROBABILITY = 0.025  # of wrongly rejecting a rate: one side of a 95 % interval
-_STAKES = (0.03, 0.1, 0.3)  # fractions of the maximum bet: small ones detect small deficits
 
 
 def images_to_prove(rate: float) -> int:
@@ -181,26 +178,6 @@ def _find_interval(
 
 def _interpolate(first: float, last: float, part: float) -> float:
     return float(f"{first * (last / first) ** part:.5g}")
-
-
-def count_until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
-    """Return counts of correct bits until they refute the fraction ``least``; None if none do.
-
-    A bet on each image that fewer bits are read, at fair odds if the fraction is reached,
-    multiplies its initial stake by c at some time with a probability of at most 1 / c (J. Ville,
-    *Etude critique de la notion de collectif*, 1939). The test therefore holds although it stops at
-    its own result.
-    """
-    wealth, refuting = [1.0] * len(_STAKES), []
-    for right in counts:
-        refuting.append(right)
-        gain = (least - right / bits) / (1.0 - least)
-        wealth = [
-            share * (1.0 + stake * gain) for share, stake in zip(wealth, _STAKES, strict=True)
-        ]
-        if sum(wealth) * _REFUTING_PROBABILITY >= len(_STAKES):
-            return refuting
-    return None
 
 
 _POWERS = (0.5, 1.0, 2.0, 4.0, math.inf)

@@ -1,15 +1,16 @@
 """Search for the values of a parameter at which a decoder reads a scene.
 
 Only this parameter is varied, over the range of its slider, which is widened to include the scene's
-own value and shortened where a decoder would take too long. A coarse search tries values that
-differ by a factor ``STEP``. The success rate need not fall monotonically: at low frequencies too
-few packets fit into the picture, and beyond a null the stripes come back. The answer is therefore a
-list of intervals, and a gap narrower than a step can be missed. The outermost ends, and those of
-the interval that contains the scene's own value or is nearest to it, are bisected to a factor
-``END_RATIO``; the other ends are known to within a step of the coarse search.
+own value and shortened where a decoder would take too long. A scan tries values that differ by a
+factor ``STEP``. The success rate need not fall monotonically: at low frequencies too few packets
+fit into the picture, and beyond a null the stripes come back. The answer is therefore a list of
+intervals. The outermost ends, and those of the interval that contains the scene's own value or is
+nearest to it, are bisected to a factor ``END_RATIO``; the others are known to a step of the scan.
 
 Most images are simulated where the rate is uncertain. A value fails as soon as further images
-cannot reach the rate, and is accepted after ``FEW_IMAGES`` that reach it.
+cannot reach the rate, and is accepted after ``FEW_IMAGES`` that reach it. A gap as wide as a step
+is thus missed if all of them are read in it. A gap of one or two values is listed if up to
+``GAP_IMAGES`` images refute the rate at one of them, and an island if they do at none.
 Values on both sides of an end are then tried with images of another seed, which were not used to
 choose them. An end that these images contradict is moved until the value beyond it fails with
 confidence: its 95 % interval lies below the rate. No image is simulated twice. The confidence of
@@ -17,9 +18,9 @@ the value inside an end is computed in :mod:`occ_model.study.sure_ends`.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import count
+from itertools import count, islice, pairwise
 
 import numpy as np
 
@@ -31,13 +32,15 @@ from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.study.confidence import trial_of
-from occ_model.study.success_rate import right_bits_of_images
+from occ_model.study.confidence import count_until_refuted, trial_of
+from occ_model.study.success_rate import right_bits_of_images, simulate_ahead
 
-STEP = 1.15  # ratio of neighbouring values in the first, coarse search
+STEP = 1.036  # ratio of neighbouring values in the scan
 END_RATIO = 1.003  # ratio of the values on both sides of an end at which bisection stops
 READ_RATE = 99.0  # success rate in percent from which a scene counts as read
 FEW_IMAGES = 5  # images that suffice to accept a value, unless it is reported
+GAP_IMAGES = 60  # most images at a value that is not read between others that are, or reversely
+_NARROW = 2  # most values of a gap or an island that is doubted
 
 
 def working_range(
@@ -55,7 +58,7 @@ def working_range(
 
 def estimate_range_images(images: int) -> int:
     """Return the usual number of images of a search, from which its progress is estimated."""
-    coarse = 25 * FEW_IMAGES + 15 + images
+    coarse = 100 * FEW_IMAGES // 2 + 15 + images
     ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(END_RATIO))) * FEW_IMAGES + 8 * images
     return coarse + ends
 
@@ -117,10 +120,12 @@ class _RangeSearch:
         self._confirmation_settings = replace(settings, seed=derive_seed(settings.seed))
         self._images: dict[tuple[float, int], ImageCounts] = {}
         self._refuted: set[int] = set()
+        self._refuted_values: dict[float, bool] = {}
 
     def find(self) -> WorkingRange:
         values = self._values
         searched_ends = (values[0], values[-1])
+        self._scan()
         scene_trial = self._try_all_images(self._scene_value, self._settings)
         while True:
             runs = self._find_runs()
@@ -144,11 +149,46 @@ class _RangeSearch:
             self._name, searched_ends, STEP, scene_trial, (), failure, best, self._most_chips
         )
 
+    def _scan(self) -> None:
+        """Simulate the first image of all values at once, and the next few where it is read."""
+        scenes = {value: self._scene.replace(**{self._name: value}) for value in self._values}
+        few = min(FEW_IMAGES, self._settings.images)
+        simulate_ahead(list(scenes.values()), self._settings, 0, 1)
+        read = [
+            scene
+            for value, scene in scenes.items()
+            if self._bits in islice(self._take_images(value, self._settings), 1)
+        ]
+        simulate_ahead(read, self._settings, 1, few)
+
+    def _find_read_values(self) -> list[bool]:
+        """Return which values of the scan are read; narrow gaps only if images refute the rate."""
+        is_read = [
+            index not in self._refuted and self._is_read(self._try(value))
+            for index, value in enumerate(self._values)
+        ]
+        # Islands first, so that an accidental one does not divide a gap.
+        for wanted in (True, False):
+            for run in _narrow_runs(is_read, wanted):
+                if self._refuted.isdisjoint(run):
+                    is_refuted = any(self._is_refuted(self._values[index]) for index in run)
+                    for index in run:
+                        is_read[index] = not is_refuted
+        return is_read
+
+    def _is_refuted(self, value: float) -> bool:
+        """Return whether images at a value refute that the rate is reached."""
+        if value not in self._refuted_values:
+            counts = self._take_images(value, self._settings, GAP_IMAGES)
+            is_refuted = count_until_refuted(counts, self._bits, self._rate / 100.0) is not None
+            self._refuted_values[value] = is_refuted
+        return self._refuted_values[value]
+
     def _find_runs(self) -> list[tuple[int, int]]:
         """Return the indices of the first and the last coarse value of each interval."""
         runs: list[tuple[int, int]] = []
-        for index, value in enumerate(self._values):
-            if index in self._refuted or not self._is_read(self._try(value)):
+        for index, is_read in enumerate(self._find_read_values()):
+            if not is_read:
                 continue
             if runs and runs[-1][1] == index - 1:
                 runs[-1] = (runs[-1][0], index)
@@ -292,13 +332,16 @@ class _RangeSearch:
                 break
         return trial_of(value, counts, self._bits)
 
-    def _take_images(self, value: float, settings: RateSettings) -> ImageCounts:
+    def _take_images(
+        self, value: float, settings: RateSettings, most: int | None = None
+    ) -> Iterator[int]:
         key = value, settings.seed
         if key not in self._images:
+            enough = replace(settings, images=max(settings.images, GAP_IMAGES))
             self._images[key] = ImageCounts(
-                right_bits_at(self._scene, self._name, value, settings, self._heartbeat)
+                right_bits_at(self._scene, self._name, value, enough, self._heartbeat)
             )
-        return self._images[key]
+        return islice(self._images[key], most or settings.images)
 
     def _is_read(self, trial: Trial) -> bool:
         return 100.0 * trial.right >= self._rate * trial.sent
@@ -313,6 +356,16 @@ class _RangeSearch:
             f"{self._parameter.in_sentence} from {write(searched[0])} to {write(searched[1])}; "
             f"the most it reads is {best.right} of {best.sent} bits, at {write(best.value)}."
         )
+
+
+def _narrow_runs(is_read: Sequence[bool], wanted: bool) -> list[range]:
+    """Return the runs of few values that are read, or are not, between others."""
+    changes = [index for index in range(1, len(is_read)) if is_read[index] != is_read[index - 1]]
+    return [
+        range(start, stop)
+        for start, stop in pairwise(changes)
+        if is_read[start] == wanted and stop - start <= _NARROW
+    ]
 
 
 def move_towards(value: float, end: float, ratio: float) -> float:

@@ -20,14 +20,13 @@ from occ_model.results.limits import RangeEnd, WorkingRange, end_text, format_va
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory, working_range as module
-from occ_model.study.confidence import interval_of_pictures
+from occ_model.study.confidence import count_until_refuted, interval_of_pictures
 from occ_model.study.limits import advice_of
 from occ_model.study.observation import panel_span
 from occ_model.study.sure_ends import (
     MOST_IMAGES_OUTSIDE,
     PICTURES,
     confirm_end,
-    count_until_refuted,
     images_to_prove,
     pair_ends,
 )
@@ -59,6 +58,7 @@ def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
                 yield (int(fraction(frequency, image, settings.seed) * scene.transmitter.bits),)
 
         monkeypatch.setattr(module, "right_bits_of_images", right_bits_of_images)
+        monkeypatch.setattr(module, "simulate_ahead", lambda *_: None)
         return read
 
     return replace_decoding

@@ -126,7 +126,7 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     at = scene.replace(distance=1.0371)
     rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
     assert len(simulated) == 3
-    module._observe_cached.cache_clear()
+    module.forget_images()
     settings = RateSettings(3, ("threshold", "matched"), 81)
     right = module.count_right_and_whole(at, settings)[0]
     assert rates == [100.0 * each / 30 for each in right]

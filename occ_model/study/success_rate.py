@@ -90,7 +90,7 @@ def count_right_and_whole(
     """Count the correct bits, and the images without a wrong bit, of each decoder."""
     right_bits, whole_images = [0] * len(settings.decoders), [0] * len(settings.decoders)
     length = scene.transmitter.payload_length
-    for bits_of_decoders in right_bits_of_images(scene, settings, heartbeat):
+    for bits_of_decoders in right_bits_of_images(scene, settings, heartbeat, at_once=_MOST_AT_ONCE):
         for decoder_index, right in enumerate(bits_of_decoders):
             right_bits[decoder_index] += right
             whole_images[decoder_index] += right == length
@@ -108,15 +108,17 @@ def right_bits_of_images(
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
     chosen: Plan | None = None,
+    at_once: int = 1,
 ) -> Iterator[tuple[int, ...]]:
     """Yield the number of bits that each decoder reads correctly, image by image.
 
     ``chosen``: the effects to simulate, by default those that the scene's own signal needs.
+    ``at_once``: images that are read first, more if more are asked for.
     """
     check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     pictures = _pictures_of(scene, settings)
-    for first, last in _batches(settings):
+    for first, last in _batches(settings, at_once):
         observations = (
             _observe_cached(pictures, first, last)
             if chosen is None
@@ -128,18 +130,18 @@ def right_bits_of_images(
             yield tuple(_count_right_bits(result, sent) for result in of_image)
 
 
-_MOST_IN_BATCH = 40  # images that are simulated at once
+_MOST_AT_ONCE = 40  # images that are simulated and read at once
 
 
-def _batches(settings: RateSettings) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last number of images that are read at once: first few, then many."""
-    first, count = 0, 1
+def _batches(settings: RateSettings, count: int) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last number of images that are read at once."""
+    first, count = 0, 1 if settings.path == "image" else count
     while first < settings.images:
         last = min(first + count, settings.images)
         yield first, last
         first = last
         if settings.path != "image":
-            count = min(4 * count, _MOST_IN_BATCH)
+            count = min(4 * count, _MOST_AT_ONCE)
 
 
 def simulate_ahead(scenes: Sequence[Scene], settings: RateSettings, first: int, last: int) -> None:

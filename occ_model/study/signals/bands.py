@@ -66,11 +66,6 @@ class Bands:
         return np.asarray(values)
 
 
-def bands_of(scene: Scene, included: frozenset[str]) -> Bands:
-    """Return the bands of a scene with effects of some names, cached."""
-    return _bands_of(without_light(scene), included)
-
-
 def without_light(scene: Scene) -> Scene:
     """Return a scene of which only what bands, noise and receiver depend on is kept."""
     sent = scene.transmitter
@@ -84,7 +79,8 @@ def without_light(scene: Scene) -> Scene:
 
 
 @lru_cache(maxsize=32)
-def _bands_of(scene: Scene, included: frozenset[str]) -> Bands:
+def bands_of(scene: Scene, included: frozenset[str]) -> Bands:
+    """Return the bands of a scene :func:`without_light`, with effects of some names."""
     rows, columns = size = scene.camera.rows, scene.camera.columns
     optics = Optics(panel_corners(scene))
     for effect in effects_named(included, OpticsEffect):

@@ -97,25 +97,29 @@ def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observa
 
 def _alike(images: Sequence[Image]) -> Iterator["_Pictures"]:
     """Group images by what does not depend on the light."""
+    keys: dict[int, tuple[Scene, frozenset[str]]] = {}  # of scenes, most of which have many images
 
     def key(image: Image) -> tuple[Scene, frozenset[str]]:
-        return without_light(image.scene), image.included
+        found = keys.get(id(image.scene))
+        if found is None or found[1] != image.included:
+            found = keys[id(image.scene)] = without_light(image.scene), image.included
+        return found
 
-    for _, group in groupby(images, key):
-        remaining = iter(group)
-        while first := next(remaining, None):
-            check_size(first.scene.camera)
-            bands = bands_of(first.scene, first.included)
-            size = max(bands.panel.size, first.scene.camera.columns)
-            count = min(max(_MOST_VALUES // size, 1), _MOST_IMAGES)
-            yield _Pictures([first, *islice(remaining, count - 1)], bands)
+    for (scene, included), group in groupby(images, key):
+        check_size(scene.camera)
+        bands = bands_of(scene, included)
+        size = max(bands.panel.size, scene.camera.columns)
+        count = min(max(_MOST_VALUES // size, 1), _MOST_IMAGES)
+        while part := list(islice(group, count)):
+            yield _Pictures(part, bands)
 
 
 def _expose(images: Sequence[Image]) -> tuple[FloatArray, FloatArray]:
     """Return pixel values on the panel, (images, columns), and beside it, perhaps in one column."""
     panels, arounds = [], []
-    for scene, group in groupby(images, lambda image: image.scene):
+    for _, group in groupby(images, lambda image: id(image.scene)):
         of_scene = list(group)
+        scene = of_scene[0].scene
         starts = [image.start_time for image in of_scene]
         phases = [image.flicker_phase for image in of_scene]
         light = ColumnLight(np.ones((1, 1)), np.ones((len(starts), 1)))

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
@@ -35,7 +36,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import TOLERANCE, Scene
 from occ_model.study.confidence import interval_of_pictures
-from occ_model.study.success_rate import check_rate, count_right_and_whole
+from occ_model.study.success_rate import check_rate, count_right_and_whole, simulate_ahead
 from occ_model.study.sweep.request_check import build_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import Point, ResultsFile, TableText
 from occ_model.study.sweep.workers import StudyWork, measure_anywhere
@@ -74,10 +75,29 @@ def measure_points(
     scene: Scene, settings: RateSettings, points: Iterable[PointValues], heartbeat: Heartbeat
 ) -> MeasuredPoints:
     start = perf_counter()
-    results = tuple(
-        measure_point(scene, settings, index, values, heartbeat) for index, values in points
-    )
-    return MeasuredPoints(results, settings.images, perf_counter() - start)
+    results: list[SweepPoint] = []
+    remaining, count = iter(points), max(_IMAGES_AHEAD // settings.images, 1)
+    while part := list(islice(remaining, count)):
+        if len(part) > 1:
+            _simulate_points(scene, settings, [values for _, values in part])
+        results += [
+            measure_point(scene, settings, index, values, heartbeat) for index, values in part
+        ]
+    return MeasuredPoints(tuple(results), settings.images, perf_counter() - start)
+
+
+_IMAGES_AHEAD = 60  # images of several points that are simulated at once
+
+
+def _simulate_points(
+    scene: Scene, settings: RateSettings, points: Sequence[dict[str, ParameterValue]]
+) -> None:
+    """Simulate the images of some points at once; each refusal is left to its own point."""
+    with suppress(OccError):
+        scenes = [scene.replace(**values) for values in points]
+        for one in scenes:
+            check_rate(one, settings)
+        simulate_ahead(scenes, settings, 0, settings.images)
 
 
 def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:

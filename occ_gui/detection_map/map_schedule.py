@@ -1,6 +1,6 @@
 """A detection map as background work: its request, its jobs from coarse to fine, and its table."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import groupby, islice
 
@@ -9,7 +9,6 @@ import numpy as np
 from occ_gui.detection_map.rate_map import STRIDES, RateMap, make_lattice
 from occ_gui.detection_map.worker import (
     compute_theory_fields,
-    find_omitted_effects,
     make_rate_settings,
 )
 from occ_model.arrays import FloatArray, IndexArray
@@ -59,14 +58,9 @@ class MapRequest:
         settings = make_rate_settings(self.settings, images, decoders, self.with_image_effects)
         return SweepRequest(self.scene, axes, settings)
 
-    def jobs(
-        self, images: IndexArray, with_theory: bool, on_slow: Callable[[], object] = lambda: None
-    ) -> Iterator[Job]:
-        """Yield the remaining jobs; call ``on_slow`` if the first points already take long."""
-        is_slow = self.with_image_effects and bool(find_omitted_effects(self.scene, self.settings))
-        if is_slow:
-            on_slow()
-        yield from make_map_jobs(tuple(map(self.make_sweep, IMAGES)), images, with_theory, is_slow)
+    def jobs(self, images: IndexArray, with_theory: bool) -> Iterator[Job]:
+        """Yield the remaining jobs."""
+        yield from make_map_jobs(tuple(map(self.make_sweep, IMAGES)), images, with_theory)
 
 
 def make_table(
@@ -91,7 +85,7 @@ def make_table(
 
 
 def make_map_jobs(
-    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, is_slow: bool
+    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool
 ) -> Iterator[Job]:
     """Yield the jobs of a map.
 
@@ -105,18 +99,17 @@ def make_map_jobs(
         count = first.settings.images
         new = [i for i in order if is_on_lattice[i] and image_counts[i] < count]
         image_counts = np.where(is_on_lattice, np.maximum(image_counts, count), image_counts)
-        jobs = _make_jobs(first, new, is_slow)
+        jobs = _make_jobs(first, new)
         is_coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
             # Last, so that it runs in a process that has no more points to measure.
             jobs = (*jobs, _make_theory_job(first, _THEORY_SHAPES[0 if is_coarse else 1]))
-        # Slow points take too long to be finished for an outdated request.
         for job in jobs:
             rank = COARSE if is_coarse else FINE
-            yield replace(job, rank=rank, uninterruptible=is_coarse and not is_slow)
+            yield replace(job, rank=rank, uninterruptible=is_coarse)
     for request in others:
         new = [i for i in order if image_counts[i] < request.settings.images]
-        for job in _make_jobs(request, new, is_slow):
+        for job in _make_jobs(request, new):
             yield replace(job, rank=MORE_IMAGES)
 
 
@@ -130,10 +123,8 @@ def _find_lattice_points(shape: tuple[int, ...], stride: int) -> IndexArray:
     return np.asarray(np.logical_and.outer(*on_axes).ravel())
 
 
-def _make_jobs(request: SweepRequest, indices: list[int], is_slow: bool) -> tuple[Job, ...]:
+def _make_jobs(request: SweepRequest, indices: list[int]) -> tuple[Job, ...]:
     """Make a job of each line of points, along which decoders can reuse what they prepare."""
-    if is_slow:
-        return tuple(_make_job(request, (index,)) for index in indices)
     y_count = request.shape[1]
     first, second = islice(request.in_order_of_work(), 2)
     is_x_constant = first // y_count == second // y_count

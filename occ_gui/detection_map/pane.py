@@ -1,7 +1,6 @@
 """The pane of map, limits and advice, and the controllers that measure for it."""
 
 from dataclasses import replace
-from functools import partial
 
 from PySide6.QtCore import QObject
 
@@ -89,7 +88,7 @@ class DetectionMapController(QObject):
         self._follow_change()
 
     def use_image_effects(self, used: bool) -> None:
-        """Set whether image effects are simulated, row by row, or left out."""
+        """Set whether image effects are simulated or left out."""
         self._with_image_effects = used
         self._follow_change()
 
@@ -108,8 +107,7 @@ class DetectionMapController(QObject):
         known_map = self.map if request == self._map_request else None
         rates = request.make_empty_map() if known_map is None else known_map
         self._awaited_request = request if known_map is None else None
-        on_slow = partial(self._end_wait, request)
-        jobs = request.jobs(rates.images.copy(), rates.theory is None, on_slow)
+        jobs = request.jobs(rates.images.copy(), rates.theory is None)
         self.channel.put(request, jobs)
 
     def _show_omissions(self) -> None:

@@ -158,7 +158,7 @@ class AdvisorController(SearchController):
         scenes.settings.changed.connect(self._follow_change)
 
     def use_image_effects(self, used: bool) -> None:
-        """Set whether image effects are simulated, row by row, or left out."""
+        """Set whether image effects are simulated or left out."""
         self._with_image_effects = used
         self._follow_change()
 

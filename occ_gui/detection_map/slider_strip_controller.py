@@ -13,7 +13,6 @@ from occ_gui.detection_map.slider_strip import IMAGES, SceneRate, SliderStrips
 from occ_gui.detection_map.worker import (
     UNSEEN_PARAMETERS,
     StripPoints,
-    find_omitted_effects,
     make_rate_settings,
     measure_strip,
 )
@@ -95,30 +94,16 @@ STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, 
 RANK = 3  # after all points of a visible map, but before more images of them
 
 
-def make_strip_jobs(
-    missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
-) -> Iterator[Job]:
-    """Yield the remaining jobs.
-
-    ``present``: the request for the present scene. A slow point is a job of its own, which a newer
-    request can stop. This generator runs when the work begins, so that finding out whether points
-    are slow does not delay a slider.
-    """
-    is_slow = bool(find_omitted_effects(present.scene, present.settings))
+def make_strip_jobs(missing: Mapping[str, tuple[RateRequest, set[int]]]) -> Iterator[Job]:
+    """Yield the remaining jobs."""
     scheduled: set[int] = set()
     for stride in STRIDES:
         new = set(range(0, POSITIONS, stride)) - scheduled
         scheduled |= new
-        is_first = stride == STRIDES[0] and not is_slow
         for name, (request, places) in missing.items():
-            for group in _divide(sorted(new & places), is_slow):
-                yield replace(_make_job(request, name, group), uninterruptible=is_first)
-
-
-def _divide(places: list[int], is_slow: bool) -> list[list[int]]:
-    if is_slow:
-        return [[place] for place in places]
-    return [places] if places else []
+            if group := sorted(new & places):
+                job = _make_job(request, name, group)
+                yield replace(job, uninterruptible=stride == STRIDES[0])
 
 
 def _make_job(request: RateRequest, name: str, places: list[int]) -> Job:
@@ -164,7 +149,7 @@ class SliderStripController(RateController):
         request = self._last_request
         if request is not None:
             missing, self._missing = self._missing, {}
-            self._channel.put(request, make_strip_jobs(missing, request))
+            self._channel.put(request, make_strip_jobs(missing))
 
     def _show_results(self, request: RateRequest, results: list[StripPoints]) -> None:
         for result in results:

@@ -11,16 +11,15 @@ from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint
+from occ_model.results.sweep_request import RateSettings, SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import theory
-from occ_model.study.observation import panel_span
 from occ_model.study.sweep.sweep import measure_points
 
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
-"""Effects that a profile cannot show: a point with them takes some twenty times as long."""
+"""Effects that make rows differ, which a column profile cannot show."""
 
 SEED = 1  # that of :func:`occ_model.sweep`, so that its table agrees with the map
 
@@ -45,25 +44,21 @@ def make_rate_settings(
 ) -> RateSettings:
     """Return the settings with which rates are measured for the window.
 
-    ``with_image_effects``: whether rows of the picture are simulated if needed; otherwise image
-    effects are left out, or refused if they cannot be left out.
+    ``with_image_effects``: whether effects that make rows differ are simulated.
     """
     force: Mapping[str, bool] = settings.force
-    path: SignalPath = "auto"
     if not with_image_effects:
-        force, path = {**force, **dict.fromkeys(IMAGE_EFFECTS, False)}, "profile"
-    return RateSettings(images, decoders, SEED, settings.tolerance, force, path)
+        force = {**force, **dict.fromkeys(IMAGE_EFFECTS, False)}
+    return RateSettings(images, decoders, SEED, settings.tolerance, force)
 
 
 def find_omitted_effects(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
-    """Return the names of the effects that a profile cannot show; none if there is no picture."""
+    """Return the names of the image effects of a scene; none if there is no picture."""
     try:
         decisions = plan(scene, settings.tolerance, "signal", settings.force).decisions
-        effects = tuple(d.label for d in decisions if d.kind == "image" and d.included)
-        is_level = panel_span(scene) is not None
     except OccError:
         return ()
-    return effects if is_level else ("a panel that is not level", *effects)
+    return tuple(d.label for d in decisions if d.kind == "image" and d.included)
 
 
 def measure_strip(

@@ -13,7 +13,6 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.background.signals import WorkQueue
-from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.detection_map import map_schedule
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.pane import DetectionMapController
@@ -271,14 +270,3 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
     controller.set_visible(False)
     assert not waits()
     assert controller.complete is None, "the map is of another scene"
-
-
-@pytest.mark.parametrize("with_image_effects", [False, True])
-def test_only_rows_of_pictures_take_long(small_scene: Scene, with_image_effects: bool) -> None:
-    scene = small_scene.replace(jpeg_quality=30)
-    request = map_schedule.MapRequest(
-        scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
-    )
-    calls: list[int] = []
-    next(request.jobs(request.make_empty_map().images, False, lambda: calls.append(1)))
-    assert bool(calls) == with_image_effects

@@ -21,6 +21,7 @@ _PER_ROOT = 32.0  # levels to the root of an electron, 16 to the deviation of sh
 _PER_GREY = 16  # levels to a grey level, where noise is far less
 _FEWEST_TO_WHITE = 256.0
 _MOST_TO_WHITE, _MOST = 4096.0, 8192.0
+_BRIGHTEST_LEVEL = 1e9  # up to which levels are told apart before gains
 _BLOCK = 256  # levels to which a table's height is rounded up
 _MOST_GAIN = 4.0  # standard deviations that a pixel's gain differs from the mean
 _BRIGHTEST = 7.0  # deviations above white, or a full well, at which all pixels have the top code
@@ -40,15 +41,16 @@ class GreyLaw:
 
     def levels_of(self, values: Pixels) -> Pixels:
         """Return the levels of mean pixel values before saturation, in single precision."""
+        levels = self.unlimited_levels_of(values)
+        return np.minimum(levels, np.float32(self.last), out=levels)
+
+    def unlimited_levels_of(self, values: Pixels) -> Pixels:
+        """Return levels that may be above the law's last one, and below it with a small gain."""
         flat = np.maximum(values, np.float32(0.0)).reshape(len(values), -1)
         levels = np.asarray(cv2.pow(flat, self.power), dtype=np.float32)
         levels *= np.float32(self.to_white / WHITE**self.power)
-        np.minimum(levels, np.float32(self.last), out=levels)
+        np.minimum(levels, np.float32(_BRIGHTEST_LEVEL), out=levels)
         return levels.reshape(values.shape)
-
-    def level_of(self, value: float) -> float:
-        """Return the level of one value, however bright."""
-        return self.to_white * float((min(value, 1e9) / WHITE) ** self.power)
 
     @property
     def last(self) -> float:

@@ -58,9 +58,9 @@ class PictureNoise:
         self, mean: Rows, place: slice, out: ByteArray, end_stage: Callable[[str], object]
     ) -> None:
         """Draw the grey levels of some rows of pixels, which are exposed at a place."""
-        levels = mean.change_nodes(self._law.levels_of)
+        levels = mean.change_nodes(self._law.unlimited_levels_of)
         if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
-            levels = mean.expand_rows().change_nodes(self._law.levels_of)
+            levels = mean.expand_rows().change_nodes(self._law.unlimited_levels_of)
         levels = self._scale(levels)
         numbers = self._numbers.of(mean.rows, place, _CHUNK)
         shape = (min(_CHUNK, len(mean.rows)), self._columns)

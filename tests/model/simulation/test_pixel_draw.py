@@ -104,6 +104,11 @@ def test_gains_vary_as_they_should(scene: Scene) -> None:
     assert relative.std() == pytest.approx(0.1, rel=0.02)
 
 
+def test_a_pixel_far_above_white_is_white_whatever_its_gain(scene: Scene) -> None:
+    bright = scene.replace(gain_variation=0.1, pattern="1", luminance=1e5)
+    assert (values_of(bright, ON) == 255.0).all()
+
+
 @pytest.mark.parametrize("effect", ["vignetting", "defocus", "distortion", "emission"])
 def test_pixels_are_drawn_alike_whichever_absent_effects_are_on(scene: Scene, effect: str) -> None:
     """Other effects draw the picture by other blocks of rows."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.photo.match_figures import (
     MatchValues,
@@ -15,7 +15,7 @@ from occ_gui.photo.match_figures import (
     is_match_certain,
 )
 from occ_gui.widgets.answer import MoreButton
-from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
+from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
 from occ_model.photo.many.other_programs import lines_of_match
@@ -43,18 +43,15 @@ class MatchVerdictView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.word = name_widget(QLabel(textFormat=Qt.TextFormat.PlainText), "Verdict on the match")
-        self.word.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.word = paragraph(name="Verdict on the match", is_selectable=True)
         font = self.word.font()
         font.setBold(True)
         self.word.setFont(font)
         self.word.setContentsMargins(_MARGIN, 0, _MARGIN, 0)
         self.reasons = paragraph(name="Reasons of the verdict", is_selectable=True)
-        fixed, minimum = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
-        self.word.setSizePolicy(fixed, fixed)
-        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, minimum)
+        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self._verdict, self._words, self._is_outdated = "", "", False
-        fill(QHBoxLayout(self), self.word, None, margins=0)
+        fill(QVBoxLayout(self), self.word, margins=0)
 
     def show_verdict(self, verdict: str, words: str, reasons: Sequence[str]) -> None:
         """Show a verdict, SURE or DOUBTFUL, in some words, with a sentence for each reason."""

@@ -12,7 +12,16 @@ from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
-from occ_model.simulation.pixel_draw import GainPattern, Numbers, Scratch, dither, grey_table
+from occ_model.simulation.pixel_draw import (
+    GainPattern,
+    GreyTable,
+    Numbers,
+    OrderedTable,
+    Scratch,
+    dither,
+    grey_table,
+    ordered_table,
+)
 
 _TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
 
@@ -24,6 +33,9 @@ class NoiseNumbers(Protocol):
 
     has_pattern: bool
     """Whether gains are those of the sensor; otherwise they are random, as part of the law."""
+
+    is_ordered: bool
+    """Whether a larger number never gives a darker pixel, which is slower."""
 
     def of(self, rows: range, place: slice, height: int) -> Iterator[Numbers]:
         """Yield the numbers of some rows of the picture, ``height`` of them at a time.
@@ -48,7 +60,8 @@ class PictureNoise:
         if self.is_drawn:
             make_law = law_of_known_gains if has_pattern else grey_law
             self._law = make_law(noise, brightest)
-            self._table = grey_table(self._law)
+            table_of = ordered_table if numbers.is_ordered else grey_table
+            self._table: GreyTable | OrderedTable = table_of(self._law)
             power *= self._law.power
         size = (scene.camera.rows, scene.camera.columns)
         seed = scene.sensor.sensor_seed

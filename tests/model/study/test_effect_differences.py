@@ -50,6 +50,19 @@ def test_the_change_by_one_effect_is_the_error_of_the_others(
     assert complete.error_of(complete.effects) == 0.0
 
 
+def test_noise_does_not_add_to_the_change_by_a_small_effect() -> None:
+    noisy = occ.load_preset("phone-136us").replace(
+        rows=400, columns=600, panel_width=0.2, panel_height=0.1, vignetting_exponent=2.0
+    )
+    quiet = noisy.replace(full_well=1e6, read_noise=0.0, gain_variation=0.0)
+    changes = []
+    for scene in (noisy, quiet):
+        complete = CompleteSimulation(scene, "image")
+        stretch = occ.plan(scene, 0.0).stretch
+        changes.append(complete.without("vignetting").error / stretch)
+    assert changes[0] == pytest.approx(changes[1], rel=0.1)
+
+
 def test_crops_stretch_both_pictures_equally_and_state_the_amplification() -> None:
     random = np.random.default_rng(5)
     one = random.uniform(40.0, 60.0, (300, 400)).astype(np.float32)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import accumulate
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
@@ -141,7 +142,7 @@ class AccuracyPlot(QWidget):
         """Draw the forecast time and error limit of each set of effects that a plan may choose."""
         pairs = zip(forecast.effect_sets, forecast.effect_set_seconds, strict=True)
         timed_sets = [(e, s) for e, s in pairs if s is not None and e.error < math.inf]
-        timed_sets.sort(key=lambda pair: pair[1])
+        timed_sets.sort(key=lambda pair: (pair[1], pair[0].error))
         forced = {d.effect for d in forecast.plan.decisions if d.forced and d.included}
         self._front = [
             AccuracyPoint(
@@ -155,6 +156,13 @@ class AccuracyPlot(QWidget):
                 unit=forecast.plan.unit,
             )
             for effect_set, seconds in timed_sets
+        ]
+        # By the measured times, a set may be beaten by another one in both.
+        least = accumulate((point.error for point in self._front), min, initial=math.inf)
+        self._front = [
+            point
+            for point, before in zip(self._front, least, strict=False)
+            if point.error < before or point.current
         ]
         xs, ys = _take_logarithms(self._front)
         self.front.setData(xs, ys)

@@ -3,6 +3,7 @@
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from gui.kinds import show_widget
 from pytestqt.qtbot import QtBot
@@ -156,3 +157,16 @@ def test_each_plan_is_a_cross_at_the_limit_of_its_error(plot: AccuracyPlot) -> N
     crosses = plot.front_points.points()
     assert [10.0 ** cross.pos().y() for cross in crosses] == pytest.approx(limits)
     assert all(" ms, at most " in cross.data() for cross in crosses)
+
+
+def test_no_cross_is_beaten_in_time_and_error_except_the_present_plan(plot: AccuracyPlot) -> None:
+    scene = occ.load_preset("phone-136us-real").replace(rows=200)
+    chosen, effect_sets = occ.plan(scene), effect_sets_of(scene, SimulationSettings())
+    seconds = np.random.default_rng(5).uniform(0.01, 0.1, len(effect_sets)).tolist()
+    plot.show_effect_sets(Forecast(chosen, None, None, False, effect_sets, tuple(seconds)))
+    errors = [cross.pos().y() for cross in plot.front_points.points()]
+    beaten = [error for error, before in zip(errors[1:], errors, strict=False) if error >= before]
+    present = [ring.pos().y() for ring in plot.front_ring.points()]
+    assert len(present) == 1
+    assert set(beaten) <= set(present)
+    assert 1 < len(errors) < len(effect_sets)

@@ -41,16 +41,18 @@ class MoveLog:
     def add(self, time: MoveTime) -> None:
         key = time.size, time.effects
         if time.picture is not None:
-            self._pictures.setdefault(key, deque(maxlen=_KEPT)).append(time.picture)
+            runs = self._pictures.pop(key, deque(maxlen=_KEPT))
+            runs.append(time.picture)
+            self._pictures[key] = runs  # the latest come last
         if time.draft_seconds is not None:
             self._drafts.setdefault(key, deque(maxlen=_KEPT)).append(time.draft_seconds)
 
     def costs_of(self, frame: Frame) -> MeasuredCosts:
-        """Return the times of moves like that of a picture, and of others of its size."""
+        """Return the times of moves like that of a picture, and of others, the latest first."""
         last = MoveTime.of(frame)
         pictures = {
             effects: TimeFractions.of_runs(runs)
-            for (size, effects), runs in self._pictures.items()
+            for (size, effects), runs in reversed(self._pictures.items())
             if size == last.size
         }
         own = pictures.pop(last.effects, TimeFractions.of(frame))

@@ -254,6 +254,10 @@ def _described(fit: LampFit) -> LampFit:
     """Return a fit with its covariance and evidence (Laplace's approximation)."""
     profile, model, values = fit.profile, fit.model, fit.values
     products, _ = _equations(profile, model, values, fit.noise)
+    # Before, the period is known to a factor of e, and the place to a period.
+    products[PERIOD, PERIOD] += 1.0
+    products[PLACE, PLACE] += math.exp(-2.0 * values[PERIOD])
+    products.flat[:: len(products) + 1] += 1e-9
     off = fit.residual / fit.noise
     square = float(off @ off)
     near = float(off[1:] @ off[:-1]) / max(square, 1e-300)
@@ -264,8 +268,5 @@ def _described(fit: LampFit) -> LampFit:
     stiff = np.linalg.slogdet(model.bending.T @ model.bending + 1e-3 * np.eye(len(values) - COUNT))
     score = likelihood / inflation - 0.5 * float(beliefs @ beliefs)
     score += 0.5 * float(stiff[1] - np.linalg.slogdet(products)[1])
-    covariance = np.asarray(
-        inflation * np.linalg.solve(products + 1e-9 * np.eye(len(products)), np.eye(len(products))),
-        dtype=np.float64,
-    )
+    covariance = np.asarray(inflation * np.linalg.inv(products), dtype=np.float64)
     return replace(fit, covariance=covariance, score=score)

@@ -14,7 +14,7 @@ _MOST_MISFIT = 0.06  # of the swing
 _MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # of the swing; of lamps 0.06 at most
 _LEAST_GAP = 6.0  # natural logarithms between the best period and the next
 _FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
-_LIT_GAPS, _FEW_LOW_EDGES, _MOST_WHITE = 0.9, 8, 0.1
+_LIT_GAPS, _FEW_LOW_EDGES, _MOST_WHITE = 0.9, 8, 0.2
 """Light between the stripes over their height from which they are low; most edges of low stripes
 that the lamp's own shape may pretend, and part of white columns that may hide more of them."""
 _LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap

@@ -16,6 +16,7 @@ from model.photo.lamp_fit.lamp_pictures import (
 )
 
 import occ_model as occ
+from occ_model.photo.lamp_fit.fit import fit_lamp
 from occ_model.photo.lamp_fit.match import match_lamp
 from occ_model.photo.lamp_fit.place import find_place
 from occ_model.photo.lamp_fit.profile import LampProfile
@@ -79,6 +80,31 @@ def test_exchanging_duty_and_exposure_exchanges_their_errors() -> None:
         assert match.uncertainties["duty"] == pytest.approx(of_duty)
         assert match.uncertainties["exposure_time"] == pytest.approx(of_exposure / FREQUENCY)
     assert reading.errors.width != pytest.approx(reading.errors.ramp, rel=0.05)
+
+
+def test_what_needs_no_known_time_does_not_depend_on_the_assumed_one() -> None:
+    """Where neither frequency nor readout time is known, either may be assumed."""
+    photo = draw_lamp(np.random.default_rng(5), duty=0.3, exposure=0.12, periods=7.7).photo
+    assumed = [
+        occ.match_photo(photo, SCENE.replace(lamp_frequency=hertz)) for hertz in (300.0, 4000.0)
+    ] + [
+        occ.match_photo(photo, SCENE.replace(readout_time=line), estimate="switching_frequency")
+        for line in (3e-6, 30e-6)
+    ]  # fmt: skip
+    first = assumed[0]
+    for other in assumed:
+        frequency = other.lamp_frequency or 0.0
+        estimate = other.uncertainties[other.estimate] / getattr(other, other.estimate)
+        assert other.verdict == first.verdict
+        assert other.columns_per_chip == pytest.approx(first.columns_per_chip, rel=1e-4)
+        assert other.duty == pytest.approx(first.duty, abs=1e-3)
+        assert other.exposure_in_periods == pytest.approx(first.exposure_in_periods, rel=0.02)
+        assert other.uncertainties["exposure_time"] * frequency == pytest.approx(
+            first.uncertainties["exposure_time"] * 300.0, rel=1e-3
+        )
+        assert estimate == pytest.approx(
+            first.uncertainties["readout_time"] / first.readout_time, rel=1e-2
+        )
 
 
 def test_the_scene_of_a_match_begins_where_the_photo_does() -> None:
@@ -213,6 +239,13 @@ def test_columns_are_averaged_while_periods_keep_enough_of_them(
     """A profile keeps at most 640 columns, but at least 48 of a period."""
     flat = np.zeros(columns)
     assert LampProfile(flat, flat, flat > 0.0).reduction(shortest) == step
+
+
+def test_evidence_is_finite_where_white_hides_all_stripes() -> None:
+    white = LampProfile(np.full(120, 0.99), np.full(120, 1e-6), np.full(120, True))
+    for fit in fit_lamp(white, [20.0]):
+        assert np.isfinite(fit.score)
+        assert np.isfinite(fit.covariance).all()
 
 
 def test_readings_make_the_same_stripes() -> None:

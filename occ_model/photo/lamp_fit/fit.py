@@ -22,7 +22,7 @@ from occ_model.photo.lamp_fit.model import (
     Levels,
     envelope_basis,
 )
-from occ_model.photo.lamp_fit.products import least_squares, products_of
+from occ_model.photo.lamp_fit.products import least_squares, products_of, two_factors
 from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.wave import Wave
 
@@ -186,14 +186,12 @@ def _noise_parts(
     profile: LampProfile, levels: FloatArray, noise: FloatArray, parameters: int
 ) -> tuple[float, float]:
     """Return the noise in proportion to the level, and to the swing, that residuals have."""
-    from scipy.optimize import nnls  # slow to import, and needed only for photos
-
     off = _off(profile, levels)
     count = len(off)
     weight = 1.0 / noise**2
     excess = np.square(off) * count / max(count - parameters + 4, 0.5 * count) - profile.variances
     parts = np.stack([levels**2, np.full(count, profile.swing**2)], axis=1)
-    found, _ = nnls(parts * weight[:, None], np.maximum(excess, 0.0) * weight)
+    found = two_factors(parts * weight[:, None], np.maximum(excess, 0.0) * weight)
     return max(math.sqrt(found[0]), 0.002), max(math.sqrt(found[1]), 0.002)
 
 

@@ -151,9 +151,19 @@ def _mixed(levels: FloatArray, own: float, near: float, far: float) -> FloatArra
 
 
 def envelope_basis(count: int, knots: int) -> FloatArray:
-    """Return the values of cubic B-splines over evenly spaced columns, shape (count, splines)."""
-    from scipy.interpolate import BSpline  # slow to import, and needed only for photos
+    """Return the values of cubic B-splines over evenly spaced columns, shape (count, splines).
 
+    By the recursion of Cox and de Boor: SciPy's takes 0.2 s to import.
+    """
     ends = np.concatenate([np.zeros(3), np.linspace(0.0, 1.0, knots + 1), np.ones(3)])
-    places = np.linspace(0.0, 1.0, count)
-    return np.asarray(BSpline.design_matrix(places, ends, 3).toarray())
+    places = np.linspace(0.0, 1.0, count)[:, None]
+    last = places == 1.0  # it belongs to the last interval, which would end before it
+    within = (ends[:-1] <= places) & ((places < ends[1:]) | (last & (ends[1:] == 1.0)))
+    splines = (within & (ends[:-1] < ends[1:])).astype(np.float64)
+    for degree in (1, 2, 3):
+        spans = ends[degree:] - ends[:-degree]
+        parts = splines / np.where(spans > 0.0, spans, 1.0)
+        rising = (places - ends[: -degree - 1]) * parts[:, :-1]
+        falling = (ends[degree + 1 :] - places) * parts[:, 1:]
+        splines = rising + falling
+    return np.asarray(splines, dtype=np.float64)

@@ -95,7 +95,11 @@ def _hull(mask: BoolArray) -> ByteArray:
     Where a lamp is faint the mask ends at edges of stripes. Of columns beside such an edge other
     rows would be averaged, which moves the edge outwards.
     """
-    corners = cv2.convexHull(np.argwhere(mask)[:, ::-1].astype(np.int32))
+    rows = np.flatnonzero(mask.any(axis=1))
+    first = mask[rows].argmax(axis=1)
+    last = mask.shape[1] - 1 - mask[rows, ::-1].argmax(axis=1)
+    ends = np.stack([np.concatenate([first, last]), np.concatenate([rows, rows])], axis=1)
+    corners = cv2.convexHull(ends.astype(np.int32))
     hull = np.zeros(mask.shape, dtype=np.uint8)
     return np.asarray(cv2.fillConvexPoly(hull, corners, 1), dtype=np.uint8)
 

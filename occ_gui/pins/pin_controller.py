@@ -311,8 +311,8 @@ def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
             [
                 (
                     "Bars",
-                    f"{format_depth(snapshot.bars.peak_to_peak)} deep",
-                    "Swing of the light's bars.",
+                    f"{format_depth(snapshot.bars.peak_to_peak)} of the mean light",
+                    "Depth of the bars, peak to peak.",
                 )
             ]
             if snapshot.bars is not None

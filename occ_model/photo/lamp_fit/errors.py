@@ -32,13 +32,13 @@ class ReadingErrors:
 def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     """Return the errors of a fit.
 
-    ``hidden_group``: columns that may have been read together; the places of edges without ramps
-    are then multiples of it.
+    ``hidden_group``: columns that may have been read together, at least 1. Steeper edges than that
+    may lie anywhere within.
     """
     wave = fit.wave
     scale = _scale(cues)
     deviations = scale * np.sqrt(np.maximum(np.diag(fit.covariance), 0.0))
-    of_group = _UNKNOWN * max(0.0, hidden_group - wave.ramp_columns) if hidden_group > 1.0 else 0.0
+    of_group = _UNKNOWN * max(0.0, hidden_group - wave.ramp_columns - 2.0 * wave.blur)
     of_view = math.hypot(_VIEW_ERROR, of_group) / len(fit.profile.values)
     width, ramp = _shape_errors(fit, scale, of_group)
     return ReadingErrors(

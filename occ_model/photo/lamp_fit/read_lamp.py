@@ -116,7 +116,7 @@ def read_lamp(
         if abs(other.wave.period / fit.wave.period - 1.0) > _OTHER_PERIOD
     ]
     gap, other_period = min(others, default=(math.inf, None))
-    hidden_group = whole.most_lines_at_once() / step if together == 1 else 1.0
+    hidden_group = max(1.0, whole.most_lines_at_once() / step) if together == 1 else 1.0
     return LampReading(
         place=place,
         profile=whole,

@@ -1,7 +1,7 @@
 """Measure the bit error rate with random payloads, each in a picture of its own."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import TOLERANCE, Scene
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.success_rate import check_rate, plan_images, right_bits_of_images
+from occ_model.study.success_rate import check_rate, plan_images, right_bits_of_scenes
 from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.scheme import code_of, sent_chips
 
@@ -69,17 +69,15 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     length = scene.transmitter.payload_length
     random = np.random.default_rng(seed)
     shared_plan = _shared_plan(scene, settings, random)
-    wrong_bits = []
-    with Faults().counting() as faults:
+
+    def pictures() -> Iterator[tuple[Scene, int]]:
         for _ in range(-(-bits // length)):
-            picture_scene = with_payload(scene, random.integers(0, 2, length).tolist())
-            picture_settings = RateSettings(
-                1, (decoder,), int(random.integers(2**32)), tolerance, settings.force, path
-            )
-            ((right,),) = right_bits_of_images(
-                picture_scene, picture_settings, heartbeat, shared_plan
-            )
-            wrong_bits.append(length - right)
+            sending = with_payload(scene, random.integers(0, 2, length).tolist())
+            yield sending, int(random.integers(2**32))
+
+    with Faults().counting() as faults:
+        right_bits = right_bits_of_scenes(pictures(), settings, heartbeat, shared_plan)
+        wrong_bits = [length - right for (right,) in right_bits]
     return replace(
         bit_errors_of(scene, decoder, wrong_bits, wrong_bits.count(0)), faults=str(faults)
     )
@@ -89,7 +87,7 @@ def _shared_plan(scene: Scene, settings: RateSettings, random: np.random.Generat
     """Return a plan for all pictures; None if each picture needs its own."""
     transmitter = scene.transmitter
     packet = len(sent_chips(transmitter)) * transmitter.switching_period
-    if panel_readout_time(scene) < packet:
+    if settings.path == "image" and panel_readout_time(scene) < packet:
         return None
     (payload_random,) = random.spawn(1)
     size = _PLANNED_PAYLOADS, transmitter.payload_length

@@ -22,7 +22,7 @@ from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
 from occ_model.study.cause.cause import cause_of
-from occ_model.study.success_rate import right_bits_of_images
+from occ_model.study.success_rate import right_bits_of_scenes
 from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import check_code, scheme_of
@@ -209,8 +209,12 @@ def _read_pictures(
     """Yield for each picture whether all bits are correct and accepted."""
     length = candidate.transmitter.payload_length
     random = np.random.default_rng(settings.seed)
-    for _ in range(pictures):
-        scene = with_payload(candidate, random.integers(0, 2, length).tolist())
-        picture_settings = RateSettings(1, settings.decoders, int(random.integers(2**32)))
-        ((right,),) = right_bits_of_images(scene, picture_settings, heartbeat)
+    scenes = (
+        (
+            with_payload(candidate, random.integers(0, 2, length).tolist()),
+            int(random.integers(2**32)),
+        )
+        for _ in range(pictures)
+    )
+    for (right,) in right_bits_of_scenes(scenes, settings, heartbeat):
         yield right == length

@@ -4,6 +4,7 @@ from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import islice
 
 import numpy as np
 
@@ -124,7 +125,8 @@ def right_bits_of_images(
             if chosen is None
             else observe_batch(pictures, chosen, first, last)
         )
-        results = [_read(scene, observations, decoder) for decoder in settings.decoders]
+        scenes = [scene] * len(observations)
+        results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
         for of_image in zip(*results, strict=True):
             heartbeat()
             yield tuple(_count_right_bits(result, sent) for result in of_image)
@@ -140,6 +142,34 @@ def _batches(settings: RateSettings, count: int) -> Iterator[tuple[int, int]]:
         last = min(first + count, settings.images)
         yield first, last
         first = last
+        if settings.path != "image":
+            count = min(4 * count, _MOST_AT_ONCE)
+
+
+def right_bits_of_scenes(
+    scenes: Iterable[tuple[Scene, int]],
+    settings: RateSettings,
+    heartbeat: Heartbeat = lambda: None,
+    chosen: Plan | None = None,
+) -> Iterator[tuple[int, ...]]:
+    """Yield the number of bits that each decoder reads correctly in one picture of each scene.
+
+    ``scenes``: each with the seed of its picture. ``chosen``: the effects to simulate, by default
+    those that each scene's signal needs.
+    """
+    remaining, count = iter(scenes), 1
+    while part := list(islice(remaining, count)):
+        plans = [chosen or plan_images([scene], settings) for scene, _ in part]
+        images = [
+            image_of(scene, plan, seed, 0) for (scene, seed), plan in zip(part, plans, strict=True)
+        ]
+        observations = list(observe_images(images, settings.path, plans[0]))
+        sent_scenes = [scene for scene, _ in part]
+        read = [_read(sent_scenes, observations, decoder) for decoder in settings.decoders]
+        for scene, *of_image in zip(sent_scenes, *read, strict=True):
+            heartbeat()
+            sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+            yield tuple(_count_right_bits(result, sent) for result in of_image)
         if settings.path != "image":
             count = min(4 * count, _MOST_AT_ONCE)
 
@@ -232,11 +262,15 @@ def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:
 
 
 def _read(
-    scene: Scene, observations: Sequence[Observation | None], decoder: str
+    scenes: Sequence[Scene], observations: Sequence[Observation | None], decoder: str
 ) -> list[DecodeResult]:
     """Read the pictures that show a panel, all at once."""
-    signals = [each.signal for each in observations if each is not None]
-    read = iter(decode_profiles(signals, [scene] * len(signals), decoder))
+    shown = [
+        (each.signal, scene)
+        for each, scene in zip(observations, scenes, strict=True)
+        if each is not None
+    ]
+    read = iter(decode_profiles([one for one, _ in shown], [one for _, one in shown], decoder))
     unread = DecodeResult(decoder, failure=_NO_PANEL)
     return [unread if each is None else next(read) for each in observations]
 

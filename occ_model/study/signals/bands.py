@@ -19,6 +19,7 @@ from occ_model.effects.effect import FileEffect, OpticsEffect, region_of
 from occ_model.effects.registry import effects_named
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Camera, Model, Scene, Transmitter
+from occ_model.simulation.pixel_draw import GainPattern
 
 BLOCK = 8  # rows of a band, those of a block of a JPEG file
 BANDS = 12
@@ -157,3 +158,21 @@ def _first_rows(span: Region) -> IndexArray:
     count = min(BANDS, last - first)
     blocks = first + ((np.arange(count) + 0.5) * ((last - first) / count)).astype(int)
     return np.asarray(blocks * BLOCK)
+
+
+_ROWS_AT_ONCE = 64
+
+
+@lru_cache(maxsize=8)
+def column_gains(variation: float, seed: int, size: tuple[int, int], span: Region) -> Pixels:
+    """Return the mean difference from 1 of a sensor's gains in each column of the span's rows."""
+    pattern = GainPattern(variation, 1.0, seed, size)
+    columns = slice(0, size[1])
+    total = np.zeros(size[1])
+    out = np.empty((_ROWS_AT_ONCE, size[1]), dtype=np.float32)
+    step = np.full((1, size[1]), pattern.step, dtype=np.float32)
+    for first in range(span.first_row, span.last_row, _ROWS_AT_ONCE):
+        rows = range(first, min(first + _ROWS_AT_ONCE, span.last_row))
+        pattern.vary(rows, step, out[: len(rows)], columns)
+        total += out[: len(rows)].sum(axis=0, dtype=np.float64)
+    return np.asarray(total / span.rows - 1.0, dtype=np.float32)

@@ -32,11 +32,12 @@ from occ_model.receiver.decode import decode
 from occ_model.receiver.signal import bright_level
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene
-from occ_model.study.signals.bands import Bands, bands_of, without_light
+from occ_model.study.signals.bands import Bands, bands_of, column_gains, without_light
 from occ_model.study.signals.grey_tables import (
     GREYS,
     GreyTable,
     StoredMeans,
+    moved_after_file,
     places_of_stored,
     split,
     table_of_file,
@@ -255,6 +256,33 @@ class _Pictures:
         means[seen] = part * inner + (1.0 - part) * means[seen]
         return means[region.first_column : region.last_column]
 
+    def _known_gains(self, inside: Places) -> tuple[FloatArray, FloatArray] | None:
+        """Return what the sensor's own gains add to column means, and the variance they explain.
+
+        Both have the shape (images, seen). The law counts a pixel's gain as random, but it is the
+        same in all pictures.
+        """
+        law, span = self._pixels.law, self.bands.span
+        if law is None or span is None or not law.noise.gain_variation:
+            return None
+        tables = self._table.means_of(self._curves)
+        slopes = np.gradient(tables, axis=1) * self._levels_a_gain(law)
+        slope = _interpolate(slopes, _some_bands(inside))
+        camera, variation = self._scene.camera, law.noise.gain_variation
+        gains = column_gains(
+            variation, self._scene.sensor.sensor_seed, (camera.rows, camera.columns), span
+        )[self.bands.columns]
+        known = np.square(variation * slope).mean(axis=1)
+        added = gains * slope.mean(axis=1)
+        return np.asarray(added, dtype=np.float64), np.asarray(known, dtype=np.float64)
+
+    def _levels_a_gain(self, law: GreyLaw) -> FloatArray:
+        """Return by how many levels of the table a pixel moves for a change of its gain by 1."""
+        own: FloatArray = np.arange(float(len(law.below))) * (law.power / law.noise.gamma)
+        if self._steps is None:
+            return own
+        return moved_after_file(law, np.gradient(law.means) * own)
+
     def _mean_over_bands(self, inside: Places, mixed: Places) -> tuple[FloatArray, FloatArray]:
         """Return the mean of pixels of the receiver's picture, and their variance in a band."""
         part = self.bands.panel
@@ -265,6 +293,10 @@ class _Pictures:
             square = _interpolate(self._table.means_of(self._curves**2), _some_bands(inside))
             own = _some_bands_of(mean)
             variance = np.maximum(square - own**2, 0.0).mean(axis=1, dtype=np.float64)
+        known = self._known_gains(inside)
+        if known is not None:
+            mean += known[0][:, None]
+            variance = np.maximum(variance - known[1], 0.0)
         if not is_panel:
             columns = np.flatnonzero((part != 1.0).any(axis=0))
             off, variance_off = self._identity_moments(_columns_of(mixed, columns))

@@ -117,6 +117,12 @@ def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyTable:
     return GreyTable(np.arange(GREYS), _spread(law, levels, means, kept, rest))
 
 
+def moved_after_file(law: GreyLaw, moved: FloatArray) -> FloatArray:
+    """Return by how many levels of a file's table means move, given the grey levels in the law."""
+    means = np.arange(_FILE_LEVELS) / _PER_GREY
+    return np.asarray(_PER_GREY * np.interp(means, np.maximum.accumulate(law.means), moved))
+
+
 def _spread(
     law: GreyLaw, levels: FloatArray, means: FloatArray, kept: FloatArray, rest: FloatArray
 ) -> FloatArray:

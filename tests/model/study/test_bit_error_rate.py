@@ -12,6 +12,7 @@ from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
 from occ_model.study.bit_error_rate import bit_errors_of, error_interval, with_payload
+from occ_model.study.signals.pictures import observe_images
 from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
 
 SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")
@@ -50,16 +51,16 @@ def test_the_same_seed_gives_the_same_errors() -> None:
 
 
 def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
-    """Return the plan with which each picture of a measurement is simulated."""
+    """Return the plan with which each whole picture of a measurement is simulated."""
     used: list[Plan] = []
-    whole = success_rate.observe_batch
+    whole = observe_images
 
-    def reading(*arguments: Any) -> Any:
-        used.append(arguments[1])
-        return whole(*arguments)
+    def reading(images: Any, path: Any, plan: Plan) -> Any:
+        used.append(plan)
+        return whole(images, path, plan)
 
-    monkeypatch.setattr(success_rate, "observe_batch", reading)
-    occ.bit_error_rate(scene, bits=bits, seed=2)
+    monkeypatch.setattr(success_rate, "observe_images", reading)
+    occ.bit_error_rate(scene, bits=bits, seed=2, path="image")
     return used
 
 

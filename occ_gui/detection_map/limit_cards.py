@@ -102,6 +102,7 @@ class LimitCards(QWidget):
             )
             tip = "\n".join(text for text in texts if text)
             card.show_limit(frequencies.highest, tip)
+            card.name.setToolTip(f"It reads where {advice.limits.rate:g} % of the bits are right.")
             card.show_range(frequencies, "" if frequencies.intervals else advice.cause)
 
     def show_ended(self, reason: str = "") -> None:

@@ -39,10 +39,13 @@ def state_measurement(costs: MeasuredCosts) -> str:
     count = costs.picture.times.count
     if count == 1:
         return "The time is that of the last picture; more are measured when nothing moves."
-    drafts = "" if costs.draft is None else f" and {costs.draft.count} drafts"
+    drafts, meaning = "", ""
+    if costs.draft is not None:
+        drafts = f" and {costs.draft.count} drafts"
+        meaning = " A draft has only some rows of the picture, and is shown while a slider moves."
     return (
         f"Median and range of the last {count} pictures{drafts} with these effects, each after a "
-        "move, on this computer."
+        f"move, on this computer.{meaning}"
     )
 
 

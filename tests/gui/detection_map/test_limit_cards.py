@@ -37,6 +37,7 @@ def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene:
     view.show_advice(advice_on(small_scene))
     card = cards.cards["threshold"]
     assert card.value.text() == "14.55 kHz"
+    assert "99 %" in card.name.toolTip()
     texts = list_texts(view)
     place = next(i for i, text in enumerate(texts) if text.startswith("The highest frequency"))
     sentence = " ".join(texts[place : place + 2])  # and how that is known

@@ -97,6 +97,7 @@ def test_a_move_is_stated_by_kind_and_with_its_scatter() -> None:
         "A slider's next move: a draft in 60 ms (50 to 90), the picture in 320 ms (300 to 410)."
     )
     assert state_measurement(costs).startswith("Median and range of the last 3 pictures and 3 ")
+    assert "A draft has only some rows" in state_measurement(costs)
     first = MeasuredCosts(runs(320))
     assert state_move(first, None) == "A slider's next move: the picture in 320 ms."
     assert "the last picture" in state_measurement(first)

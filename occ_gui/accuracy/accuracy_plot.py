@@ -158,14 +158,12 @@ class AccuracyPlot(QWidget):
             for effect_set, seconds in timed_sets
         ]
         # By the measured times, a set may be beaten by another one in both.
-        least = accumulate((point.error for point in self._front), min, initial=math.inf)
-        self._front = [
-            point
-            for point, before in zip(self._front, least, strict=False)
-            if point.error < before or point.current
-        ]
+        before = accumulate((point.error for point in self._front), min, initial=math.inf)
+        pairs_before = zip(self._front, before, strict=False)
+        best = [point for point, least in pairs_before if point.error < least]
+        self._front = [point for point in self._front if point in best or point.current]
         xs, ys = _take_logarithms(self._front)
-        self.front.setData(xs, ys)
+        self.front.setData(*_take_logarithms(best))
         tips = [
             f"{p.name}: {1e3 * p.seconds:.3g} ms, at most {p.error:.3g} {p.unit}"
             for p in self._front

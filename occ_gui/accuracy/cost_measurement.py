@@ -99,12 +99,12 @@ def _time_moves(request: SimulationRequest, report: Report) -> None:
     for count, name in enumerate(_MOVED):
         if count >= _LEAST_MOVES and perf_counter() > deadline:
             return
-        try:
-            scene = _move(request.scene, name)
-        except OccError:  # the slider is at its end
-            continue
         timed: set[frozenset[str]] = set()
-        for variant in (settings, exact, bare):
+        for place, variant in enumerate((settings, exact, bare), 1):
+            try:  # another place for each plan: the first would prepare what others need
+                scene = _move(request.scene, name, _MOVE**place)
+            except OccError:  # the slider is at its end
+                continue
             included = frozenset(plan_with(scene, variant).included)
             if included not in timed:
                 timed.add(included)
@@ -113,9 +113,9 @@ def _time_moves(request: SimulationRequest, report: Report) -> None:
                 report(time_move(moved, with_draft=variant is settings))
 
 
-def _move(scene: Scene, name: str) -> Scene:
+def _move(scene: Scene, name: str, factor: float) -> Scene:
     value, highest = float(scene.value(name)), quantity(name).slider[1]
-    return scene.replace(**{name: value * _MOVE if value * _MOVE <= highest else value / _MOVE})
+    return scene.replace(**{name: value * factor if value * factor <= highest else value / factor})
 
 
 class _CancellableTimer(StageTimer):

@@ -104,19 +104,18 @@ def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | No
         )
     mosaic = mosaic_of(image, scene)
     rows, columns = (size // 2 for size in mosaic.shape)
-    whole = mosaic[: 2 * rows, : 2 * columns]
-    cells = np.asarray(cv2.resize(whole, (columns, rows), interpolation=cv2.INTER_AREA), np.uint8)
-    location = locate(cells, scene.receiver.bright_fraction)
+    places = [mosaic[place // 2 : 2 * rows : 2, place % 2 : 2 * columns : 2] for place in range(4)]
+    # Of one colour alone the mean of four pixels would be as dark as the noise beside the panel.
+    brightest = np.maximum(np.maximum(*places[:2]), np.maximum(*places[2:]))
+    location = locate(brightest, scene.receiver.bright_fraction)
     if location is None:
         return None
     greys = np.full((2, 3, 2 * location.region.columns), np.nan)
     light = light_of_greys(scene.camera.gamma)
     for place, letter in enumerate(scene.colours.bayer):
-        row, column = place // 2, place % 2
-        own = np.ascontiguousarray(mosaic[row : 2 * rows : 2, column : 2 * columns : 2])
-        means = greys[:, "rgb".index(letter), column::2]
-        means[0] = column_means(own, location.region)
-        means[1] = _mean_light(location.region.crop(own), light)
+        means = greys[:, "rgb".index(letter), place % 2 :: 2]
+        means[0] = column_means(places[place], location.region)
+        means[1] = _mean_light(location.region.crop(places[place]), light)
     part = location.region
     region = Region(
         2 * part.first_row, 2 * part.last_row, 2 * part.first_column, 2 * part.last_column

@@ -129,7 +129,7 @@ def study() -> None:
     print("study: bits of 10 x 40 read, in pictures and by the study; chi-square, cells")
     total, cells = 0.0, 0
     for name in ("0 %", "30 %"):
-        for frequency in (12e3, 12.6e3, 13.2e3, 13.8e3):
+        for frequency in (10.4e3, 10.8e3, 11.2e3, 11.6e3):
             scene = colour_scene(136e-6, frequency, demosaicing="none", **MIXINGS[name])
             pictures = np.zeros(3)
             for sent, seed in random_scenes(scene, 40, 91):

@@ -20,7 +20,9 @@ from occ_model.scene.toml_format import parse_toml
 from occ_model.teaching.quantities import QUANTITIES
 
 USER_FOLDER = "OCC_LESSONS"  # environment variable: another folder for a teacher's lessons
-PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map", "room")
+PANES = (
+    "profile", "decode", "accuracy", "photo", "equations", "exposure", "map", "room", "colour",
+)  # fmt: skip
 """The panes that a step can show."""
 
 EQUATIONS = (  # the equations that a step can show

@@ -10,7 +10,8 @@
 * ``study``: bits read in pictures, and by the study of ``scene.colour(...)``, with chi-square;
 * ``csk``: the highest frequency up to which all of 12 packets are read;
 * ``stripes``: false stripes of a white lamp close to the line rate, and their closed form;
-* ``cost``: processor time of a colour picture against the monochrome one.
+* ``cost``: processor time of a colour picture against the monochrome one;
+* ``figure``: draw false-stripes.png in the present folder.
 """
 
 import argparse
@@ -204,6 +205,32 @@ def stripes() -> None:
             )
 
 
+def figure(file: str = "false-stripes.png") -> None:
+    """Draw a white lamp close to the line rate, as the mean of the rows of a colour picture."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    from matplotlib import pyplot
+
+    drawn, axes = pyplot.subplots(3, 1, figsize=(9, 2.8), sharex=True, layout="constrained")
+    for axis, frequency in zip(axes, (40e3, 55e3, 62e3), strict=True):
+        scene = occ.load_preset("phone-68us-colour").replace(
+            colour_light="white", light="lamp", lamp_frequency=frequency, crosstalk=0.0,
+            exposure_time=10e-6, rows=64, panel_width=20.0, panel_height=20.0, iso=4000.0,
+        )  # fmt: skip
+        image = occ.render_colour(scene, force=QUIET).image
+        seen = image[30:32, 1000:1300].mean(axis=0, keepdims=True) / 255.0
+        axis.imshow(seen, aspect="auto", extent=(0, 300, 0, 1))
+        false = 1 / abs(1 / 16e-6 - frequency) / 8e-6
+        axis.set(yticks=[], ylabel=f"{frequency / 1e3:.0f} kHz")
+        axis.set_title(
+            f"{1 / (frequency * 8e-6):.1f} columns a period; false stripes of {false:.1f} columns",
+            fontsize=9, loc="left",
+        )  # fmt: skip
+    axes[-1].set_xlabel("column")
+    drawn.savefig(file, dpi=110)
+
+
 def cost() -> None:
     print("cost: processor ms of a colour picture and a monochrome one, ratio (median of 5)")
     cases: dict[str, dict[str, float]] = {
@@ -223,7 +250,7 @@ def cost() -> None:
         print(f"{name}: {first:.0f}, {second:.0f}, {first / second:.2f}")
 
 
-PARTS_OF_REPORT = {part.__name__: part for part in (peer, stripes, cost, csk, study, rates)}
+PARTS_OF_REPORT = {part.__name__: part for part in (peer, stripes, cost, csk, study, rates, figure)}
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)

@@ -25,7 +25,7 @@ def test_opening_the_lessons_lists_them_and_changes_nothing(
     bench: Lessons, guide: LessonView, small_scene: Scene
 ) -> None:
     titles = [lesson.title for lesson in lessons().lessons]
-    assert len(titles) == 12
+    assert len(titles) == 13
     for button, title in zip(guide.list.choices, titles, strict=True):
         assert button.text().startswith(title)
     assert bench.scenes.scene == small_scene
@@ -191,7 +191,7 @@ def view_of(workspace: Workspace) -> tuple[object, ...]:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("number", range(12))
+@pytest.mark.parametrize("number", range(13))
 def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
     bench: Lessons, guide: LessonView, small_scene: Scene, number: int
 ) -> None:
@@ -205,7 +205,9 @@ def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
     guide.list.choices[number].click()
     for step in lessons().lessons[number].steps:
         bench.wait_until_idle()
-        assert view_of(store.workspace) == view_of(first)
+        assert view_of(store.workspace) == view_of(
+            replace(first, decoder=step.decoder or first.decoder)
+        )
         assert store.workspace.scene == step.scene
         assert store.workspace.room == (first.room if step.pane == "room" else room)
         # Changes during a step belong to the lesson, not to the user's work.

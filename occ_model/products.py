@@ -5,11 +5,15 @@ processor time, and in wall time where other processes want the cores. Products 
 the size at which it does, whatever the settings of the process.
 """
 
+import math
+
 import numpy as np
 
 from occ_model.arrays import FloatArray
 
 _MOST_TERMS = 2**17  # of a product; OpenBLAS takes one thread up to 2^18
+_DEPENDENT = 1e-13  # squared distance of a unit row from the others' combinations that is none
+_SQUARINGS = 20  # of a matrix, after which eigenvalues a millionth smaller than the first are gone
 _LONGEST_DOT = 2**13  # of two vectors; OpenBLAS takes one thread up to 10,000
 
 
@@ -19,11 +23,47 @@ def dot(first: FloatArray, second: FloatArray) -> float:
     return float(sum(first[i : i + _LONGEST_DOT] @ second[i : i + _LONGEST_DOT] for i in parts))
 
 
-def row_products(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the inner product of each row of one matrix with each row of another."""
-    step = max(1, _MOST_TERMS // max(1, len(first) * len(second)))
-    product = np.zeros((len(first), len(second)))
-    for start in range(0, first.shape[1], step):
+def row_products(values: FloatArray, rows: FloatArray) -> FloatArray:
+    """Return the inner product of values, or of several, with each of some rows.
+
+    ``values``: shape (columns,) or (any, columns). ``rows``: shape (rows, columns). The products
+    have the shape (rows,) or (any, rows).
+    """
+    step = max(1, _MOST_TERMS // max(1, len(rows) * (len(values) if values.ndim > 1 else 1)))
+    product = np.asarray(values[..., :step] @ rows[:, :step].T)
+    for start in range(step, rows.shape[1], step):
         part = slice(start, start + step)
-        product += first[:, part] @ second[:, part].T
+        product += values[..., part] @ rows[:, part].T
     return product
+
+
+def combined(weights: FloatArray, rows: FloatArray) -> FloatArray:
+    """Return sums of weighted rows, for weights of shape (rows,) or several, (any, rows)."""
+    step = max(1, _MOST_TERMS // max(1, weights.size))
+    if rows.shape[1] <= step:
+        return np.asarray(weights @ rows)
+    starts = range(0, rows.shape[1], step)
+    return np.concatenate([weights @ rows[:, i : i + step] for i in starts], axis=-1)
+
+
+def orthonormal(rows: FloatArray) -> FloatArray:
+    """Return orthonormal rows of which the same combinations can be made.
+
+    In place of a row that is a combination of others, one of nearly 0 is returned.
+    """
+    norms = np.sqrt(np.einsum("ij,ij->i", rows, rows))
+    rows = rows / np.maximum(norms, np.finfo(float).tiny)[:, None]
+    products = row_products(rows, rows) + _DEPENDENT * np.eye(len(rows))
+    # Not by the decompositions of LAPACK that are more exact, since their threads cost a hundred
+    # times as much as they do.
+    return combined(np.linalg.inv(np.linalg.cholesky(products)), rows)
+
+
+def leading_direction(products: FloatArray) -> FloatArray:
+    """Return the eigenvector of the largest eigenvalue of a matrix of products, of norm 1."""
+    power = products / max(float(np.trace(products)), np.finfo(float).tiny)
+    for _ in range(_SQUARINGS):
+        power = row_products(power, power)
+        power /= max(float(np.trace(power)), np.finfo(float).tiny)
+    longest = power[int(np.diag(power).argmax())]
+    return np.asarray(longest / max(math.sqrt(dot(longest, longest)), np.finfo(float).tiny))

@@ -146,7 +146,7 @@ def _least_unexplained(light: FloatArray, models: FloatArray) -> float:
     centred = light - light.mean()
     models = models - models.mean(axis=1, keepdims=True)
     energies = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
-    fits = row_products(models, centred[None])[:, 0]
+    fits = row_products(centred, models)
     best = int(np.argmax(np.maximum(fits, 0.0) ** 2 / energies))
     residual = centred - max(float(fits[best]), 0.0) / energies[best] * models[best]
     return unexplained_fraction(light, residual)

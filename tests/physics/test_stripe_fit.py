@@ -20,10 +20,6 @@ from occ_model.transmitter.scheme import sent_chips
 CHIPS = sent_chips(occ.Scene().transmitter)
 
 
-def identity(lit: np.ndarray, _gamma: float) -> np.ndarray:
-    return lit
-
-
 def spread(index: int, low: float, high: float) -> float:
     """Return numbers that fill a range evenly, none a simple fraction of another."""
     return low + (high - low) * (index * (math.sqrt(5.0) - 1.0) / 2.0 % 1.0)
@@ -44,7 +40,7 @@ def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     true = Timing(step, exposure, middle, 2.22)
     profile = 40.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), 2000)
     candidates = Search(profile, CHIPS).candidates(Search(profile, CHIPS).steps(), 2.22)
-    model = StripeModel(profile, CHIPS, identity, step)
+    model = StripeModel(profile, CHIPS, None, step)
     fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.residual)
     assert fit.timing.step == pytest.approx(step, rel=1e-6)
     assert fit.timing.exposure == pytest.approx(exposure, rel=1e-3)

@@ -1,5 +1,6 @@
 """Find the timings with which given chips fit a photo's stripes best."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ _LEAST_SURE_CORRELATION = 0.9  # correlation above which a candidate is not a co
 _LEAST_CORRELATION_RATIO = 0.85  # minimum correlation of candidates over that of the best
 _BEST, _SHORTEST = 4, 4  # candidates that are fitted: best ones, and shortest exposures
 _ROUGH_ROUNDS = 4  # iterations after which only good fits are continued
+_HOPELESS_RATIO = 20.0  # ratio of its residual to the best one above which a fit is not continued
 _MOST_RESIDUAL_RATIO = 4.0  # maximum ratio of a rough fit to the best one for it to be continued
 
 _MOST_FINISHED = 6
@@ -93,9 +95,7 @@ def explain_from(
     """
     found: list[tuple[float, list[StripeFit], CameraTone]] = []
     for camera in cameras:
-        model = StripeModel(
-            stripes.profile, chips, camera.tone, starts[0].step, camera.rank_resolution
-        )
+        model = StripeModel(stripes.profile, chips, camera.tone, starts[0].step)
         fits = _fits(model, starts, with_gamma)
         ratio = _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
         if fits:
@@ -111,7 +111,10 @@ def explain_from(
 
 def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> list[StripeFit]:
     """Fit from several timings: roughly from all of them, to the end from the promising ones."""
-    rough = [model.fit(start, with_gamma, rounds=_ROUGH_ROUNDS) for start in starts]
+    rough: list[StripeFit] = []
+    for start in starts:
+        hopeless = _HOPELESS_RATIO * min((fit.residual for fit in rough), default=math.inf)
+        rough.append(model.fit(start, with_gamma, _ROUGH_ROUNDS, hopeless))
     # What needs darker than black so far may come to need none.
     rough.sort(key=lambda fit: (not fit.is_possible, fit.residual))
     good = [fit for fit in rough if fit.residual <= _MOST_RESIDUAL_RATIO * rough[0].residual]

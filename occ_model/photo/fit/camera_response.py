@@ -10,7 +10,8 @@ from occ_model.photo.fit.least_squares import Tone
 from occ_model.scene.scene import Scene
 
 _BLACK_LEVEL = 0.5  # grey level below which dark columns are black
-_RANK_RESOLUTION = 0.5  # change of the timing in columns that changes the columns' ranks noticeably
+_LEAST_LIGHT = 1e-3  # of a lit column, down to which the slope of its value is that of the curve
+_NEAR = 0.02  # of the values' range: the distance within which neighbours in rank are counted
 
 AVERAGINGS = ("pixel-value", "light")
 
@@ -22,8 +23,6 @@ class CameraTone:
     averaging: str
     enhancement: str
     tone: Tone
-    # Smallest change of the timing, in columns, that changes the response: ranks are discrete.
-    rank_resolution: float = 0.0
 
 
 def camera_tones(
@@ -40,37 +39,77 @@ def camera_tones(
     """
     tones = []
     for averaging in averagings:
-        tone = _camera_tone(averaging, low / high if low > _BLACK_LEVEL else 0.0, check)
+        black = low / high if low > _BLACK_LEVEL else 0.0
+        is_light = averaging == "light"
+        tone = _AveragedLight(black, check) if is_light else _PixelValues(check)
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
-            tones.append(CameraTone(averaging, "equalization", _equalized(tone), _RANK_RESOLUTION))
+            tones.append(CameraTone(averaging, "equalization", _Ranks(tone)))
     return tones
 
 
-def _camera_tone(averaging: str, black: float, check: Callable[[], object]) -> Tone:
-    """Return the response of a panel whose dark pixel value is ``black`` relative to the lit one's.
+@dataclass(frozen=True)
+class _PixelValues(Tone):
+    """The response where pixel values are averaged; ``check``: see :func:`camera_tones`."""
+
+    check: Callable[[], object]
+
+    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:
+        self.check()
+        return super().__call__(lit, gamma)
+
+
+@dataclass(frozen=True)
+class _AveragedLight(Tone):
+    """The response of a panel whose dark pixel value is ``black`` relative to the lit one's.
 
     By equations (1) to (3) of the paper: light is the pixel value to the power of gamma.
     """
 
-    def tone(lit: FloatArray, gamma: float) -> FloatArray:
-        check()
-        if averaging == "pixel-value":
-            return lit
-        dark = black**gamma
-        return np.asarray(((dark + (1.0 - dark) * lit) ** (1.0 / gamma) - black) / (1.0 - black))
+    black: float
+    check: Callable[[], object]
 
-    return tone
+    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:
+        self.check()
+        dark = self.black**gamma
+        value = (dark + (1.0 - dark) * lit) ** (1.0 / gamma)
+        return np.asarray((value - self.black) / (1.0 - self.black))
+
+    def _rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:
+        dark = self.black**gamma
+        # From black the curve rises without limit: no column sees so little of a chip.
+        light = np.maximum(dark + (1.0 - dark) * lit, _LEAST_LIGHT)
+        value = light ** (1.0 / gamma) / (1.0 - self.black)
+        by_light = value / (gamma * light)
+        darker = dark * np.log(self.black) * (1.0 - lit) if self.black else 0.0
+        return by_light * (1.0 - dark), by_light * darker - value * np.log(light) / gamma**2
 
 
-def _equalized(tone: Tone) -> Tone:
-    """Return the response of a picture with equalized histogram: each column's rank."""
+@dataclass(frozen=True)
+class _Ranks(Tone):
+    """The response of a picture with equalized histogram: each column's rank."""
 
-    def of_rank(lit: FloatArray, gamma: float) -> FloatArray:
-        values = np.round(tone(lit, gamma), 3)  # grey levels are no finer
+    tone: Tone
+
+    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:
+        values = np.round(self.tone(lit, gamma), 3)  # grey levels are no finer
         in_order = np.sort(values)
         rank = np.searchsorted(in_order, values, side="right").astype(np.float64)
         least, most = float(rank.min()), float(rank.max())
         return np.asarray((rank - least) / (most - least)) if most > least else values
 
-    return of_rank
+    def slopes(self, lit: FloatArray, gamma: float, by_timing: FloatArray) -> FloatArray:
+        """Return the slopes of the ranks.
+
+        A value rises in rank by the density of values near it, times what it rises more than they.
+        """
+        values = self.tone(lit, gamma)
+        order = np.argsort(values)
+        in_order = values[order]
+        first, last = (np.searchsorted(in_order, values + part) for part in (-_NEAR, _NEAR))
+        near = np.maximum(last - first, 1)
+        slopes = self.tone.slopes(lit, gamma, by_timing)
+        sums = np.cumsum(slopes[:, order], axis=1)
+        sums = np.concatenate([np.zeros((len(sums), 1)), sums], axis=1)
+        above = slopes - (sums[:, last] - sums[:, first]) / near
+        return np.asarray(above * near / (2.0 * _NEAR * len(values)))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, smooth_shapes
+from occ_model.products import row_products
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
 _PHASES = np.arange(8) / 8.0  # exposures and phases in chips that are tried
@@ -55,12 +56,12 @@ def harmonics_of(even: FloatArray, period: float) -> Harmonics:
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
     count = min(count, max(2, (columns - MEAN_SHAPES) // 3))
-    turn = 2.0 * np.pi / period * np.outer(np.arange(columns), np.arange(1, count + 1))
-    parts = np.hstack([np.cos(turn), np.sin(turn), smooth_shapes(columns, MEAN_SHAPES)])
-    products = parts.T @ parts
+    turn = 2.0 * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(columns))
+    parts = np.vstack([np.cos(turn), np.sin(turn), smooth_shapes(columns, MEAN_SHAPES).T])
+    products = row_products(parts, parts)
     # At half the column rate a sine has no energy of its own.
     products[np.diag_indices_from(products)] += _REGULARIZATION * columns
-    weights = np.linalg.solve(products, parts.T @ even)
+    weights = np.linalg.solve(products, row_products(even, parts))
     return np.asarray(0.5 * (weights[:count] - 1j * weights[count : 2 * count]))
 
 

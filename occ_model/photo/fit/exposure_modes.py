@@ -33,6 +33,9 @@ _BLUR_FRACTIONS: dict[BlurShape, tuple[float, ...]] = {
 box of blur and an exposure look alike, and each shape has several minima: starts at one half alone
 took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
 
+_HOPELESS_RATIO = 20.0
+"""Ratio of misfits to the least one above which a fit that begins elsewhere is not finished."""
+
 _LAST_ROUNDS = 10
 _SHORTEST_EXPOSURE = 0.2  # shortest exposure in columns to start from
 
@@ -60,16 +63,18 @@ class Possible:
         free = self.model.fit(self.fit.values, rounds=self.rounds)
         if free.values[1] >= _MOST_COLUMNS * free.values[0]:
             return [free]
-        found = {shape: self._shared(free.values, shape) for shape in _BLUR_FRACTIONS}
-        found["box"] += self._exchanged(found["box"])
+        hopeless = _HOPELESS_RATIO * free.misfit
+        found = {shape: self._shared(free.values, shape, hopeless) for shape in _BLUR_FRACTIONS}
         found["normal"].append(free)
+        if found["box"]:
+            found["box"] += self._exchanged(found["box"], hopeless)
         best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
         for shape, fits in found.items():
             # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
             fits.append(self.model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
         return [fit for fits in found.values() for fit in distinct(fits)]
 
-    def _exchanged(self, boxes: Sequence[JointFit]) -> list[JointFit]:
+    def _exchanged(self, boxes: Sequence[JointFit], hopeless: float = math.inf) -> list[JointFit]:
         """Fit with exposure and blur exchanged: two boxes make the same edge in either order."""
         found = min(boxes, key=lambda fit: fit.misfit).values
         step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
@@ -79,16 +84,21 @@ class Possible:
             values = found.copy()
             values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
             starts.append(values)
-        return [self.model.fit(one, rounds=_LAST_ROUNDS, shape="box") for one in starts]
+        return self._promising(starts, _LAST_ROUNDS, "box", hopeless)
 
-    def _shared(self, values: FloatArray, shape: BlurShape) -> list[JointFit]:
+    def _shared(self, values: FloatArray, shape: BlurShape, hopeless: float) -> list[JointFit]:
         """Fit with another shape of the blur, starting from its fractions of the edges' width."""
         columns = float(values[1] / values[0])
         width = columns**2 / 12.0 + float(values[7]) ** 2
-        return [
-            self.model.fit(_with_blur(values, math.sqrt(fraction * width)), rounds=4, shape=shape)
-            for fraction in _BLUR_FRACTIONS[shape]
-        ]
+        fractions = _BLUR_FRACTIONS[shape]
+        starts = [_with_blur(values, math.sqrt(fraction * width)) for fraction in fractions]
+        return self._promising(starts, 4, shape, hopeless)
+
+    def _promising(
+        self, starts: Sequence[FloatArray], rounds: int, shape: BlurShape, hopeless: float
+    ) -> list[JointFit]:
+        fits = [self.model.promising(start, rounds, shape, hopeless) for start in starts]
+        return [fit for fit in fits if fit is not None]
 
 
 def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Possible]:
@@ -104,9 +114,10 @@ def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Poss
             # Each blur starts from what is usual of all else: tone and switching can make up for
             # it. Where gamma is to be fitted, it must not start anew.
             others = [model.with_usual(other) for other in others]
-        starts = [here, *others]
-        fits = [model.fit(start, rounds=5) for start in starts]
-        best = min(fits, key=lambda fit: fit.misfit)
+        best = model.fit(here, rounds=5)
+        for start in others:
+            other = model.promising(start, 5, "normal", _HOPELESS_RATIO * best.misfit)
+            best = best if other is None or other.misfit >= best.misfit else other
         found.append(Possible(model, best, _LAST_ROUNDS))
     return found
 
@@ -167,14 +178,15 @@ def scanned_starts(
     """
     usual = model.with_usual(found)
 
-    def rough(exposure: float) -> tuple[float, FloatArray]:
+    def rough(exposure: float, hopeless: float = math.inf) -> tuple[float, FloatArray]:
         values = usual.copy()
         values[1] = exposure
-        return model.rough(values, _HELD_INDICES, _ROUGH_ROUNDS)
+        return model.rough(values, _HELD_INDICES, _ROUGH_ROUNDS, hopeless)
 
     most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]
     fits = sorted(
-        (rough(one) for one in EXPOSURES if one < _LONGEST_EXPOSURE), key=lambda fit: fit[0]
+        (rough(one, _HOPELESS_RATIO * most) for one in EXPOSURES if one < _LONGEST_EXPOSURE),
+        key=lambda fit: fit[0],
     )
     kept: list[FloatArray] = []
     for misfit, values in fits:

@@ -94,10 +94,7 @@ def refined(
     models = [model_by(gamma, values_blurred=blurred) for blurred in (False, True)]
     if not with_gamma and explanation.camera.averaging == "pixel-value":
         models.append(model_by(1.0))
-    model = StripeModel(
-        stripes.profile, chips, explanation.camera.tone, step,
-        explanation.camera.rank_resolution,
-    )  # fmt: skip
+    model = StripeModel(stripes.profile, chips, explanation.camera.tone, step)
     found = exposure_modes(models, explanation, model.is_possible)
     seen, unusual = (of(found[0].values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:

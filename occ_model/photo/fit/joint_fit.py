@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE
+from occ_model.products import row_products
 
 _UNMODELLED_FRACTION = 0.05
 """Fraction of the data's misfit by which explanations must differ: effects outside the model change
@@ -74,14 +75,15 @@ def covariance_of(slopes: FloatArray, residual: FloatArray, block: NDArray[np.in
     of the data. All profiles show the same stripes with the same errors of compression: a block
     holds the columns of all of them.
     """
-    information = slopes.T @ slopes
+    information = row_products(slopes.T, slopes.T)
     information[np.diag_indices_from(information)] += 1e-9
     inverse = np.linalg.inv(information)
     data, blocks = len(block), int(block.max()) + 1
     products = slopes[:data] * residual[:data, None]
-    scores = np.stack([np.bincount(block, part, blocks) for part in products.T], axis=1)
+    scores = np.stack([np.bincount(block, part, blocks).astype(float) for part in products.T])
     prior = slopes[data:].T @ slopes[data:]
-    sandwich = inverse @ (scores.T @ scores + prior) @ inverse * (blocks / max(1, blocks - 1))
+    score = row_products(scores, scores)
+    sandwich = inverse @ (score + prior) @ inverse * (blocks / max(1, blocks - 1))
     ratio = np.diag(sandwich) / np.diag(inverse)
     ratio = np.maximum(ratio, np.append(1.0 / CORRELATED_COLUMNS, np.ones(len(ratio) - 1)))
     return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)))

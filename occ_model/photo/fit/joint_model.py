@@ -22,6 +22,7 @@ from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, OF_TONE, BlurShape
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
+from occ_model.products import combined, dot, row_products
 from occ_model.scene.parameters import quantity
 
 PRIORS = {
@@ -136,9 +137,21 @@ class JointModel:
         shape: BlurShape = "normal",
     ) -> JointFit:
         """Fit from a first guess, by a shape of the blur."""
+        fit = self.promising(first, rounds, shape)
+        assert fit is not None  # noqa: S101 - no misfit is infinite
+        return fit
+
+    def promising(
+        self, first: FloatArray, rounds: int, shape: BlurShape, hopeless: float = math.inf
+    ) -> JointFit | None:
+        """Fit like :meth:`fit`; None, after a step, where the misfit is beyond what is hopeless."""
         index = np.flatnonzero(self._free)
-        scaled, found, residual, slopes = self._minimized(first, index, rounds, shape)
+        scaled, found, residual = self._minimized(first, index, rounds, shape, hopeless)
+        misfit = dot(residual, residual)
+        if misfit > hopeless:
+            return None
         values = scaled.values(found)
+        slopes = self._slopes_of(scaled, found, index, shape)
         rates = scaled.rates(values)
         covariance = np.zeros((9, 9))
         covariance[np.ix_(index, index)] = covariance_of(slopes, residual, self._block) * np.outer(
@@ -150,33 +163,40 @@ class JointModel:
         if not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
             shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, shape))
-        return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
+        return JointFit(values, covariance, misfit, float(prior @ prior), shift)
 
     def rough(
-        self, first: FloatArray, fixed: Sequence[int], rounds: int
+        self, first: FloatArray, fixed: Sequence[int], rounds: int, hopeless: float = math.inf
     ) -> tuple[float, FloatArray]:
         """Return the misfit of a fit of few rounds, and its parameters; some indices are fixed."""
         free = self._free.copy()
         free[list(fixed)] = False
         index = np.flatnonzero(free)
-        scaled, found, residual, _ = self._minimized(first, index, rounds, "normal")
-        return float(residual @ residual), scaled.values(found)
+        scaled, found, residual = self._minimized(first, index, rounds, "normal", hopeless)
+        return dot(residual, residual), scaled.values(found)
 
     def _minimized(
-        self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape
-    ) -> tuple[ScaledParameters, FloatArray, FloatArray, FloatArray]:
-        """Return the scaled parameters of an index that fit best, with residual and slopes."""
+        self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape, hopeless: float
+    ) -> tuple[ScaledParameters, FloatArray, FloatArray]:
+        """Return the scaled parameters of an index, which of them fit best, and the residual."""
         scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
-        of_tone = bool(np.isin(index, OF_TONE).any())
         found = minimized(
             lambda place: self._residual(scaled.values(place), blur),
+            lambda place: self._slopes_of(scaled, place, index, blur),
             np.zeros(len(index)),
             rounds,
-            slopes=lambda place: (
-                self._slopes(scaled.values(place), blur, of_tone)[:, index] * scaled.slopes(place)
-            ),
+            hopeless=hopeless,
         )
         return scaled, *found
+
+    def _slopes_of(
+        self, scaled: ScaledParameters, place: FloatArray, index: IndexArray, blur: BlurShape
+    ) -> FloatArray:
+        """Return the residual's slopes over scaled parameters, shape (residuals, parameters)."""
+        of_tone = bool(np.isin(index, OF_TONE).any())
+        slopes = self._slopes(scaled.values(place), blur, of_tone)[index]
+        slopes *= scaled.slopes(place)[:, None]
+        return slopes.T
 
     def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         """Return by how many chips the place of each residual is later because levels are blurred.
@@ -200,8 +220,8 @@ class JointModel:
         for number, part in enumerate(self._parts):
             residual = part.residual(seen)
             slow = part.slow(np.ones(part.data.size))
-            residual -= slow @ (slow.T @ residual)
-            deviation = deviation_of(residual, part.slope, part.freedom + slow.shape[1] / 2.0)
+            residual -= combined(row_products(residual, slow), slow)
+            deviation = deviation_of(residual, part.slope, part.freedom + len(slow) / 2.0)
             whole = np.zeros(self._columns)
             whole[part.kept] = residual / deviation
             deviation *= math.sqrt(CORRELATED_COLUMNS * correlated_columns(whole))
@@ -242,7 +262,7 @@ class JointModel:
         return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
 
     def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
-        """Return the residual's slopes, shape (residuals, 9); the tone's are 0 unless wanted."""
+        """Return the residual's slopes, shape (9, residuals); the tone's are 0 unless wanted."""
         self._check()
         seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape, of_tone)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
@@ -250,19 +270,19 @@ class JointModel:
         slopes[IN_ORDER[: len(found)], : -len(PRIORS)] = found
         slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
         slopes[3:, -len(PRIORS) :] = np.diag(1.0 / self._deviation)
-        return slopes.T
+        return slopes
 
     def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
         """Divide residuals, or slopes, by the noise, and take out what is slow."""
         found = []
         for values, noise, slow in zip(parts, self._noise, self._slow, strict=True):
             white = values / noise
-            found.append(white - (white @ slow) @ slow.T)
+            found.append(white - combined(row_products(white, slow), slow))
         return found
 
 
 def _explained(slopes: FloatArray, change: FloatArray) -> FloatArray:
     """Return the changes of the parameters that best explain a change of the residual."""
-    information = slopes.T @ slopes
+    information = row_products(slopes.T, slopes.T)
     information[np.diag_indices_from(information)] += 1e-9
-    return np.asarray(np.linalg.solve(information, slopes.T @ change))
+    return np.asarray(np.linalg.solve(information, row_products(change, slopes.T)))

@@ -7,7 +7,6 @@ projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -17,15 +16,36 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.light.waveform import Waveform
-from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
+from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
+from occ_model.products import combined, dot, row_products
 from occ_model.scene.parameters import quantity
 
-Tone = Callable[[FloatArray, float], FloatArray]
-"""A camera's response: from lit fractions and gamma to pixel values between any two levels."""
+
+class Tone:
+    """A camera's response: from lit fractions and gamma to pixel values between any two levels.
+
+    This one is linear.
+    """
+
+    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:  # noqa: ARG002
+        return lit
+
+    def slopes(self, lit: FloatArray, gamma: float, by_timing: FloatArray) -> FloatArray:
+        """Return the values' slopes over the timing's three fields and gamma, shape (4, columns).
+
+        ``by_timing``: shape (3, columns), those of the lit fractions.
+        """
+        by_lit, by_gamma = self._rates(lit, gamma)
+        return np.concatenate([by_lit * by_timing, by_gamma[None]])
+
+    def _rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:  # noqa: ARG002
+        """Return the values' slopes over the lit fractions and over gamma."""
+        return np.ones_like(lit), np.zeros_like(lit)
+
 
 _SATURATED_LEVEL = WHITE - 0.5
 _LEAST_KEPT = 0.4  # minimum unsaturated fraction for saturated columns to be left out
@@ -64,10 +84,8 @@ class StripeFit:
 class StripeModel:
     """The model of one profile, for one sequence of chips and one tone.
 
-    ``tone``: None for a profile of light, which is linear in the lit fractions: the slopes of its
-    fit are known, and take no differences. ``step``: chips per column, roughly: the number of chips
-    limits the degrees of freedom of the levels. ``rank_resolution``: smallest change of the timing,
-    in columns, that changes the response.
+    ``tone``: None for a profile of light, which is linear in the lit fractions. ``step``: chips per
+    column, roughly: the number of chips limits the degrees of freedom of the levels.
     """
 
     def __init__(
@@ -76,12 +94,11 @@ class StripeModel:
         chips: ByteArray,
         tone: Tone | None,
         step: float,
-        rank_resolution: float = 0.0,
     ) -> None:
         self._profile = profile
         self._chips, self._waveform = chips, Waveform(chips)
-        self._tone = tone
-        self._scale = max(1.0, rank_resolution / DIFFERENCE) * step
+        self._tone = tone or Tone()
+        self._step = step
         # The same number for both levels, or else the mean would fit better than the swing.
         freedom = level_freedom(step * len(profile))
         kept: NDArray[np.bool_] = profile < _SATURATED_LEVEL
@@ -100,15 +117,15 @@ class StripeModel:
 
         ``low``, ``swing`` and the model's profile, limited to white, each of shape (columns,).
         """
-        tone, low, swing = self._at(timing)
+        _, tone, low, swing = self._at(timing)
         return low, swing, np.minimum(low + swing * tone, WHITE)
 
-    def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
-        tone = timing.lit_fraction(self._waveform, len(self._profile))
-        if self._tone is not None:
-            tone = self._tone(tone, timing.gamma)
-        low, swing = self._explained(tone, self._kept_profile).reshape(2, -1) @ self._shapes
-        return tone, low, swing
+    def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        lit = timing.lit_fraction(self._waveform, len(self._profile))
+        tone = self._tone(lit, timing.gamma)
+        levels = self._explained(tone, self._kept_profile)
+        low, swing = combined(levels.reshape(2, -1), self._shapes)
+        return lit, tone, low, swing
 
     def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:
         """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
@@ -119,21 +136,26 @@ class StripeModel:
         return np.asarray(np.linalg.solve(matrix, kept.sums(data).T).T)
 
     def _slopes(self, timing: Timing) -> FloatArray:
-        """Return the slopes over step, exposure and middle for a linear tone, shape (columns, 3).
+        """Return the residual's slopes over the timing's fields, shape (columns, 4).
 
         What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
         """
-        lit, _, swing = self._at(timing)
-        changes = swing * timing.lit_slopes(lit, self._chips)
-        levels = self._explained(lit, changes[:, self._kept])
-        return (LitColumns(self._shapes, lit).light(levels) - changes).T
+        lit, tone, low, swing = self._at(timing)
+        by_timing = timing.lit_slopes(lit, self._chips)
+        changes = swing * self._tone.slopes(lit, timing.gamma, by_timing)
+        levels = self._explained(tone, changes[:, self._kept])
+        slopes = LitColumns(self._shapes, tone).light(levels) - changes
+        slopes[:, low + swing * tone > WHITE] = 0.0
+        return np.asarray(slopes.T)
 
     def fit(
         self,
         start: Timing,
         with_gamma: bool = False,
         rounds: int = _MOST_ROUNDS,
+        hopeless: float = math.inf,
     ) -> StripeFit:
+        """Fit from a first guess; only begin it where the residual stays above a hopeless one."""
         columns = len(self._profile)
         gamma = quantity("gamma")
         low = np.array([0.5 * start.step, SHORTEST_EXPOSURE, -np.inf, gamma.low])
@@ -142,22 +164,28 @@ class StripeModel:
         if not with_gamma:
             low[3] = high[3] = start.gamma
         free = np.flatnonzero([True, True, True, with_gamma])
-        scale = (self._scale * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
+        scale = (self._step * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
 
         def timing_of(scaled: FloatArray) -> Timing:
             values = first.copy()
             values[free] += scaled * scale
             return Timing(*np.clip(values, low, high).tolist())
 
-        found, residual, slopes = minimized(
+        def slopes(scaled: FloatArray) -> FloatArray:
+            return np.asarray(self._slopes(timing_of(scaled))[:, free] * scale)
+
+        found, residual = minimized(
             lambda scaled: self._profile - self.levels(timing_of(scaled))[2],
+            slopes,
             np.zeros(len(free)),
             rounds,
             _LEAST_GAIN,
-            None if self._tone else lambda scaled: self._slopes(timing_of(scaled)) * scale,
+            hopeless,
         )
         covariance = np.zeros((4, 4))
-        covariance[np.ix_(free, free)] = _covariance(slopes, residual) * np.outer(scale, scale)
+        covariance[np.ix_(free, free)] = _covariance(slopes(found), residual) * np.outer(
+            scale, scale
+        )
         timing = timing_of(found)
         blur = exposure_deviation((_UNKNOWN_BLUR * timing.step) ** 2, timing.exposure)
         covariance[1, 1] += blur**2
@@ -177,7 +205,7 @@ class StripeModel:
         data, model = (self._profile - low) / swing, (profile - low) / swing
         correlation = weighted_correlation(data, model, swing**2)
         residual = self._profile - profile
-        power = float(residual @ residual)
+        power = dot(residual, residual)
         return StripeFit(timing, covariance, low, swing, profile, correlation, power, possible)
 
 
@@ -201,9 +229,9 @@ def exposure_deviation(variance: float, exposure: float) -> float:
 
 
 def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
-    variance = float(residual @ residual) / max(1, len(residual) - slopes.shape[1])
+    variance = dot(residual, residual) / max(1, len(residual) - slopes.shape[1])
     variance *= correlated_columns(residual)
-    products = slopes.T @ slopes
+    products = row_products(slopes.T, slopes.T)
     # A parameter on which no column depends gets a large variance instead of a division by zero.
     least = _SINGULAR * float(np.diag(products).max())
     products[np.diag_indices_from(products)] += max(_REGULARIZATION * variance, least, 1e-16)

@@ -16,6 +16,7 @@ from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, so
 from occ_model.photo.fit.seen_stripes import BLUR, BLUR_REACH, Seen, SeenSlopes, blurred
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
+from occ_model.products import combined, orthonormal
 
 _LEAST_DEVIATION = 0.02  # minimum standard deviation of a column mean in grey levels
 _MOST_CORRECTIONS = 4  # steps by which levels are corrected for the blur of grey levels
@@ -52,7 +53,7 @@ class LitProfile:
         self.freedom = freedom
         slow = min(slow, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
         slow_shapes = smooth_shapes(len(profile.values), slow)
-        self._slow = np.ascontiguousarray(slow_shapes[self.kept])
+        self._slow = np.ascontiguousarray(slow_shapes[self.kept].T)
         shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
         self._wide_shapes = np.pad(self._shapes, ((0, 0), (BLUR_REACH, BLUR_REACH)), mode="edge")
@@ -75,8 +76,8 @@ class LitProfile:
         Where pixel values are blurred, what has the residual as a factor is left out (Kaufman, BIT
         15:49, 1975).
         """
-        if seen.sharp is not None and rates.sharp is not None:
-            return self._slopes_of_blurred(seen, rates, seen.sharp, rates.sharp)
+        if seen.sharp is not None:
+            return self._slopes_of_blurred(seen, rates, seen.sharp)
         fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
         light = fitted.kept.slopes(fitted.levels, self._slopes_of_levels(seen, rates), by_lit)
         values = seen.table.value_of(fitted.kept.light(fitted.levels))
@@ -84,14 +85,17 @@ class LitProfile:
 
     def relative_slope(self, seen: Seen) -> FloatArray:
         """Return the slope of the swing's logarithm over columns, shape (kept,)."""
-        swing = self._fitted(seen).levels[self.freedom :] @ self._shapes
+        swing = combined(self._fitted(seen).levels[self.freedom :], self._shapes)
         swing = np.maximum(swing, LEAST_SWING * float(swing.max()))
         slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
         return np.asarray(slope[self.kept])
 
     def slow(self, noise: FloatArray) -> FloatArray:
-        """Return an orthonormal basis of slow changes in a residual divided by its noise."""
-        return np.asarray(np.linalg.qr(self._slow / noise[:, None])[0])
+        """Return an orthonormal basis of slow changes in a residual divided by its noise.
+
+        Shape (changes, kept).
+        """
+        return orthonormal(self._slow / noise)
 
     def _fitted_to(self, seen: Seen) -> _Fitted:
         kept = LitColumns(self._kept_shapes, seen.lit[self.kept])
@@ -125,13 +129,13 @@ class LitProfile:
                 break
         return levels
 
-    def _slopes_of_blurred(
-        self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray
-    ) -> FloatArray:
+    def _slopes_of_blurred(self, seen: Seen, rates: SeenSlopes, sharp: FloatArray) -> FloatArray:
         levels, picture = self._fitted(seen).shown, LitColumns(self._wide_shapes, sharp)
-        light, fixed = picture.light(levels), np.zeros((rates.parameters, len(levels)))
+        light = picture.light(levels)
         values = seen.table.value_of(light)
-        by_values = rates.tone.of_values(values, picture.slopes(levels, fixed, by_sharp))
+        by_light = np.zeros((len(rates.lit) + rates.tone.parameters, len(light)))
+        np.multiply(rates.lit, picture.swing(levels), out=by_light[: len(rates.lit)])
+        by_values = rates.tone.of_values(values, by_light)
         slopes = -blurred(by_values, seen.kernel)
         slopes[BLUR] -= blurred(values, rates.kernel)
         slopes = slopes[:, self.kept]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.products import combined, row_products
 
 _LEAST_FRACTION = 1e-9  # of the trace of a matrix, added to its diagonal
 
@@ -22,16 +23,16 @@ class LitColumns:
 
     def light(self, levels: FloatArray) -> FloatArray:
         """Return the light of levels, shape (2 shapes,), or of several, (any, 2 shapes)."""
-        dark = levels[..., : len(self.shapes)] @ self.shapes
+        dark = combined(levels[..., : len(self.shapes)], self.shapes)
         return np.asarray(dark + self.lit * self.swing(levels))
 
     def swing(self, levels: FloatArray) -> FloatArray:
         """Return the additional light of lit columns."""
-        return np.asarray(levels[..., len(self.shapes) :] @ self.shapes)
+        return combined(levels[..., len(self.shapes) :], self.shapes)
 
     def sums(self, values: FloatArray) -> FloatArray:
         """Sum what levels multiply times values, shape (columns,) or (any, columns)."""
-        both = values @ self.shapes.T, (self.lit * values) @ self.shapes.T
+        both = [row_products(part, self.shapes) for part in (values, self.lit * values)]
         return np.concatenate(both, axis=-1)
 
     def slopes(self, levels: FloatArray, of_levels: FloatArray, by_lit: FloatArray) -> FloatArray:
@@ -59,8 +60,8 @@ class LitColumns:
         times error over what changes the light that is seen. Shape (parameters, 2 shapes).
         """
         pull = -weight * self.swing(levels)
-        of_dark = (pull * by_lit) @ self.shapes.T
-        of_lit = ((self.lit * pull + weight * error) * by_lit) @ self.shapes.T
+        of_dark = row_products(pull * by_lit, self.shapes)
+        of_lit = row_products((self.lit * pull + weight * error) * by_lit, self.shapes)
         return np.vstack([np.hstack([of_dark, of_lit]), self.sums(by_tone)])
 
 
@@ -81,16 +82,14 @@ class NormalEquations:
 
     def matrix(self, weight: FloatArray, lit: FloatArray) -> FloatArray:
         """Return the matrix for the weights and the lit fractions of the columns."""
-        count, once = self._freedom, weight * lit
+        count = self._freedom
+        weights = np.stack([weight, weight * lit, weight * lit**2])
+        sums = row_products(weights, self._shapes)
+        dark, both, bright = 0.5 * (sums[:, self._up] + sums[:, self._down])
         matrix = np.empty((2 * count, 2 * count))
-        matrix[:count, :count] = self._products(weight)
-        matrix[:count, count:] = matrix[count:, :count] = self._products(once)
-        matrix[count:, count:] = self._products(once * lit)
+        matrix[:count, :count], matrix[count:, count:] = dark, bright
+        matrix[:count, count:] = matrix[count:, :count] = both
         return matrix
-
-    def _products(self, weight: FloatArray) -> FloatArray:
-        sums = self._shapes @ weight
-        return np.asarray(0.5 * (sums[self._up] + sums[self._down]))
 
 
 def solved(matrix: FloatArray, sums: FloatArray) -> FloatArray:

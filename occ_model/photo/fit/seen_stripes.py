@@ -12,7 +12,6 @@ from typing import Literal
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
@@ -48,9 +47,11 @@ class BlurredLight:
         turns = np.concatenate([places - self._period, places, places + self._period])
         self._edges = turns.astype(np.float64)
         self._changes = np.tile(change[places], 3).astype(np.float64)
-        self._level_before = float(chips[int(turns[0] - 1) % self._period])
-        # By the number of edges that were passed, which repeats after a period.
-        self._levels = chips[places - 1].astype(np.float64)
+        # After each edge; the level before it is that of the edge before.
+        self._levels = np.tile(chips[places], 3).astype(np.float64)
+        self._a_period = len(places)
+        # Slopes are needed where the light has just been computed.
+        self._exposed = lru_cache(maxsize=1)(self._exposed_in)
 
     def lit_fraction(
         self,
@@ -68,7 +69,7 @@ class BlurredLight:
 
     def sharp(self, timing: Timing, longer: float) -> FloatArray:
         """Return the fractions without blur, also of neighbouring columns that blur reaches."""
-        return self._integrated(timing, self._edges_of(longer))
+        return self._exposed(timing, longer).lit
 
     def slopes(
         self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
@@ -84,43 +85,40 @@ class BlurredLight:
         The running integral's slope is the level, and the edges that were passed before are each
         early by half of what the time on is longer.
         """
-        edges = self._edges_of(longer)
-        place, exposure = self._places(timing), timing.exposure
-        first, last = (self._passed(edges, where) for where in (place, place + exposure))
-        before, after = (self._levels[passed % len(self._levels)] for passed in (first, last))
-        lit = self._integrated(timing, edges)
-        by_longer = 0.5 * (last - first) / exposure
-        by_timing = timing.slopes_between(lit, before, after)
-        return np.stack([*by_timing, np.zeros_like(lit), by_longer])
+        seen = self._exposed(timing, longer)
+        slopes = np.empty((5, len(seen.lit)))
+        slopes[:BLUR] = timing.slopes_between(seen.lit, *seen.levels)
+        slopes[BLUR] = 0.0
+        np.multiply(seen.edges, 0.5 / timing.exposure, out=slopes[BLUR + 1])
+        return slopes
 
-    def _edges_of(self, longer: float) -> FloatArray:
-        return self._edges - 0.5 * longer * self._changes
-
-    def _places(self, timing: Timing) -> FloatArray:
-        """Return where the exposures start of all columns that blur reaches."""
-        column = np.arange(-BLUR_REACH, self._columns + BLUR_REACH)
-        return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
-
-    def _integrated(self, timing: Timing, edges: FloatArray) -> FloatArray:
+    def _exposed_in(self, timing: Timing, longer: float) -> "_Exposed":
+        """Integrate the light over the exposures of all columns that blur reaches."""
+        edges = self._edges - 0.5 * longer * self._changes
         # The running integral has corners at the edges; it is 0 at the first of them.
-        levels = self._level_before + np.cumsum(self._changes)
-        integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])
-        ends = np.interp([0.0, float(self._period)], edges, integral)
-        a_period = float(ends[1] - ends[0])
-        place = self._places(timing)
+        integral = np.concatenate([[0.0], np.cumsum(self._levels[:-1] * np.diff(edges))])
+        light = integral[self._a_period] - integral[0]
+        column = np.arange(-BLUR_REACH, self._columns + BLUR_REACH)
+        start = timing.start(self._columns) + timing.step * column
+        ends = np.stack([start, start + timing.exposure])
+        turns = np.floor(ends / self._period)
+        ends -= turns * self._period
+        passed = np.searchsorted(edges, ends.ravel()).reshape(ends.shape) - 1
+        level = self._levels.take(passed)
+        until = turns * light + integral.take(passed) + level * (ends - edges.take(passed))
+        number = passed + turns * self._a_period
+        return _Exposed(
+            (until[1] - until[0]) / timing.exposure, (level[0], level[1]), number[1] - number[0]
+        )
 
-        def until(where: FloatArray) -> FloatArray:
-            turns = np.floor(where / self._period)
-            within = np.interp(where - turns * self._period, edges, integral)
-            return np.asarray(turns * a_period + within)
 
-        return np.asarray((until(place + timing.exposure) - until(place)) / timing.exposure)
+@dataclass(frozen=True, eq=False, slots=True)
+class _Exposed:
+    """What the columns' exposures contain, each of shape (columns and those beside,)."""
 
-    def _passed(self, edges: FloatArray, where: FloatArray) -> NDArray[np.int64]:
-        """Count the edges before some places, from the first one on."""
-        turns = np.floor(where / self._period)
-        within = np.searchsorted(edges, where - turns * self._period)
-        return np.asarray(within + turns.astype(np.int64) * len(self._levels), dtype=np.int64)
+    lit: FloatArray  # The fraction of the time in which the LED is on
+    levels: tuple[FloatArray, FloatArray]  # Whether it is on where an exposure starts and ends
+    edges: FloatArray  # How often it turns on or off meanwhile
 
 
 def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
@@ -129,6 +127,7 @@ def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
     return np.asarray(found, dtype=np.float64).reshape(*rows.shape[:-1], -1)
 
 
+@lru_cache(maxsize=8)
 def blur_kernel(blur: float, shape: BlurShape = "normal") -> FloatArray:
     """Return the weights of blur of the standard deviation ``blur``, in columns, around a column.
 
@@ -146,13 +145,18 @@ def blur_kernel(blur: float, shape: BlurShape = "normal") -> FloatArray:
         kernel = (middle - math.sqrt(middle**2 - 1.0)) ** off
     else:
         kernel = np.exp(-0.5 * (off / blur) ** 2)
-    return np.asarray(kernel / kernel.sum())
+    weights = np.asarray(kernel / kernel.sum(), dtype=np.float64)
+    weights.flags.writeable = False
+    return weights
 
 
+@lru_cache(maxsize=8)
 def kernel_slope(blur: float, shape: BlurShape = "normal") -> FloatArray:
     """Return the slope of the weights of blur over its standard deviation."""
     more, less = (blur_kernel(blur + change, shape) for change in (_CHANGE, -_CHANGE))
-    return np.asarray((more - less) / (2.0 * _CHANGE))
+    slope = np.asarray((more - less) / (2.0 * _CHANGE))
+    slope.flags.writeable = False
+    return slope
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -167,16 +171,11 @@ class Seen:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SeenSlopes:
-    lit: FloatArray  # shape (light's parameters, columns); of the lit fractions, blurred
+    # Shape (light's parameters, columns); of the blurred lit fractions. Where pixel values are
+    # blurred, of the sharp ones, also of the columns beside that blur reaches.
+    lit: FloatArray
     tone: ToneSlopes  # of the tone curve, over its own parameters
-    # Shape (light's parameters, columns and those beside that blur reaches); of the sharp lit
-    # fractions, where pixel values are blurred.
-    sharp: FloatArray | None
     kernel: FloatArray  # shape (weights,); of the blur's weights, over the blur
-
-    @property
-    def parameters(self) -> int:
-        return len(self.lit) + self.tone.parameters
 
 
 class SeenStripes:
@@ -196,13 +195,12 @@ class SeenStripes:
         """Return the slopes of what is seen, those of the tone over gamma itself, or none."""
         timing, curve, blur, longer = self._parts(values.tolist())
         table = self.by(values, shape).table
-        sharp = self._light.sharp_slopes(timing, longer) if self._values_blurred else None
-        return SeenSlopes(
-            self._light.slopes(timing, blur, longer, shape),
-            curve.slopes(table) if of_tone else ToneSlopes(table),
-            sharp,
-            kernel_slope(blur, shape),
-        )
+        if self._values_blurred:
+            lit = self._light.sharp_slopes(timing, longer)
+        else:
+            lit = self._light.slopes(timing, blur, longer, shape)
+        tone = curve.slopes(table) if of_tone else ToneSlopes(table)
+        return SeenSlopes(lit, tone, kernel_slope(blur, shape))
 
     def gamma(self, values: FloatArray | Sequence[float]) -> float:
         """Return the gamma, of which the parameters hold the logarithm over the usual one."""

@@ -15,6 +15,7 @@ from occ_model.errors import MatchError, ParameterError, distinct_texts, inflect
 from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.period import repeat_period
+from occ_model.products import combined, leading_direction, row_products
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Stripes
@@ -186,10 +187,9 @@ def _find_striped_rows(photo: Photo) -> tuple[int, int]:
 def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the slopes that the bands share, of norm one, and their strength in each band."""
     # The leading pair of singular vectors, from the small matrix of the bands' products.
-    _, vectors = np.linalg.eigh(slopes @ slopes.T)
-    common = vectors[:, -1] @ slopes
+    common = combined(leading_direction(row_products(slopes, slopes)), slopes)
     common /= np.linalg.norm(common)
-    strengths = slopes @ common
+    strengths = row_products(common, slopes)
     return (-common, -strengths) if strengths.sum() < 0.0 else (common, strengths)
 
 
@@ -199,7 +199,7 @@ def _edge_row(photo: Photo, row: int, common: FloatArray, typical: float, outwar
     height = -(-rows // BANDS)
     first, last = max(0, row - height), min(rows, row + height)
     part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)
-    strengths = np.diff(part, axis=1) @ common
+    strengths = row_products(common, np.diff(part, axis=1))
     striped: list[int] = np.flatnonzero(strengths > 0.5 * typical).tolist()
     if not striped:
         return row

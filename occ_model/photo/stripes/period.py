@@ -4,6 +4,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
+from occ_model.products import combined, row_products
 
 _SHORTEST_PERIOD = 3  # shortest period in columns
 LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
@@ -110,14 +111,13 @@ def harmonics_within(columns: int, period: float) -> int:
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
     count = len(flattened)
-    turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
-    waves = np.hstack([np.cos(turn), np.sin(turn)])
-    shapes = smooth_shapes(count, 2)
+    turn = 2.0 * np.pi / period * np.arange(1, harmonics + 1)[:, None] * np.arange(count)
     # The amplitude is constant, as a varying one would compensate for a wrong period.
-    parts = np.hstack([shapes, waves])
-    products = parts.T @ parts
+    parts = np.vstack([smooth_shapes(count, 2).T, np.cos(turn), np.sin(turn)])
+    products = row_products(parts, parts)
     products[np.diag_indices_from(products)] *= 1.0 + 1e-10
-    return np.asarray(flattened - parts @ np.linalg.solve(products, parts.T @ flattened))
+    weights = np.linalg.solve(products, row_products(flattened, parts))
+    return np.asarray(flattened - combined(np.asarray(weights, dtype=np.float64), parts))
 
 
 def correlated_columns(residual: FloatArray) -> float:

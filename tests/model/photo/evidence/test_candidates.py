@@ -14,7 +14,7 @@ from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.camera_response import CameraTone, camera_tones
 from occ_model.photo.fit.chip_runs import canonical
-from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.fit.least_squares import StripeFit, Tone
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import sent_chips
@@ -106,7 +106,7 @@ COLUMNS = 400
 def hypothesis(chips: np.ndarray) -> Hypothesis:
     flat = np.ones(COLUMNS)
     fit = StripeFit(TIMING, np.zeros((4, 4)), 40.0 * flat, 100.0 * flat, flat, 0.9, 1.0, True)
-    tone = CameraTone("light", "none", lambda lit, _: lit)
+    tone = CameraTone("light", "none", Tone())
     return Hypothesis("", Explanation(chips, (fit,), tone), fit, 10.0, True)
 
 

@@ -25,7 +25,7 @@ from occ_model.photo.fit.joint_estimate import (
     without_rims,
 )
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
+from occ_model.photo.fit.least_squares import StripeFit, StripeModel, Tone, exposure_deviation
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
@@ -184,7 +184,7 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(
     chips = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
     first = Timing(0.09, 0.6, 20.7, 2.2)
     profile = 40.0 + 150.0 * first.lit_fraction(Waveform(chips), COLUMNS)
-    tone = CameraTone("light", "none", lambda lit, _: lit)
+    tone = CameraTone("light", "none", Tone())
     model = StripeModel(profile, chips, tone.tone, first.step)
     explanation = Explanation(chips, (model.described(first, np.eye(4) * 1e-8),), tone)
     every = np.ones(COLUMNS, dtype=bool)

@@ -76,16 +76,16 @@ def test_slow_shapes_are_orthonormal_and_hold_what_is_slow() -> None:
     part = profile_of(TABLE.value_of(DARK + SWING * LIT))
     noise = 1.0 + 0.5 * LIT
     basis = part.slow(noise)
-    assert basis.shape == (COLUMNS, 4)
-    assert basis.T @ basis == pytest.approx(np.eye(4), abs=1e-9)
+    assert basis.shape == (4, COLUMNS)
+    assert basis @ basis.T == pytest.approx(np.eye(4), abs=1e-9)
     slow = smooth_shapes(COLUMNS, 4) @ [1.0, -2.0, 0.5, 3.0] / noise
-    assert basis @ (basis.T @ slow) == pytest.approx(slow, abs=1e-9)
+    assert basis.T @ (basis @ slow) == pytest.approx(slow, abs=1e-9)
 
 
 def test_few_columns_give_up_few_shapes() -> None:
     few = np.arange(COLUMNS) < 24
     part = profile_of(TABLE.value_of(DARK + SWING * LIT), few)
-    assert part.slow(np.ones(24)).shape == (24, 3)
+    assert part.slow(np.ones(24)).shape == (3, 24)
 
 
 def test_a_columns_slope_is_the_steepest_of_it_and_its_neighbours() -> None:

@@ -13,10 +13,9 @@ B = np.random.default_rng(2).normal(size=30) + A @ [3.0, -2.0, 1.0]
 
 
 def test_a_linear_problem_has_its_closed_form() -> None:
-    found, residual, slopes = minimized(lambda x: A @ x - B, np.zeros(3), 12)
+    found, residual = minimized(lambda x: A @ x - B, lambda _: A, np.zeros(3), 12)
     assert found == pytest.approx(np.linalg.lstsq(A, B, rcond=None)[0], abs=1e-3)
     assert residual == pytest.approx(A @ found - B)
-    assert slopes == pytest.approx(A, abs=1e-9)
 
 
 @pytest.mark.parametrize("fraction", [0.0, 1e-9])
@@ -26,15 +25,22 @@ def test_a_curved_valley_is_followed_to_its_end(fraction: float) -> None:
     def valley(x: np.ndarray) -> np.ndarray:
         return np.array([100.0 * (x[1] - x[0] ** 2), 10.0 * (1.0 - x[0])])
 
-    found, residual, slopes = minimized(valley, np.array([-1.2, 1.0]), 100, fraction)
+    def slopes(x: np.ndarray) -> np.ndarray:
+        return np.array([[-200.0 * x[0], 100.0], [-10.0, 0.0]])
+
+    found, residual = minimized(valley, slopes, np.array([-1.2, 1.0]), 100, fraction)
     assert found == pytest.approx([1.0, 1.0], abs=0.05)
     assert residual @ residual < 0.1
-    assert slopes[:, 1] == pytest.approx([100.0, 0.0])
 
 
 def test_a_step_that_overshoots_is_damped() -> None:
     """Where the slope is nearly flat the undamped step of an arc tangent leads away for ever."""
-    found, residual, _ = minimized(lambda x: 10.0 * np.arctan(x), np.array([3.0]), 50)
+    found, residual = minimized(
+        lambda x: 10.0 * np.arctan(x),
+        lambda x: 10.0 / (1.0 + x[:, None] ** 2),
+        np.array([3.0]),
+        50,
+    )
     assert abs(found[0]) < 0.02
     assert abs(residual[0]) < math.sqrt(0.05)
 
@@ -45,7 +51,12 @@ def test_it_never_ends_worse_than_it_began() -> None:
     def rough(x: np.ndarray) -> np.ndarray:
         return np.array([np.sin(40.0 * x[0]), np.cos(35.0 * x[1]), x.sum()])
 
-    _, residual, _ = minimized(rough, start, 8)
+    def slopes(x: np.ndarray) -> np.ndarray:
+        return np.array(
+            [[40.0 * np.cos(40.0 * x[0]), 0.0], [0.0, -35.0 * np.sin(35.0 * x[1])], [1, 1]]
+        )
+
+    _, residual = minimized(rough, slopes, start, 8)
     assert residual @ residual <= rough(start) @ rough(start)
 
 
@@ -57,27 +68,32 @@ def test_it_takes_no_more_steps_than_allowed_and_none_that_gains_nothing() -> No
         return A @ x - B
 
     best: np.ndarray = np.linalg.lstsq(A, B, rcond=None)[0]
-    minimized(counted, best, 100)
-    assert calls[0] <= 1 + 3 + 6 + 3
+    minimized(counted, lambda _: A, best, 100)
+    assert calls[0] <= 1 + 6
     calls[0] = 0
-    found, _, _ = minimized(counted, np.zeros(3), 0)
+    found, _ = minimized(counted, lambda _: A, np.zeros(3), 0)
     assert found.tolist() == [0.0, 0.0, 0.0]
-    assert calls[0] == 1 + 3
+    assert calls[0] == 1
 
 
-def test_slopes_that_are_given_lead_to_the_same_without_differences() -> None:
+def test_a_fit_that_is_hopeless_ends_after_a_step() -> None:
     calls = [0]
 
     def arc(x: np.ndarray) -> np.ndarray:
         calls[0] += 1
         return A @ (np.arctan(x) - [0.6, -0.9, 0.3]) + 0.1 * B
 
-    differences = minimized(arc, np.zeros(3), 50)
-    with_differences, calls[0] = calls[0], 0
-    given = minimized(arc, np.zeros(3), 50, slopes=lambda x: A / (1.0 + x**2))
-    assert given[0] == pytest.approx(differences[0], abs=1e-2)
-    assert given[2] == pytest.approx(A / (1.0 + given[0] ** 2))
-    assert calls[0] < 0.5 * with_differences
+    def slopes(x: np.ndarray) -> np.ndarray:
+        return A / (1.0 + x**2)
+
+    whole, residual = minimized(arc, slopes, np.zeros(3), 50)
+    steps, calls[0] = calls[0], 0
+    least = float(residual @ residual)
+    begun, left = minimized(arc, slopes, np.zeros(3), 50, hopeless=0.9 * least)
+    assert calls[0] == 2 < steps
+    assert least < left @ left < arc(np.zeros(3)) @ arc(np.zeros(3))
+    followed, _ = minimized(arc, slopes, np.zeros(3), 50, hopeless=1e9)
+    assert followed.tolist() == whole.tolist() != begun.tolist()
 
 
 FIRST = np.array([0.09, 0.6, 2.7, 0.1, 0.05, 0.2, -0.2, 0.9, 0.03])

@@ -131,7 +131,7 @@ def test_the_residuals_slopes_are_limits_of_differences(
     model.estimate_noise(true)
     here = true + 0.02 * (drawn(11) - drawn(21))
     here[2] += late
-    slopes = (model._slopes(here, shape) * model._scale).T
+    slopes = model._slopes(here, shape) * model._scale[:, None]
 
     def residual(scaled: np.ndarray) -> np.ndarray:
         return model._residual(here + scaled * model._scale, shape)
@@ -142,7 +142,7 @@ def test_the_residuals_slopes_are_limits_of_differences(
     assert fine < 0.1 * coarse
     assert fine < 1e-4
     timing = [0, 1, 2, 7, 8]
-    alone = (model._slopes(here, shape, of_tone=False) * model._scale).T
+    alone = model._slopes(here, shape, of_tone=False) * model._scale[:, None]
     assert off(alone[timing], slopes[timing]).max() < 1e-9
 
 
@@ -159,6 +159,6 @@ def test_half_of_blurred_values_slopes_are_off_by_less_than_the_residuals_fracti
     def residual(scaled: np.ndarray) -> np.ndarray:
         return model._residual(true + scaled * model._scale, "normal")
 
-    slopes = (model._slopes(true, "normal") * model._scale).T
+    slopes = model._slopes(true, "normal") * model._scale[:, None]
     wrong = off(slopes, central(residual, np.zeros(9), 1e-3), 0.5)
     assert wrong.max() < noise / 255.0

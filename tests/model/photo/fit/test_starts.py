@@ -30,7 +30,9 @@ class Scanned:
     def with_usual(self, values: np.ndarray) -> np.ndarray:
         return values
 
-    def rough(self, values: np.ndarray, fixed: tuple[int, ...], rounds: int) -> Any:
+    def rough(
+        self, values: np.ndarray, fixed: tuple[int, ...], _rounds: int, _hopeless: float
+    ) -> Any:
         assert 1 not in fixed
         near = min((0.5, 1.3, 2.7), key=lambda one: abs(one - values[1]))
         found = values.copy()
@@ -103,11 +105,39 @@ def test_levels_below_half_a_grey_level_are_black() -> None:
     assert faint.tone(half, 2.2) < black.tone(half, 2.2)
 
 
+@pytest.mark.parametrize("low", [0.0, 60.0])
+@pytest.mark.parametrize("averaging", ["light", "pixel-value"])
+def test_the_slopes_of_a_response_are_limits_of_differences(averaging: str, low: float) -> None:
+    (camera,) = camera_tones(occ.Scene().replace(enhancement="none"), (averaging,), low, 200.0)
+    lit, small = np.linspace(0.01, 1.0, 40), 1e-6
+    by_timing = np.stack([np.ones(40), np.zeros(40), lit])
+    by_lit, none, later, by_gamma = camera.tone.slopes(lit, 2.2, by_timing)
+    of_lit = camera.tone(lit + small, 2.2) - camera.tone(lit - small, 2.2)
+    of_gamma = camera.tone(lit, 2.2 + small) - camera.tone(lit, 2.2 - small)
+    assert by_lit == pytest.approx(of_lit / (2.0 * small), rel=1e-4)
+    assert later == pytest.approx(lit * by_lit)
+    assert not none.any()
+    assert by_gamma == pytest.approx(of_gamma / (2.0 * small), abs=1e-6)
+
+
+def test_ranks_rise_by_what_a_column_rises_above_those_of_equal_value() -> None:
+    """Of two columns of each value one rises, and passes all values up to its own new one."""
+    scene = occ.Scene().replace(enhancement="equalization")
+    ranks = camera_tones(scene, ("pixel-value",), 60.0, 200.0)[1].tone
+    lit = np.repeat(np.linspace(0.0, 1.0, 2000) ** 2, 2)
+    rises = np.stack([np.arange(4000.0) % 2.0, np.ones(4000), np.zeros(4000)])
+    inside = (lit > 0.1) & (lit < 0.9)
+    one, every, _, _ = ranks.slopes(lit, 2.2, rises)
+    density = 0.5 / np.sqrt(lit[inside])
+    signs = np.where(np.arange(4000) % 2, 0.5, -0.5)[inside]
+    assert one[inside] == pytest.approx(signs * density, rel=0.05)
+    assert every[inside] == pytest.approx(0.0, abs=1e-9)
+
+
 def test_of_an_equalized_picture_a_column_shows_its_rank() -> None:
     scene = occ.Scene().replace(enhancement="equalization")
     tones = camera_tones(scene, ("light",), 60.0, 200.0)
     assert [one.enhancement for one in tones] == ["none", "equalization"]
-    assert tones[0].rank_resolution == 0.0 < tones[1].rank_resolution
     lit = np.array([0.0, 0.0, 0.2, 0.9, 0.9, 0.9, 1.0, 0.1])
     ranks = tones[1].tone(lit, 2.2)
     assert ranks.min() == 0.0

@@ -1,81 +1,51 @@
 """The noise of a picture's pixels: their gains, and their grey levels, drawn by bands of rows."""
 
-from collections.abc import Callable, Iterator
-from typing import Protocol
+from collections.abc import Callable
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, Pixels
-from occ_model.camera.grey_law import grey_law, law_of_known_gains
+from occ_model.camera.grey_law import law_of_known_gains
 from occ_model.camera.picture_rows import Rows
 from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
-from occ_model.simulation.pixel_draw import (
-    GainPattern,
-    GreyTable,
-    Numbers,
-    OrderedTable,
-    Scratch,
-    dither,
-    grey_table,
-    ordered_table,
-)
+from occ_model.simulation.grey_table import Scratch, grey_table
+from occ_model.simulation.pixel_draw import GainPattern, PictureNumbers, dither
 
 _TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
 
 _CHUNK = 16  # rows drawn at once, whose arrays stay in the processor's cache
 
 
-class NoiseNumbers(Protocol):
-    """A source of uniform numbers for pixels."""
-
-    has_pattern: bool
-    """Whether gains are those of the sensor; otherwise they are random, as part of the law."""
-
-    is_ordered: bool
-    """Whether a larger number never gives a darker pixel, which is slower."""
-
-    def of(self, rows: range, place: slice, height: int) -> Iterator[Numbers]:
-        """Yield the numbers of some rows of the picture, ``height`` of them at a time.
-
-        ``place`` is their place among the rows that are exposed.
-        """
-
-
 class PictureNoise:
     """Draws the pixels of some rows from their mean values; any thread may draw any rows."""
 
     def __init__(
-        self, noise: PixelNoise, scene: Scene, brightest: float, numbers: NoiseNumbers
+        self, noise: PixelNoise, scene: Scene, brightest: float, numbers: PictureNumbers
     ) -> None:
         """Prepare for mean values up to a brightest one."""
         self.is_drawn = noise.is_drawn
         self._numbers = numbers
         self._columns = scene.camera.columns
         variation = noise.gain_variation
-        has_pattern = variation > 0.0 and (numbers.has_pattern or not self.is_drawn)
         power = 1.0 / noise.gamma
         if self.is_drawn:
-            make_law = law_of_known_gains if has_pattern else grey_law
-            self._law = make_law(noise, brightest)
-            table_of = ordered_table if numbers.is_ordered else grey_table
-            self._table: GreyTable | OrderedTable = table_of(self._law)
+            self._law = law_of_known_gains(noise, brightest)
+            self._table = grey_table(self._law)
             power *= self._law.power
         size = (scene.camera.rows, scene.camera.columns)
         seed = scene.sensor.sensor_seed
-        self._pattern = GainPattern(variation, power, seed, size) if has_pattern else None
+        self._pattern = GainPattern(variation, power, seed, size) if variation > 0.0 else None
 
-    def draw(
-        self, mean: Rows, place: slice, out: ByteArray, end_stage: Callable[[str], object]
-    ) -> None:
-        """Draw the grey levels of some rows of pixels, which are exposed at a place."""
+    def draw(self, mean: Rows, out: ByteArray, end_stage: Callable[[str], object]) -> None:
+        """Draw the grey levels of some rows of pixels."""
         levels = mean.change_nodes(self._law.unlimited_levels_of)
         if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
             levels = mean.expand_rows().change_nodes(self._law.unlimited_levels_of)
         levels = self._scale(levels)
-        numbers = self._numbers.of(mean.rows, place, _CHUNK)
+        numbers = self._numbers.of(mean.rows, _CHUNK)
         shape = (min(_CHUNK, len(mean.rows)), self._columns)
         scratch, buffer = Scratch(shape), np.empty(shape, dtype=np.float32)
         for start in range(0, len(mean.rows), _CHUNK):

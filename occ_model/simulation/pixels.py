@@ -21,8 +21,9 @@ from occ_model.results.frame import Plan
 from occ_model.scene.scene import Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel
-from occ_model.simulation.picture_noise import NoiseNumbers, PictureNoise
+from occ_model.simulation.picture_noise import PictureNoise
 from occ_model.simulation.pictures import Pictures, ShownPanel
+from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads
 
@@ -103,12 +104,12 @@ class PixelExposure:
         rounding = sum(file.rounding_of_means(self._scene) for file in self._files)
         return DraftedPanel(rows, columns, outline, size, blur, rounding)
 
-    def rows(self, numbers: NoiseNumbers) -> Iterator[ExposedRows]:
+    def rows(self, numbers: PictureNumbers) -> Iterator[ExposedRows]:
         noise = self._prepare_noise(numbers)
         for band in self._split_bands():
             yield self._expose(band, noise, StageTimer())
 
-    def _prepare_noise(self, numbers: NoiseNumbers) -> PictureNoise | None:
+    def _prepare_noise(self, numbers: PictureNumbers) -> PictureNoise | None:
         if self._noise is None:
             return None
         return PictureNoise(self._noise, self._scene, self._brightest, numbers)
@@ -131,7 +132,7 @@ class PixelExposure:
         mean = self._mean.of(band.rows, timer.end_stage)
         if noise is not None and noise.is_drawn:
             drawn = np.empty((len(band.rows), self._shape[1]), np.uint8) if out is None else out
-            noise.draw(mean, band.place, drawn, timer.end_stage)
+            noise.draw(mean, drawn, timer.end_stage)
             return ExposedRows(band.place, drawn, mean)
         each_row = mean.expand_rows()
         if noise is None:
@@ -150,7 +151,7 @@ class PixelExposure:
     def pictures(
         self,
         enhancement: Enhancement,
-        numbers: NoiseNumbers,
+        numbers: PictureNumbers,
         heartbeat: Heartbeat = lambda: None,
     ) -> Pictures:
         """Make the camera's and the receiver's picture of the exposed rows."""
@@ -195,7 +196,7 @@ class PixelExposure:
         first, last = min(part.start for part in shown), max(part.stop for part in shown)
         return slice(first // _BLOCK * _BLOCK, min(-(-last // _BLOCK) * _BLOCK, self._shape[1]))
 
-    def observe(self, observable: Observable, numbers: NoiseNumbers) -> Pixels:
+    def observe(self, observable: Observable, numbers: PictureNumbers) -> Pixels:
         """Simulate an observable before enhancement and rounding.
 
         ``"image"`` gives the pixels of the panel's bounding rectangle, ``"profile"`` the means of

@@ -153,9 +153,8 @@ def render_plan(
     rows_step: int = 1,
     timer: StageTimer | None = None,
     heartbeat: Heartbeat = lambda: None,
-    numbers: PictureNumbers | None = None,
 ) -> Frame:
-    """Simulate a picture with planned effects; ``numbers`` replace those of the seed."""
+    """Simulate a picture with planned effects."""
     scene = view.scene
     check_size(scene.camera)
     timer = timer or StageTimer()
@@ -181,7 +180,7 @@ def render_plan(
             split_into_blocks(rows, scene.camera.columns),
             panel_only=rows_step > 1,
         )
-        numbers = numbers or PictureNumbers(seed, scene.camera.columns)
+        numbers = PictureNumbers(seed, scene.camera.columns)
         made = exposure.pictures(enhancement, numbers, heartbeat)
         if rows_step > 1:
             expose = partial(_expose_rows, view, chosen, columns, seed=seed)
@@ -247,22 +246,20 @@ def observe(
     seed: int = 1,
     timer: StageTimer | None = None,
 ) -> Pixels:
-    """Simulate the observable of a plan, in grey levels, to be compared with that of others.
+    """Simulate the observable of a plan, in grey levels.
 
-    Two pictures with the same seed differ as their means do, not by other draws of the noise.
     ``"image"``: the camera's pixels of the panel's bounding rectangle, before rounding where no
     noise is drawn;
     ``"profile"``: the means of its columns; ``"signal"``: those of the receiver's picture.
     """
     check_size(scene.camera)
     view, timer = paper_view_of(scene), timer or StageTimer()
-    numbers = PictureNumbers(seed, scene.camera.columns, is_ordered=True)
     if chosen.observable == "signal":
-        image = render_plan(view, chosen, seed=seed, timer=timer, numbers=numbers).image
+        image = render_plan(view, chosen, seed=seed, timer=timer).image
         return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
     seen = range(view.region.first_row, view.region.last_row)
     blocks = split_into_blocks(range(scene.camera.rows), scene.camera.columns)
     bands = [rows for rows in blocks if rows[0] < seen.stop and rows[-1] >= seen.start]
     exposure = PixelExposure(view, chosen, columns, timer, bands)
-    return exposure.observe(chosen.observable, numbers)
+    return exposure.observe(chosen.observable, PictureNumbers(seed, scene.camera.columns))

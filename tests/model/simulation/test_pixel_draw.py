@@ -13,7 +13,8 @@ from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import level_values
 from occ_model.effects.noise import law_of
 from occ_model.scene.scene import Scene
-from occ_model.simulation.pixel_draw import GreyTable, PictureNumbers, dither
+from occ_model.simulation.grey_table import GreyTable
+from occ_model.simulation.pixel_draw import PictureNumbers, dither
 from occ_model.simulation.render import observe
 
 ROWS, COLUMNS = 200, 300
@@ -44,7 +45,7 @@ def draw(scene: Scene, value: float, pixels: int) -> np.ndarray:
     level = law(scene).levels_of(np.full((1, 1), value, dtype=np.float32))
     for start in range(0, pixels // 2**12, rows):
         block = range(start, start + rows)
-        (own,) = numbers.of(block, slice(0, rows), rows)
+        (own,) = numbers.of(block, rows)
         greys = np.empty((rows, 2**12), dtype=np.uint8)
         table.draw(dither(block, 2**12) + level, own, greys)
         counts += np.bincount(greys.ravel(), minlength=256)
@@ -117,12 +118,13 @@ def test_pixels_are_drawn_alike_whichever_absent_effects_are_on(scene: Scene, ef
     assert (around != without).mean() < 1e-3
 
 
-def test_few_pixels_change_when_the_light_changes_a_little(scene: Scene) -> None:
-    """Else each small step of a slider would draw a picture's noise anew."""
+def test_a_pixel_changes_no_more_than_its_mean_does(scene: Scene) -> None:
+    """Else each small change of the light would draw a picture's noise anew."""
     one, other = (values_of(scene.replace(luminance=light), ON) for light in (2000.0, 2010.0))
     change = other - one
+    assert (change >= 0.0).all()
+    assert (change <= 2.0).all()
     assert 0.0 < change.mean() < 0.5
-    assert (change != 0.0).mean() < 2.0 * change.mean()
 
 
 def test_a_seed_gives_its_picture_again_and_another_seed_another(scene: Scene) -> None:
@@ -145,7 +147,7 @@ def test_a_drafts_rows_are_the_pictures(step: int) -> None:
 
 @pytest.mark.parametrize("shift", [(0, 1), (1, 0), (1, 1), (32, 0)])
 def test_pixels_are_uncorrelated_with_their_neighbours(shift: tuple[int, int]) -> None:
-    (numbers,) = PictureNumbers(4, 500).of(range(1000), slice(0, 1000), 1000)
+    (numbers,) = PictureNumbers(4, 500).of(range(1000), 1000)
     greys = np.empty((1000, 500), dtype=np.uint8)
     GreyTable(law(Scene())).draw(dither(range(1000), 500) + np.float32(100.0), numbers, greys)
     deviation = greys - greys.mean()

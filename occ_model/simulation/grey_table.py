@@ -7,6 +7,7 @@ ever more than one grey level ends, as they become narrower towards both tails. 
 half count as negative; then sign, exponent and first bits of a floating-point number tell the cell.
 """
 
+import math
 from functools import lru_cache
 from typing import Any
 
@@ -21,9 +22,9 @@ from occ_model.camera.pixel_noise import GREYS
 Numbers = NDArray[np.uint32]  # uniform numbers in units of 2^-32
 
 _WHOLE = 2**32
-_OCTAVES = 24  # of numbers that have cells, from the median down to either tail
-_CELL_BITS = range(2, 7)  # bits of the cells of an octave
-_FEW = 1e-3  # fraction of pixels whose levels may be searched for
+_OCTAVES = 21  # of numbers that have cells, from the median down to either tail
+_FEWEST_BITS, _MOST_BITS = 2, 5  # of the number of cells of an octave
+_GREYS_TO_CELL = 12  # grey levels of a pixel, over whose number it has so many cells at least
 _SEVERAL = np.uint32(_WHOLE - 1)  # entry of a cell in which several grey levels end
 
 _SIGN, _MANTISSA_BITS, _BIAS = 256, 23, 127  # of single precision; the sign in units of exponents
@@ -56,14 +57,14 @@ class GreyTable:
         ends = np.rint(law.below * _WHOLE).astype(np.int64)
         self._ends = (ends + _starts(len(ends))).ravel()
         self._most_ends = ends.shape[1]
-        for bits in _CELL_BITS:
-            entries, searched = _fill_cells(ends, bits)
-            if searched < _FEW:
-                break
+        lowest = (ends == 0).sum(axis=1)[:, None]
+        span = int(((ends < _WHOLE).sum(axis=1)[:, None] - lowest).max()) + 1
+        bits = min(max(math.ceil(math.log2(span / _GREYS_TO_CELL)), _FEWEST_BITS), _MOST_BITS)
         self._shift, self._stride = _MANTISSA_BITS - bits, _APART << bits
         self._entries = np.full((len(ends) - 1) * self._stride + (_SPAN << bits), _SEVERAL)
         place = np.arange(len(ends))[:, None] * self._stride + _cells(bits)[0]
-        self._entries[place % len(self._entries)] = entries
+        place[:2] %= len(self._entries)  # where the cells of negative numbers are before the first
+        self._entries[place] = _fill_cells(ends, lowest, span, bits)
 
     def draw(
         self, levels: Pixels, numbers: Numbers, out: ByteArray, scratch: Scratch | None = None
@@ -106,26 +107,29 @@ def _cells(bits: int) -> tuple[IndexArray, IndexArray, IndexArray]:
     return np.concatenate([index, index[::-1] - (_SIGN << bits)]), first, after
 
 
-def _fill_cells(ends: IndexArray, bits: int) -> tuple[Numbers, float]:
-    """Return the entries, shape (levels, cells), and the mean fraction of numbers without one.
+def _fill_cells(ends: IndexArray, lowest: IndexArray, span: int, bits: int) -> Numbers:
+    """Return the entries of all cells, shape (levels, cells).
 
-    ``ends``, shape (levels, greys - 1), are the numbers after the last of each grey level.
+    ``ends``, shape (levels, greys - 1), are the numbers after the last of each grey level; the
+    ``span`` of those that pixels of a level have begins at the ``lowest``, shape (levels, 1).
     """
     _, first, after = _cells(bits)
-    lowest = (ends == 0).sum(axis=1)[:, None]
-    span = int(((ends < _WHOLE).sum(axis=1) - lowest[:, 0]).max()) + 1
-    ranks = np.minimum(lowest + np.arange(span + 1), ends.shape[1])
-    own = np.take_along_axis(np.pad(ends, ((0, 0), (0, 1)), constant_values=_WHOLE), ranks, axis=1)
-    starts = _starts(len(own))
-    rank = np.searchsorted((own + starts).ravel(), (first + starts).ravel(), side="right")
-    rank = np.minimum(rank.reshape(len(own), -1) - np.arange(len(own))[:, None] * (span + 1), span)
-    end = np.take_along_axis(own, rank, axis=1)
-    next_end = np.take_along_axis(own, np.minimum(rank + 1, span), axis=1)
+    levels, cells = len(ends), len(first)
+    most = ends.shape[1]
+    own = np.minimum(lowest + np.arange(span + 1), most)
+    own = np.take_along_axis(np.pad(ends, ((0, 0), (0, 1)), constant_values=_WHOLE), own, axis=1)
+    starts = (span + 1) * np.arange(levels)[:, None]
+    # Grey levels that end at or before the start of each cell.
+    cell = np.searchsorted(first, own) + (cells + 1) * np.arange(levels)[:, None]
+    counts = np.bincount(cell.ravel(), minlength=levels * (cells + 1))
+    rank = np.minimum(np.cumsum(counts.reshape(levels, -1)[:, :-1], axis=1), span)
+    end = own.ravel().take(starts + rank)
+    next_end = own.ravel().take(starts + np.minimum(rank + 1, span))
+    grey = np.minimum(rank + lowest, most)
+    # The number nearest to the last of the grey level that is in an entry with it.
+    bound = np.minimum(np.maximum(end - 1 - grey + GREYS // 2, 0) // GREYS, _WHOLE // GREYS - 1)
     is_several = (end < after) & (next_end < after)
-    grey = np.minimum(rank + lowest, ends.shape[1])
-    bound = np.clip(np.rint((end - 1 - grey) / GREYS), 0, _WHOLE // GREYS - 1).astype(np.int64)
-    entries = np.where(is_several, _SEVERAL, bound * GREYS + grey).astype(np.uint32)
-    return entries, float((is_several @ (after - first)).mean() / _WHOLE)
+    return np.where(is_several, _SEVERAL, bound * GREYS + grey).astype(np.uint32)
 
 
 @lru_cache(maxsize=4)

@@ -222,8 +222,13 @@ def _close_on_interrupt(application: "Application") -> None:
     from PySide6.QtCore import QTimer
 
     window = application.window
+
+    def close() -> None:
+        window.may_close = lambda: True  # who stops the program from a shell is asked nothing
+        window.close()
+
     # Not at once, because the window may be painting when the signal comes.
-    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window, window.close))
+    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window, close))
     # Python handles signals only while it runs, so this timer makes Qt call it.
     timer = QTimer(application)
     timer.timeout.connect(lambda: None)

@@ -81,6 +81,7 @@ def _entries(parts: Parts) -> Feature[None]:
             "save_scene": parts.document.save,
             "save_scene_as": files.ask_to_save_scene,
             "save_picture": files.ask_to_save_picture,
+            "save_film": files.ask_to_save_film,
             "reset_scene": lambda: parts.store.begin(
                 load_preset(DEFAULT_PRESET), "reset of the scene"
             ),

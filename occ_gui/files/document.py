@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QMessageBox, QWidget
 
 from occ_gui.files.file_controller import FileController
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plain_text import in_title
+from occ_model.errors import one_line
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.scene import Scene
 
@@ -44,6 +45,24 @@ class Document(QObject):
             self._files.ask_to_save_scene()
         else:
             self._files.save_scene(self.path)
+
+    def may_close(self) -> bool:
+        """Ask whether to save the scene if its file has not its changes; False to stay open."""
+        if self.path is None or not self._window.isWindowModified():
+            return True
+        buttons = QMessageBox.StandardButton
+        answer = QMessageBox.question(
+            self._window,
+            "Unsaved changes",
+            f"Save the changes of the scene to {one_line(self.path.name)}?\n\nIf you discard "
+            "them, the file stays as it is. The next start still shows the changed scene.",
+            buttons.Save | buttons.Discard | buttons.Cancel,
+            buttons.Save,
+        )
+        if answer == buttons.Save:
+            self.save()
+            return not self._window.isWindowModified()
+        return answer == buttons.Discard
 
     def show_photo(self, photo: "Photo | None") -> None:
         self._photo_name = "" if photo is None else photo.path.name

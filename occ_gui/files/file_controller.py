@@ -62,6 +62,7 @@ class FileController(QObject):
     """
 
     status_message = Signal(str)
+    failed = Signal(str)  # why a file was not opened or saved
     scene_opened = Signal(Path)
 
     pane_wanted = Signal(str)  # the pane of the photo or photos that were opened
@@ -134,7 +135,7 @@ class FileController(QObject):
             self.open_file(path)
             return
         self._preferences.drop(path)
-        self.status_message.emit(f"{one_line(str(path))} is no longer there.")
+        self.failed.emit(f"{one_line(str(path))} is no longer there.")
 
     def open_sample(self, path: Path) -> None:
         scene = path.with_suffix(SCENE_ENDING)
@@ -151,7 +152,7 @@ class FileController(QObject):
         if not files:
             reason = f"{one_line(str(paths[0]))} is not a file" if paths else ""
             reason = reason or "What was dropped is not a file on this computer"
-            self.status_message.emit(f"{reason}; drop a photo, a film or a scene (.toml).")
+            self.failed.emit(f"{reason}; drop a photo, a film or a scene (.toml).")
             return
         for path in scenes[:1]:
             self.open_scene(path)
@@ -182,7 +183,7 @@ class FileController(QObject):
         try:
             scene = read_scene_file(path)
         except OccError as error:
-            self.status_message.emit(str(error))
+            self.failed.emit(str(error))
             return False
         title = f"opening of {one_line(path.name)}"
         self._store.begin(scene, title)
@@ -226,7 +227,7 @@ class FileController(QObject):
         try:
             write()
         except OccError as error:
-            self.status_message.emit(str(error))
+            self.failed.emit(str(error))
             return False
         self._preferences.visit(path)
         self.status_message.emit(
@@ -252,7 +253,7 @@ class FileController(QObject):
             return path
         path = path.with_suffix(Path(first).suffix)
         if path.exists():  # the dialog asked only about the name without the ending
-            self.status_message.emit(
+            self.failed.emit(
                 f"{one_line(path.name)} exists already: to replace it, type its name with the "
                 "ending."
             )

@@ -65,13 +65,13 @@ class PresetController(QObject):
     def load(self, name: str) -> None:
         """Load the scene of a preset, as one undo step."""
         try:
-            scene = preset_named(name).scene
+            preset = preset_named(name)
         except OccError as error:  # its file may have changed meanwhile
             self.status_message.emit(one_line(str(error), LONGEST_TEXT))
             self.update()
             return
-        title = f"preset {name}"
-        self._store.begin(scene, title, new_gesture())
+        shown = name if name in self.user_presets else preset.title  # as in the list
+        self._store.begin(preset.scene, f"preset {one_line(shown)}", new_gesture())
 
     def ask_to_save_match(self, matching: "MatchController") -> None:
         photo = matching.photo

@@ -50,7 +50,8 @@ class SessionFile:
         self._lock: QLockFile | None = None
         self._path: Path | None = None
         self.crashed: SavedSession | None = None
-        self.last: SavedSession | None = None  # the session that was written last, by any window
+        self.last: SavedSession | None = None
+        """The session written last, but for those of windows that are open."""
         self.invalid_file_message: str | None = None  # None if every session file is valid
         # If the folder cannot be made, the first writing reports it.
         with suppress(OccError, OSError):
@@ -68,20 +69,22 @@ class SessionFile:
             make_private(path)
         paths = self._paths()
         records = {path: _read_record_if_valid(path) for path in paths}
-        readable = [path for path in paths if records[path] is not None]
-        if readable:
-            newest = max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))
-            self.last = read_session(records[newest])
+        is_free: dict[Path, bool] = {}
         for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
             lock = QLockFile(str(path.with_suffix(".lock")))
             lock.setStaleLockTime(0)  # a lock is stale only if its process has ended, not by age
-            if not lock.tryLock(0):
+            is_free[path] = lock.tryLock(0)
+            if not is_free[path]:
                 continue
             make_private(Path(lock.fileName()))  # it names the machine
-            if self._recover(path):
+            if self._path is None and self._recover(path):
                 self._lock, self._path = lock, path
-                return
-            lock.unlock()
+            else:
+                lock.unlock()
+        readable = [path for path in paths if is_free[path] and records[path] is not None]
+        if readable:
+            newest = max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))
+            self.last = read_session(records[newest])
 
     def _recover(self, path: Path) -> bool:
         """Take over a file: restore the session of a crash, and rename a file that is not valid.

@@ -51,6 +51,7 @@ class RoomPane(Pane[RoomChoice]):
             lambda: self._edit("closing of the photo", photo=None, focal_length=None)
         )
         self.view.focal_length_entered.connect(self._set_focal_length)
+        self.view.height_entered.connect(self._lift_camera)
         self.view.map_asked.connect(self._measure_map)
         self.view.plan.camera_moved.connect(self._move_camera)
         self.view.plan.aim_moved.connect(self._aim_camera)
@@ -83,6 +84,10 @@ class RoomPane(Pane[RoomChoice]):
 
     def _move_camera(self, x: float, y: float, gesture: int) -> None:
         self._set_camera(replace(self.room.camera, x=x, y=y), "move of the camera", gesture)
+
+    def _lift_camera(self, z: float) -> None:
+        camera = replace(self.room.camera, z=z)
+        self._set_camera(camera, "height of the camera", self._gestures.of_change())
 
     def _aim_camera(self, x: float, y: float, gesture: int) -> None:
         camera = aim_at(self.room.camera, x, y, plan_of(self.room).height)

@@ -2,23 +2,33 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QHBoxLayout,
+    QLabel,
+    QVBoxLayout,
+    QWidget,
+)
 
 from occ_gui.room.jobs import PLACES_PER_SIDE, FloorMap, RoomPicture, RoomPlan
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
+from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.widgets.answer import Answer
-from occ_gui.widgets.building import fill, paragraph, push_button
+from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_model.errors import inflect, one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.place_text import ANGLES, POSITION, format_place
-from occ_model.room.room import Room
+from occ_model.room.room import HEIGHT, Room
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import METRE
 
 _LEAST_HEIGHT = 260
+_HEIGHT = "Camera's height"
 
 _LEGEND = (
     "Drag the ring (the camera) or the triangle (where it looks). Dashed: what it sees at the "
@@ -36,6 +46,9 @@ class RoomView(QWidget):
 
     focal_length_entered = Signal(float)
     """The user enters the photo's equivalent focal length, in metres."""
+
+    height_entered = Signal(float)
+    """The user enters the camera's height above the floor, in metres."""
 
     map_asked = Signal()  # the user wants to measure the map of the floor
 
@@ -68,6 +81,11 @@ class RoomView(QWidget):
         self.focal_length.setAccessibleName("Equivalent focal length of the photo")
         self.focal_length.setToolTip("That of the photo's lens; a value entered counts as exact.")
         self.focal_length.valueChanged.connect(lambda mm: self.focal_length_entered.emit(1e-3 * mm))
+        self.height_field = name_widget(
+            QuantityEdit(replace(HEIGHT, name="height")), _HEIGHT, "The height above the floor, z."
+        )
+        self._height_label = QLabel(_HEIGHT)
+        self.height_field.edited.connect(self.height_entered)
         for widget in (self.close_photo, self.focal_length):
             widget.hide()
         self.measure = push_button(
@@ -82,7 +100,7 @@ class RoomView(QWidget):
             plot.setMinimumHeight(_LEAST_HEIGHT)
         buttons = fill(
             QHBoxLayout(), self.rooms, self.open, self.photo, self.close_photo, self.focal_length,
-            self.measure, None,
+            self.measure, None, self._height_label, self.height_field,
         )  # fmt: skip
         row = fill(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
         fill(
@@ -97,6 +115,7 @@ class RoomView(QWidget):
         """Show lamps and camera, and clear the results of the last picture."""
         self.plan.show_plan(plan, room.camera, is_new=is_new)
         self.plan.show_place(None, room.camera)
+        self.height_field.set_value(room.camera.z)
         self.answer.show_answer("Reading the picture…")
 
     def show_picture(self, picture: RoomPicture, *, is_present: bool) -> None:
@@ -113,7 +132,8 @@ class RoomView(QWidget):
         is_photo = picture.source.photo is not None
         self.close_photo.setVisible(is_photo)
         self.focal_length.setVisible(is_photo)
-        self.measure.setVisible(not is_photo)
+        for part in (self.measure, self._height_label, self.height_field):
+            part.setVisible(not is_photo)
         with QSignalBlocker(self.focal_length):
             self.focal_length.setValue(1e3 * picture.room.scene.camera.equivalent_focal_length)
 

@@ -12,7 +12,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Service
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_model.boards.chip_table import frequency_lines
-from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named
+from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named, write_sketch
 from occ_model.boards.transmission import Transmission, prepare_transmission
 from occ_model.errors import OccError, OutputError, one_line
 from occ_model.files.writing import make_folder
@@ -137,7 +137,9 @@ class TransmitterController(Service):
             self.dialog.show_refusal(str(error))
             return
         facts = " ".join(frequency_lines(self._transmission))
-        self.dialog.show_transmission(facts, is_rounded=not self._transmission.is_exact)
+        self.dialog.show_transmission(
+            facts, write_sketch(self._transmission), is_rounded=not self._transmission.is_exact
+        )
         self.drawing.ask(self._transmission)
 
     def _show_wiring(self, drawing: WiringDrawing) -> None:

@@ -3,17 +3,20 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtGui import QFontDatabase, QImage, QPixmap
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFormLayout,
+    QPlainTextEdit,
     QPushButton,
+    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
 
-from occ_gui.widgets.building import KeyedComboBox, fill, paragraph
+from occ_gui.widgets.building import KeyedComboBox, fill, name_widget, paragraph
+from occ_gui.widgets.plain_text import copy_text
 
 _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
 
@@ -28,7 +31,7 @@ class TransmitterDialog(QDialog):
     def __init__(self, boards: Mapping[str, str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Transmitter: blink this scene")
+        self.setWindowTitle("Transmitter: send this scene with an LED")
         self.board = KeyedComboBox("Board", "The board that blinks the LED.", boards)
         self.board.chosen.connect(self.board_chosen)
         self.facts = paragraph(name="What is sent", is_selectable=True)
@@ -36,11 +39,18 @@ class TransmitterDialog(QDialog):
         self.wiring = paragraph(name="Wiring")
         self.wiring.setFixedSize(_FIGURE)
         self.wiring.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.sketch = name_widget(QPlainTextEdit(readOnly=True), "Sketch")
+        self.sketch.setToolTip("The program that the board runs.")
+        self.sketch.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        self.sketch.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.sketch.setTabChangesFocus(True)
+        pages = QTabWidget()
+        pages.addTab(self.wiring, "Wiring")
+        pages.addTab(self.sketch, "Sketch")
         form = QFormLayout()
         form.addRow("&Board", self.board)
         form.addRow("Sent", self.facts)
-        wiring = (self.wiring, 0, Qt.AlignmentFlag.AlignHCenter)
-        fill(QVBoxLayout(self), form, wiring, self.note, self._make_buttons())
+        fill(QVBoxLayout(self), form, pages, self.note, self._make_buttons())
 
     def _make_buttons(self) -> QDialogButtonBox:
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
@@ -49,7 +59,10 @@ class TransmitterDialog(QDialog):
         self.save.setToolTip(
             "Choose where to make a new folder with sketch, waveform, wiring and scene."
         )
-        self.take = buttons.addButton("&Take the sent frequency", roles.ActionRole)
+        self.copy = buttons.addButton("&Copy the sketch", roles.ActionRole)
+        self.copy.setToolTip("Copy the text of the sketch, to paste it into the board's editor.")
+        self.copy.clicked.connect(lambda: copy_text(self.sketch.toPlainText()))
+        self.take = buttons.addButton("&Use this frequency", roles.ActionRole)
         self.take.setToolTip("Set the scene to the frequency that the board actually sends.")
         close: QPushButton = buttons.button(QDialogButtonBox.StandardButton.Close)
         close.setToolTip("Close this dialog.")
@@ -58,14 +71,20 @@ class TransmitterDialog(QDialog):
         buttons.rejected.connect(self.reject)
         return buttons
 
-    def show_transmission(self, facts: str, is_rounded: bool) -> None:
+    def show_transmission(self, facts: str, sketch: str, is_rounded: bool) -> None:
         self.facts.setText(facts)
+        self._show_sketch(sketch)
         self.take.setEnabled(is_rounded)
         self.save.setEnabled(True)
         self.replace_wiring("Drawing the wiring…")
 
+    def _show_sketch(self, text: str) -> None:
+        self.sketch.setPlainText(text)
+        self.copy.setEnabled(bool(text))
+
     def show_refusal(self, sentence: str) -> None:
         self.facts.setText(sentence)
+        self._show_sketch("")
         self.take.setEnabled(False)
         self.save.setEnabled(False)
         self.replace_wiring("")

@@ -44,6 +44,7 @@ _FILE = (
     _Entry("save_scene", "&Save scene", _KEYS.Save, words="toml"),
     _Entry("save_scene_as", "Save scene &as…", "Ctrl+Shift+S", words="toml"),
     _Entry("save_picture", "Save simulated p&icture as…", words="image png export"),
+    _Entry("save_film", "Sa&ve simulated film as…", words="video movie mp4 mkv gif export"),
     _SEPARATOR,
 )
 _EXPORT_ALL = _Entry("export_all", "A&ll figures…", "Ctrl+Shift+E", words=_FIGURE)
@@ -57,8 +58,8 @@ _TRANSMITTER_AND_QUIT = (
 _PINS = (
     _Entry("pin_a", "Pin as &A", "Ctrl+Shift+A", words="compare"),
     _Entry("pin_b", "Pin as &B", "Ctrl+Shift+B", words="compare"),
-    _Entry("go_to_a", "Take me &to A"),
-    _Entry("go_to_b", "Take me t&o B"),
+    _Entry("go_to_a", "Go &to A"),
+    _Entry("go_to_b", "Go t&o B"),
     _Entry("clear_pins", "C&lear both"),
 )
 _EDIT = (
@@ -85,7 +86,7 @@ _PHOTO = (
         "measure_camera",
         "Measure m&y camera…",
         "",
-        "By two pictures of a lit wall, without equipment.",
+        "With two pictures of a lit wall; no equipment is needed.",
         "readout rolling shutter mains bars",
     ),
     _SEPARATOR,
@@ -97,15 +98,15 @@ _OVERLAYS = {
     "difference": ("&Difference", "", ""),
 }
 _SCAN_AXES = {
-    "auto": ("&Automatic: across its stripes", "", ""),
+    "auto": ("&Automatic, from its stripes", "", ""),
     "columns": ("Column by &column", "", ""),
     "lines": ("&Line by line", "", ""),
 }
 _MODES = {
     "explore": ("&Explore", "From the LED's light to the bits.", "story simulation"),
-    "photo": ("&Photo", "Explain a photo of your own.", "match camera readout"),
+    "photo": ("&Photo", "Find the settings behind your own photo.", "match camera readout"),
     "limits": (
-        "&Limits", "How fast the code can be, and still be read.",
+        "&Limits", "How fast a code can be sent and still be read.",
         "map how fast bits bit rate most highest frequency range",
     ),
     "effects": (
@@ -113,7 +114,7 @@ _MODES = {
         "accuracy cost time tolerance noise lens jpeg",
     ),
     "lessons": ("Le&ssons", "Learn step by step.", _LEARN),
-    "video": ("&Video", "Read films, and what a camera sees.", "film movie camera live mp4"),
+    "video": ("&Video", "Read films, or live from a camera.", "film movie camera live mp4"),
     "room": ("&Room", "Many lamps in one picture: where am I?", ""),
 }  # fmt: skip
 _THEMES = {
@@ -129,7 +130,7 @@ _LOOK = (
     ),
     _Entry(
         "measure", "Meas&ure", "Ctrl+Shift+D",
-        "Two cursors, 1 and 2, that you drag over the rows.",
+        "Show two cursors that can be dragged, and the distance between them.",
         "cursor difference distance", is_checkable=True,
     ),
 )  # fmt: skip
@@ -148,7 +149,7 @@ _SIZES = (
     _Entry("reset_layout", "&Reset layout"),
     _Entry(
         "slider_strips", "&Slider strips", "",
-        "The fraction of bits that the decoder reads along each slider.",
+        "Colour each slider by the fraction of bits that would be read there.",
         "success rate", is_checkable=True,
     ),
     _SEPARATOR,
@@ -257,7 +258,7 @@ class Menus(QObject):
         words = "gif mp4 film video movie play run slider save export"
         for name, label in labels.items():
             action = menu.addAction(f"{in_menu(label)}…")
-            action.setToolTip("The slider's run from end to end, as GIF, MP4 or PNG.")
+            action.setToolTip("The picture while the slider moves, as GIF, MP4 or PNG.")
             action.triggered.connect(lambda _=False, name=name: ask(name))
             action.setProperty(_SEARCH_WORDS, words)
             self._animations[name] = action
@@ -272,7 +273,8 @@ class Menus(QObject):
         undo = undo_stack.createUndoAction(self, "&Undo")
         redo = undo_stack.createRedoAction(self, "&Redo")
         undo.setShortcut(QKeySequence(_KEYS.Undo))
-        redo.setShortcut(QKeySequence(_KEYS.Redo))
+        keys = (*QKeySequence.keyBindings(_KEYS.Redo), QKeySequence("Ctrl+Y"))  # on every system
+        redo.setShortcuts(list({key.toString(): key for key in keys}.values()))
         menu.addActions([undo, redo])
         self.actions |= {"undo": undo, "redo": redo}
         self._fill(menu.addMenu("Pi&n and compare"), *_PINS)
@@ -283,7 +285,7 @@ class Menus(QObject):
         self._fill(menu, *_PHOTO)
         self.overlays = self._add_choice(menu, "show", OVERLAYS, _OVERLAYS, "Ctrl+Alt+{}")
         menu.addSeparator()
-        axes = menu.addMenu("Photo was s&canned")
+        axes = menu.addMenu("S&can direction of the photo")
         self.scan_axes = self._add_choice(axes, "scan", SCAN_AXES, _SCAN_AXES)
 
     def _make_view_menu(self, window: QMainWindow, docks: Iterable[QDockWidget]) -> None:

@@ -39,10 +39,13 @@ _START = Quantity(
     unit=SECOND, low=-1e6, high=1e6, slider=(0.0, 0.02), scale="linear", default=0.0,
 )  # fmt: skip
 
+HEIGHT = _length("z", "Height.")
+"""Height of a lamp or the camera in a room."""
+
 _DECLARATIONS: dict[str, Any] = {
     "x": _length("x", "Place along x."),
     "y": _length("y", "Place along y."),
-    "z": _length("z", "Height."),
+    "z": HEIGHT,
     **{name: PARAMETERS[name] for name in _ANGLES},
     "start_time": _START,
 }

@@ -11,7 +11,7 @@ from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import QPoint, QPointF, QSettings, Qt
 from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -55,6 +55,52 @@ def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     application.store.undo_stack.undo()
     assert not window.isWindowModified()
     assert "iso = 300.0" in (tmp_path / "mine.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.own_window
+def test_closing_asks_whether_to_save_what_the_file_of_the_scene_does_not_have(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window, path, buttons = application.window, tmp_path / "lab.toml", QMessageBox.StandardButton
+    asked: list[str] = []
+
+    def answer(button: QMessageBox.StandardButton) -> None:
+        def ask(*shown: object) -> QMessageBox.StandardButton:
+            asked.append(str(shown[2]))
+            return button
+
+        monkeypatch.setattr(QMessageBox, "question", ask)
+
+    answer(buttons.Cancel)
+    user.enter("iso", "200")
+    assert application.document.may_close()  # it has no file, and the next start shows it again
+    application.files.save_scene(path)
+    assert application.document.may_close()
+    assert asked == []
+    user.enter("iso", "300")
+    window.close()
+    assert window.isVisible()
+    assert "lab.toml" in asked[0]
+    monkeypatch.setattr(application.files, "save_scene", lambda _path: None)  # the disk is full
+    answer(buttons.Save)
+    assert not application.document.may_close()
+    monkeypatch.undo()
+    answer(buttons.Save)
+    assert application.document.may_close()
+    assert "iso = 300.0" in path.read_text(encoding="utf-8")
+    user.enter("iso", "400")
+    answer(buttons.Discard)
+    window.close()
+    assert not window.isVisible()
+    assert "iso = 300.0" in path.read_text(encoding="utf-8")
+
+
+def test_undo_and_redo_name_a_preset_as_the_list_does(application: Application, user: User) -> None:
+    application.presets.load("phone-136us")
+    user.choose("&Undo")
+    assert user.message == "Undone: preset Phone, 136 µs."
+    keys = {key.toString() for key in application.window.actions_by_name["redo"].shortcuts()}
+    assert {"Ctrl+Y", "Ctrl+Shift+Z"} <= keys
 
 
 def test_reset_is_one_step_and_the_menu_offers_an_animation(

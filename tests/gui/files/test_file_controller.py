@@ -38,7 +38,8 @@ class FilesBench:
             self._when_present,
         )
         self.status_message: list[str] = []
-        self.files.status_message.connect(self.status_message.append)
+        for said in (self.files.status_message, self.files.failed):
+            said.connect(self.status_message.append)
 
     def _when_present(self, use: Callable[[Snapshot], None]) -> None:
         if self.shown is None:

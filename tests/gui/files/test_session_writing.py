@@ -61,6 +61,21 @@ def test_two_open_windows_do_not_report_each_other_as_crashed(tmp_path: Path) ->
     assert not list(tmp_path.glob("*.toml"))
 
 
+def test_a_second_window_leaves_the_scene_of_an_open_one_to_it(tmp_path: Path) -> None:
+    scenes = [Scene().replace(iso=iso) for iso in (99.0, 101.0)]
+    former, first = SessionFile(tmp_path), SessionFile(tmp_path)
+    for file, scene in zip((former, first), scenes, strict=True):
+        file.write(SavedSession(Workspace(scene)), in_use=True)
+    assert SessionFile(tmp_path).last is None
+    former.write(SavedSession(Workspace(scenes[0])), in_use=False)
+    former.close()
+    second = SessionFile(tmp_path)
+    assert second.last is not None
+    assert second.last.workspace.scene == scenes[0]
+    first.close()
+    assert SessionFile(tmp_path).last == SavedSession(Workspace(scenes[1]))
+
+
 def test_a_full_disk_and_a_folder_that_cannot_be_made_are_each_reported_once(
     begin: Begin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -137,6 +137,24 @@ def test_a_drag_is_one_step_and_undo_restores_the_former_place(
     assert pane.room.camera == turned
 
 
+def test_the_height_of_the_camera_is_entered_and_undone(
+    same_picture: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
+) -> None:
+    field, stack, camera = pane.view.height_field, bench.store.undo_stack, pane.room.camera
+    assert field.value() == camera.z
+    field.selectAll()
+    qtbot.keyClicks(field, "12 cm")
+    qtbot.keyClick(field, Qt.Key.Key_Return)
+    assert pane.room.camera == replace(camera, z=0.12)
+    assert stack.undoText() == "height of the camera"
+    stack.undo()
+    assert field.value() == camera.z
+    qtbot.keyClicks(field, "high")
+    qtbot.keyClick(field, Qt.Key.Key_Return)
+    assert field.notice.text().startswith("Height cannot be")
+    assert pane.room.camera == camera
+
+
 def test_a_camera_that_looks_up_is_moved_by_its_ring_and_turned_by_its_triangle(
     same_picture: None, pane: RoomPane, qtbot: QtBot
 ) -> None:

@@ -10,6 +10,7 @@ from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PIL import Image
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -122,6 +123,21 @@ def test_another_board_sends_another_frequency_and_is_remembered(
     assert again is not dialog
     assert again.board.key() == "esp32"
     wait(qtbot, transmitter)
+
+
+def test_the_sketch_is_shown_as_it_is_saved_and_copied(
+    transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot, tmp_path: Path
+) -> None:
+    transmitter.save(tmp_path)
+    wait(qtbot, transmitter)
+    (saved,) = tmp_path.glob("*/*.ino")
+    assert dialog.sketch.toPlainText() == saved.read_text(encoding="utf-8").rstrip("\0")
+    dialog.copy.click()
+    assert QGuiApplication.clipboard().text() == dialog.sketch.toPlainText()
+    choose_board(dialog, "raspberry-pi-pico")
+    wait(qtbot, transmitter)
+    assert "import" in dialog.sketch.toPlainText()
+    assert dialog.sketch.isReadOnly()
 
 
 def test_the_scene_takes_the_sent_frequency_in_a_step_that_can_be_undone(

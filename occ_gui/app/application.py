@@ -55,6 +55,8 @@ class Application(Parts):
             self.pins.status_message,
         ):  # fmt: skip
             signal.connect(self.messages.note)
+        for failed in (self.files.failed, self.shell.file_failed):
+            failed.connect(self.messages.say_file_failure)
         window.leave_messages_to(story.verdict.sentence, story.verdict.wrapped)
         for step in (self._prepare_to_close, self.session.end, self.stop):
             window.closing.connect(step)
@@ -63,6 +65,7 @@ class Application(Parts):
         self.shell.made.connect(self._on_pane_made)
         self._connect_photos()
         window.dropped.connect(self.files.open_dropped)
+        window.may_close = self.document.may_close
         window.menus.show_samples(sample_photos(), self.files.open_sample)
         self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.pins.both_pinned.connect(self._show_comparison)
@@ -86,6 +89,9 @@ class Application(Parts):
         window.reading.cancelled.connect(photos.cancel)
         photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)
+        photos.opened.connect(
+            lambda photo: window.show_photo("" if photo is None else photo.path.name)
+        )
         self.files.pane_wanted.connect(window.bring_to_front)
         menus.scan_axes.triggered.connect(lambda action: photos.set_scan_axis(action.data()))
         scan_axis = self.store.store.select(

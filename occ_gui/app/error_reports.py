@@ -85,7 +85,7 @@ class ErrorReports(QObject):
         _log.error("unhandled", exc_info=(kind, error, trace))
         text = _PREFIX.sub("", str(error))
         reason = one_line(f"{kind.__name__}: {text}".rstrip(": ."))
-        self.reported.emit(f"Something went wrong: {reason}. Your work is still there.")
+        self.reported.emit(f"Something went wrong: {reason}. Your work is not lost.")
 
     def _report_thread(self, args: threading.ExceptHookArgs) -> None:
         error = args.exc_value

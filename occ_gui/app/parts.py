@@ -77,7 +77,7 @@ class StatusMessages(QObject):
         self._controls.end_refusals(self._failed_fields)
         self._failed_fields = () if failure is None else failure.parameters
         if failure is not None:
-            self._controls.show_problem(failure.sentence, failure.parameters)
+            self._controls.show_problem(failure.sentence, failure.parameters, stays=True)
 
     def say(self, sentence: str, until: StateSelector = next_sentence) -> None:
         results = self._results_store.results
@@ -94,9 +94,14 @@ class StatusMessages(QObject):
         failure = Failure(sentence, tuple(parameters))
         self._results_store.put(replace(self._results_store.results, failure=failure))
 
+    def say_file_failure(self, sentence: str, until: StateSelector = next_change) -> None:
+        """Show in the window's middle why a file was not opened or saved."""
+        self.say(sentence, until)
+        self._window.show_failure(sentence)
+
     def say_photo_failure(self, sentence: str) -> None:
         """Show why a photo cannot be read, until another one is read."""
-        self.say(sentence, next_photo)
+        self.say_file_failure(sentence, next_photo)
 
     def accept(self) -> None:
         """Remove refusals, because an allowed value was entered."""
@@ -137,6 +142,7 @@ class VideoPane(QObject):
 
     def save(self, path: Path) -> None:
         self.wiring.save(path)
+        self._window.bring_to_front("video")  # where the progress is shown
 
     def close(self) -> None:
         if self._shell.find_pane("video") is None:
@@ -200,6 +206,7 @@ class ViewOptions(QObject):
 
     def _on_text_size(self, percent: int) -> None:
         self._preferences.keep(_TEXT, str(percent))
+        self._window.modes.limit_sides()
         self._say(f"Text at {percent} %")
 
     def _on_hold(self, on: bool) -> None:

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QBoxLayout, QFormLayout, QHBoxLayout, QVBoxLayout,
 
 from occ_gui.bands.jobs import LampQuestion
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
-from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import KeyedComboBox, check_box, fill, name_widget, push_button
 from occ_model.results.bars_answer import ROWS, BarsAnswer, format_shutter_time
@@ -58,12 +57,12 @@ class LampForm(QWidget):
         self.rows = name_widget(CountEdit(ROWS), ROWS.label, ROWS.meaning)
         self.rows.setValue(ROWS.default)
         self.rows.valueChanged.connect(self.edited)
-        self._add_notice(self.rows)
+        self.edited.connect(self.rows.notice.end)
         self.knows_readout = check_box(
             "Readout time", "Time from one line to the next, where you know it.", self._choose
         )
         self.show_button = push_button(
-            "Show it", "Send this light in the scene.", self.scene_requested
+            "Show in the scene", "Make this lamp the light of the scene.", self.scene_requested
         )
         self._form = QFormLayout()
         self._form.addRow("My lamp", self.lamp)
@@ -88,13 +87,8 @@ class LampForm(QWidget):
         name_widget(field, parameter.label, parameter.meaning)
         field.set_value(_FIRST_VALUES[name])
         field.edited.connect(self.edited)
-        self._add_notice(field)
+        self.edited.connect(field.notice.end)
         return field
-
-    def _add_notice(self, field: QuantityEdit | CountEdit) -> None:
-        notice = RefusalNotice(field)
-        field.refused.connect(notice.show_problem)
-        self.edited.connect(notice.end)
 
     def _choose(self, _: object = None) -> None:
         kind = self.lamp.key()

@@ -131,7 +131,7 @@ class ExportController(Service):
         )
         self.tasks = (self.runner,)
         self.runner.finished.connect(self._report)
-        self.runner.failed.connect(self.status_message)
+        self.runner.failed.connect(self.file_failed)
         self.runner.idle.connect(self._draw_next)
 
     @property

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar, QV
 from occ_gui.photo.match_figures import is_certain
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import new_gesture
 from occ_gui.values.choices import KNOWN_PARAMETERS, MatchChoice
 from occ_gui.widgets.building import (
@@ -52,13 +51,13 @@ class MatchForm(QWidget):
             "What was sent",
             "What the LED in the photo sent: what the scene sends, a lamp of a given number of "
             "cycles per second and any duty, or whatever can be read from the stripes.\n"
-            "Find out: what the scene sends, if that explains the stripes; otherwise, what is read "
-            "from them.",
+            "Try the scene's light: it is used if it explains the stripes; otherwise, they are "
+            "read.",
             {
-                "auto": "Find out: as the scene, else read",
+                "auto": "Unknown: try the scene's light",
                 "scene": "What the scene sends",
                 "lamp": "Lamp of",
-                "read": "Unknown: read it from the stripes",
+                "read": "Unknown: read the stripes",
             },
         )
         declared = quantity(_LAMP)
@@ -106,13 +105,9 @@ class MatchForm(QWidget):
             "as certain.",
         )
         self.certain.clicked.connect(self._set_certain)
-        self.notices: dict[QuantityEdit, RefusalNotice] = {}
-        """For each field, the notice below it that says why its last input was refused."""
-        for field in (self.lamp, *self.known.values()):
-            notice = self.notices[field] = RefusalNotice(field)
-            field.refused.connect(notice.show_problem)
+        self._fields = (self.lamp, *self.known.values())
+        for field in self._fields:
             field.refused.connect(self.refused)
-            field.edited.connect(notice.end)
             field.edited.connect(self.accepted)
 
     def match_lamp(self) -> None:
@@ -209,8 +204,8 @@ class MatchForm(QWidget):
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene in place of refused input."""
         self._scene = scene
-        for notice in self.notices.values():
-            notice.end()
+        for field in self._fields:
+            field.notice.end()
         self._show_known()
 
     @property
@@ -235,11 +230,11 @@ class MatchForm(QWidget):
         is_lamp, name = self.sent.key() == "lamp", self._known_name()
         self.lamp.setVisible(is_lamp)
         if not is_lamp:
-            self.notices[self.lamp].end()
+            self.lamp.notice.end()
         for field_name, field in self.known.items():
             field.setVisible(field_name == name)
             if field_name != name:
-                self.notices[field].end()
+                field.notice.end()
             if self._scene is not None:
                 field.set_value(float(self._scene.value(field_name)))
         is_stated = is_lamp and name == _LAMP

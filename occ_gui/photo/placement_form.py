@@ -7,7 +7,6 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWi
 
 from occ_gui.scene.number_edits import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.values.choices import LARGEST_SCALE, LEAST_SCALE, Placement
 from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
@@ -68,7 +67,7 @@ class PlacementForm(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._placement = Placement()
-        self.notices: dict[DecimalEdit, RefusalNotice] = {}
+        self._fields: list[DecimalEdit] = []
         self.column, self.row = self._make_field(COLUMN, 2), self._make_field(ROW, 2)
         self.scale = self._make_field(SCALE, 5)
         self.scale.setSingleStep(0.01)
@@ -93,10 +92,8 @@ class PlacementForm(QWidget):
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
-        notice = self.notices[field] = RefusalNotice(field)
-        field.refused.connect(notice.show_problem)
+        self._fields.append(field)
         field.refused.connect(self.refused)
-        field.accepted.connect(notice.end)
         field.accepted.connect(self.accepted)
         return field
 
@@ -105,7 +102,7 @@ class PlacementForm(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(2)
         texts = ("Photo at column", "row", "scaled by")
-        for column, (text, field) in enumerate(zip(texts, self.notices, strict=True)):
+        for column, (text, field) in enumerate(zip(texts, self._fields, strict=True)):
             grid.addWidget(QLabel(text), 0, column)
             grid.addWidget(field, 1, column)
             grid.setColumnStretch(column, 1)
@@ -114,8 +111,8 @@ class PlacementForm(QWidget):
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         self._placement = placement
-        for (field, notice), value in zip(self.notices.items(), astuple(placement), strict=True):
-            notice.end()
+        for field, value in zip(self._fields, astuple(placement), strict=True):
+            field.notice.end()
             with QSignalBlocker(field):
                 field.setValue(value)
         self.reset.setEnabled(by_hand)
@@ -124,6 +121,6 @@ class PlacementForm(QWidget):
         # A field that was not edited keeps the digits that it does not show.
         values = [
             field.value() if abs(field.value() - value) > 10.0 ** -field.decimals() / 2 else value
-            for field, value in zip(self.notices, astuple(self._placement), strict=True)
+            for field, value in zip(self._fields, astuple(self._placement), strict=True)
         ]
         self.placed.emit(Placement(*values))

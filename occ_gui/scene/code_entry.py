@@ -47,7 +47,7 @@ class CodeEntry(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setVerticalSpacing(1)
         layout.setColumnStretch(1, 1)
-        self.notices = (RefusalNotice(self.number), RefusalNotice(self.bits))
+        self.notices = (self.number.notice, RefusalNotice(self.bits))
         for column, field in enumerate((self.number, self.bits)):
             layout.addWidget(field, 0, column)
         for line in (self.number.lineEdit(), self.bits):
@@ -55,7 +55,6 @@ class CodeEntry(QWidget):
         leave_undo_to_window(self.bits)
         self.number.valueChanged.connect(self._enter)
         self.number.accepted.connect(self.end_refusal)
-        self.number.refused.connect(self.show_problem)
         self.number.refused.connect(self.refused)
         self.bits.editingFinished.connect(self._read_bits)
         self.notices[1].dismissed.connect(self._show_bits)
@@ -105,8 +104,8 @@ class CodeEntry(QWidget):
     def _bits_text(self) -> str:
         return payload_parameter().format(self._payload) or f"{self._code:0{self._bits}b}"
 
-    def show_problem(self, sentence: str) -> None:
-        self.notices[0].show_problem(sentence)
+    def show_problem(self, sentence: str, *, stays: bool) -> None:
+        self.notices[0].show_problem(sentence, stays=stays)
 
     def end_refusal(self) -> None:
         """Remove the notices, except one about text that the field still shows."""

@@ -125,6 +125,7 @@ class ControlPanel(QWidget):
 
     def _lay_out(self) -> None:
         pages = QTabWidget()
+        pages.setUsesScrollButtons(False)  # the pane is at least as wide as all titles
         for title, page in self._pages.items():
             pages.addTab(page, title)
         light = fill(QHBoxLayout(), QLabel(PARAMETERS["light"].label), (self.light, 1), margins=0)
@@ -189,10 +190,10 @@ class ControlPanel(QWidget):
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
         self._main.show_marks(name, marks)
 
-    def show_problem(self, sentence: str, names: Iterable[str]) -> None:
-        """Show at the fields of parameters what is wrong with their values."""
+    def show_problem(self, sentence: str, names: Iterable[str], *, stays: bool = False) -> None:
+        """Show at the fields of parameters what is wrong; ``stays``: with the values they show."""
         for field in self._make_fields(names):
-            field.show_problem(sentence)
+            field.show_problem(sentence, stays=stays)
 
     def end_refusals(self, names: Iterable[str] | None = None) -> None:
         """Remove the refusals from the fields of parameters; by default all."""

@@ -1,15 +1,17 @@
 """Fields for numbers, which may be typed with a decimal comma, or as ``0b101`` or ``0x1f``.
 
-Any text can be typed; all but allowed numbers are refused with a sentence. Qt's own fields
-would read ``1,5`` as 15, and ignore characters that they do not allow.
+Any text can be typed; all but allowed numbers are refused with a sentence, which stands below the
+field. Qt's own fields would read ``1,5`` as 15, and ignore characters that they do not allow.
 """
 
 from dataclasses import replace
+from functools import partial
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QSpinBox
 
+from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_number_on_double_click
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Count, Quantity
@@ -25,6 +27,7 @@ class CountEdit(QSpinBox):
     validate = _validate
     accepted = Signal()  # an allowed number was typed, even if it is the one shown before
     refused = Signal(str)  # why an input is not valid; the field shows the last value again
+    notice: RefusalNotice
 
     def __init__(self, declared: Count) -> None:
         super().__init__()
@@ -44,6 +47,7 @@ class DecimalEdit(QDoubleSpinBox):
     validate = _validate
     accepted = Signal()  # both signals as in CountEdit
     refused = Signal(str)
+    notice: RefusalNotice
 
     def __init__(self, declared: Quantity, decimals: int) -> None:
         super().__init__()
@@ -61,6 +65,9 @@ class DecimalEdit(QDoubleSpinBox):
 
 def _set_up(field: CountEdit | DecimalEdit) -> None:
     field.setKeyboardTracking(False)
+    field.notice = RefusalNotice(field)
+    field.refused.connect(partial(field.notice.show_problem, stays=False))
+    field.accepted.connect(field.notice.end)
     leave_undo_to_window(field)
     select_number_on_double_click(field)
 
@@ -103,6 +110,9 @@ class QuantityEdit(QAbstractSpinBox):
         self.lineEdit().textEdited.connect(self._mark_edited)
         self.editingFinished.connect(self.accept_text)
         self._is_edited = False
+        self.notice = RefusalNotice(self)
+        self.refused.connect(partial(self.notice.show_problem, stays=False))
+        self.edited.connect(self.notice.end)
         leave_undo_to_window(self)
         select_number_on_double_click(self)
         self._show()

@@ -34,6 +34,7 @@ from occ_model.scene.parameter_kinds import (
 from occ_model.scene.refusal import refusal_of
 
 _SLIDER_STEPS = 1000
+_SHORTEST_SLIDER = 90  # pixels; on a shorter one, a pixel is a large step
 
 _DIGITS = 4  # significant digits of a value in a message
 
@@ -53,10 +54,10 @@ class ParameterRow(QWidget):
         super().__init__()
         self.name = declaration.name
         self.gestures = Gestures()
-        self.refused.connect(self.show_problem)
 
-    def show_problem(self, sentence: str) -> None:
-        self.notice.show_problem(sentence)
+    def show_problem(self, sentence: str, *, stays: bool) -> None:
+        """Show what is wrong; ``stays``: whether the field still shows it."""
+        self.notice.show_problem(sentence, stays=stays)
 
     def end_refusal(self) -> None:
         self.notice.end()
@@ -82,6 +83,7 @@ class QuantityRow(ParameterRow):
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setPageStep(_SLIDER_STEPS // 20)
+        self.slider.setMinimumWidth(_SHORTEST_SLIDER)
         self.field = QuantityEdit(quantity)
         self._layout = QGridLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
@@ -89,7 +91,7 @@ class QuantityRow(ParameterRow):
         self._layout.setColumnStretch(0, 1)
         self._layout.addWidget(self.slider, 0, 0)
         self._layout.addWidget(self.field, 0, 1)
-        self.notice = RefusalNotice(self.field)
+        self.notice = self.field.notice
         for control in (self.slider, self.field):
             _describe_control(control, quantity)
             keep_wheel_for_scrolling(control)
@@ -268,6 +270,7 @@ class PatternRow(ParameterRow):
         try:
             value = self._declared.parse(text)
         except ParameterError as error:
+            self.show_problem(refusal_of(error), stays=True)
             self.refused.emit(refusal_of(error))
             return
         is_changed = value != self.value
@@ -329,5 +332,5 @@ def _describe_control(control: QWidget, declared: Parameter) -> None:
 
 def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
     fill(QVBoxLayout(row), control, margins=0, spacing=1)
-    row.notice = RefusalNotice(control)
+    row.notice = control.notice if isinstance(control, CountEdit) else RefusalNotice(control)
     _describe_control(control, declared)

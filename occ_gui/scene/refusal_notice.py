@@ -1,16 +1,24 @@
-"""Refusal notice: the reason why a value was refused, below the field, which gets a frame."""
+"""Refusal notice: the reason why a value was refused, below the field."""
 
-from PySide6.QtCore import QEvent, QObject, QRectF, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QAccessible,
     QAccessibleEvent,
     QColor,
+    QKeyEvent,
     QMouseEvent,
     QPainter,
     QPaintEvent,
     QPalette,
 )
-from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QDockWidget, QLabel, QWidget
+from PySide6.QtWidgets import (
+    QAbstractScrollArea,
+    QApplication,
+    QDockWidget,
+    QLabel,
+    QScrollArea,
+    QWidget,
+)
 
 from occ_gui.widgets.colours import lighten_for
 from occ_gui.widgets.frame_over import FrameOver
@@ -25,11 +33,13 @@ _PADDING, _MARGIN, _GAP = 6, 4, 2
 class RefusalNotice(QLabel):
     """A sentence below a field that says what is wrong; hidden if nothing is.
 
-    It covers what is below the field, so that nothing moves when it appears; a click removes it.
-    Screen readers announce it, and read it as the description of the field.
+    It covers what is below the field, so that nothing moves when it appears. It is hidden by the
+    next key, a click on it, another sentence of the window, and when the focus moves on. If the
+    field still shows what is wrong, the field has a frame, and the sentence is shown again when
+    the field gets the focus. Screen readers announce it, and read it as the field's description.
     """
 
-    dismissed = Signal()  # the user has clicked the sentence away
+    dismissed = Signal()  # the user has removed the sentence by a click or Escape
 
     def __init__(self, field: QWidget) -> None:
         super().__init__(field)
@@ -38,29 +48,55 @@ class RefusalNotice(QLabel):
             field, field, field.rect, lambda colours: lighten_for(colours, _RED)
         )
         self._frame.hide()
+        self._stays = self._is_watching = False
         self.setWordWrap(True)
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setContentsMargins(_PADDING, _PADDING, _PADDING, _PADDING)
         self.hide()
         field.installEventFilter(self)
 
-    def show_problem(self, sentence: str) -> None:
+    def show_problem(self, sentence: str, *, stays: bool = True) -> None:
+        """Show what is wrong; ``stays``: whether the field still shows what is wrong."""
+        self._stays = stays
         self.setText(sentence)
         self._field.setAccessibleDescription(sentence)
         self._update_colour()
-        self._frame.show()
+        self._frame.setVisible(stays)
         self._show_on_page()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
 
     def _show_on_page(self) -> None:
-        """Show the sentence on top of the field's page."""
+        """Show the sentence on top of the field's page, in place of any other of the window."""
         page = _page_of(self._field)
         if self.parentWidget() is not page:
             self.setParent(page)
             page.installEventFilter(self)
+        for other in page.window().findChildren(RefusalNotice):
+            if other is not self and other.isVisible():
+                other._withdraw()
         self._place()
         self.show()
         self.raise_()
+        # Not at once: the key or the move of the focus that ended the input is still on its way.
+        QTimer.singleShot(0, self, self._watch)
+
+    def _watch(self) -> None:
+        application = QApplication.instance()
+        if application is None or self._is_watching or self.isHidden():
+            return
+        self._is_watching = True
+        if (area := _area_of(self)) is not None:
+            area.ensureWidgetVisible(self, 0, _MARGIN)
+        application.installEventFilter(self)
+
+    def _withdraw(self) -> None:
+        """Hide the sentence; forget it unless the field still shows what is wrong."""
+        if self._is_watching and (application := QApplication.instance()) is not None:
+            application.removeEventFilter(self)
+        self._is_watching = False
+        self.hide()
+        if not self._stays:
+            self.end()
 
     def _place(self) -> None:
         """Place the sentence below the field, or above it if there is no room below."""
@@ -70,15 +106,24 @@ class RefusalNotice(QLabel):
         top = self._field.mapTo(page, self._field.rect().bottomLeft()).y() + _GAP
         if top + height > page.height():
             above = self._field.mapTo(page, self._field.rect().topLeft()).y() - _GAP - height
-            top = above if above >= 0 else top
+            top = above if above >= 0 else max(0, page.height() - height)
         self.setGeometry(_MARGIN, top, width, height)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if self.text() and self.parentWidget() is not self._field:
-            if watched is self._field and event.type() in {QEvent.Type.Hide, QEvent.Type.Show}:
-                self.setVisible(event.type() == QEvent.Type.Show)
-            if event.type() in {QEvent.Type.Resize, QEvent.Type.Move, QEvent.Type.Show}:
-                self._place()
+        kind = event.type()
+        if self._is_watching and kind in {QEvent.Type.KeyPress, QEvent.Type.FocusIn}:
+            self._withdraw()
+            if isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+                self.end()
+                self.dismissed.emit()
+        elif self.text() and watched is self._field and kind == QEvent.Type.FocusIn:
+            self._show_on_page()
+        elif (
+            self.isVisible()
+            and kind in {QEvent.Type.Resize, QEvent.Type.Move}
+            and watched in (self._field, self.parentWidget())
+        ):
+            self._place()
         return super().eventFilter(watched, event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
@@ -99,10 +144,11 @@ class RefusalNotice(QLabel):
     def end(self) -> None:
         """Remove the sentence, because the value was corrected or the input abandoned."""
         if self.text():
+            self._stays = True
             self.clear()
             self._field.setAccessibleDescription("")
             self._frame.hide()
-            self.hide()
+            self._withdraw()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -117,6 +163,14 @@ class RefusalNotice(QLabel):
             colours = QPalette()  # all other colours stay the theme's
             colours.setColor(self.foregroundRole(), red)
             self.setPalette(colours)
+
+
+def _area_of(notice: QWidget) -> QScrollArea | None:
+    """Return the area with which a notice scrolls."""
+    parent = notice.parentWidget()
+    while parent is not None and not isinstance(parent, QScrollArea):
+        parent = parent.parentWidget()
+    return parent
 
 
 def _page_of(field: QWidget) -> QWidget:

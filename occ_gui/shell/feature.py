@@ -69,6 +69,7 @@ class Service(QObject):
     """Carries out the commands of a feature; made when first needed."""
 
     status_message = Signal(str)
+    file_failed = Signal(str)  # why a file was not opened or saved
 
     tasks: tuple[Task[Any, Any], ...] = ()
     """Work that counts for :attr:`is_idle`, and that stops with the service."""

@@ -34,6 +34,7 @@ class Shell(QObject):
 
     made = Signal(str, object)  # a pane has been made: its name, and the Pane
     status_message = Signal(str)  # a sentence of one of the features for the status line
+    file_failed = Signal(str)  # why one of the features did not open or save a file
     accepted = Signal()  # an allowed value was entered in one of the panes
 
     def __init__(self, store: Store, results_store: ResultsStore) -> None:
@@ -94,6 +95,7 @@ class Shell(QObject):
         if name not in self._services:
             self._services[name] = self._service_features[name].make()
             self._services[name].status_message.connect(self.status_message)
+            self._services[name].file_failed.connect(self.file_failed)
         return self._services[name]
 
     def find_pane(self, name: str) -> Any:
@@ -184,6 +186,7 @@ class _PaneHolder(QWidget):
             self._content.addWidget(pane.widget)
             pane.widget.setHidden(self.is_unavailable)
             pane.status_message.connect(self._shell.status_message)
+            pane.file_failed.connect(self._shell.file_failed)
             pane.accepted.connect(self._shell.accepted)
             leave_drops_to_window(self)
             self._shell.made.emit(self.feature.name, pane)

@@ -81,7 +81,7 @@ class VideoWiring(Pane[FilmChoice]):
         view.bar.open_asked.connect(self.open_asked)
         view.bar.close_asked.connect(self.close)
         films.opened.connect(self._on_film)
-        films.failed.connect(self.status_message)
+        films.failed.connect(self.file_failed)
         films.frame_shown.connect(self._show_frame)
         films.frame_failed.connect(self._on_frame_failure)
         player.frame_requested.connect(view.timeline.show_index)

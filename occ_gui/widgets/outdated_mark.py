@@ -4,14 +4,17 @@ import math
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.state_look import is_dark
 
 DELAY = 0.12  # seconds; a pane that is outdated for less is not marked, so that it does not flicker
 _FRESH_AGE = DELAY / 3  # a mark that is shown stays until a result is at most this old
 
-_OPACITY = 0.45
+_OPACITY = {False: 0.45, True: 0.3}
+"""Of the dimming, in light and in dark colours, where it would hide what is dark already."""
+
 _PADDING = 8
 
 
@@ -22,6 +25,7 @@ class OutdatedMark(QWidget):
         super().__init__(pane)
         self._pane = pane
         self.text = ""
+        self.setFont(QApplication.font())  # not the smaller one that a table may have
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.hide()
@@ -59,6 +63,17 @@ class OutdatedMark(QWidget):
             self.show()
             self.raise_()
 
+    def _is_within_another(self) -> bool:
+        """Return whether a pane around this one is marked."""
+        directly = Qt.FindChildOption.FindDirectChildrenOnly
+        pane = self._pane.parentWidget()
+        while pane is not None:
+            marks = pane.findChildren(OutdatedMark, options=directly)
+            if any(mark.isVisible() for mark in marks):
+                return True
+            pane = pane.parentWidget()
+        return False
+
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() == QEvent.Type.Resize:
             self.setGeometry(self._pane.rect())
@@ -66,9 +81,11 @@ class OutdatedMark(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        if self._is_within_another():
+            return  # which dims this pane, too
         painter = QPainter(self)
         palette = self.palette()
-        painter.setOpacity(_OPACITY)
+        painter.setOpacity(_OPACITY[is_dark(palette)])
         painter.fillRect(self.rect(), palette.color(QPalette.ColorRole.Window))
         painter.setOpacity(1.0)
         metrics = self.fontMetrics()

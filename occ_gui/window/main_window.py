@@ -1,5 +1,7 @@
 """Main window: panes in docks, menus and status bar."""
 
+import html
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
@@ -11,12 +13,15 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.values.modes import MODES, PICTURE, PanePlace, Places, Side
 from occ_gui.widgets.building import bring_into_view
 from occ_gui.widgets.event_filters import leave_drops_to_window
+from occ_gui.widgets.state_look import Badge
 from occ_gui.window.docks import DeclaredPane, Dock, ModeSwitch, Panes
+from occ_gui.window.failure_banner import FailureBanner
 from occ_gui.window.menus import Menus
 from occ_gui.window.reading_order import next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar import ToolBar
+from occ_model.errors import one_line
 
 _OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
 """Fractions of the window's height and width for a pane opening below the middle or beside it."""
@@ -24,6 +29,7 @@ _OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
 _LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
 
 _FIRST_SIZE = QSize(1280, 800)
+_LONGEST_NAME = 30  # characters of a photo's name in the status line
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _WITH_PICTURE = "photo"  # the pane that is shown together with the whole picture and the photo
 
@@ -73,12 +79,17 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         leave_drops_to_window(self)
         self._centre, self._story = centre, story
+        self.may_close: Callable[[], bool] = lambda: True
         self._status_line = StatusLine()
         self.setStatusBar(self._status_line)
         line = self._status_line
+        self.failure = FailureBanner(self, self.toolbar)
+        self.leave_messages_to(self.failure.sentence)
         self.reading, self.filming, self.readout = line.reading, line.filming, line.readout
         self.show_timing = self._status_line.show_timing
         self.show_accuracy = self._status_line.show_accuracy
+        self._photo_name = ""
+        self.modes.changed.connect(lambda _: self.show_photo(self._photo_name))
         self.show_plan_change = self._status_line.show_plan_change
         self.modes.changed.connect(
             lambda mode: line.show_times("controls" in self._panes.places_in(mode))
@@ -235,6 +246,26 @@ class MainWindow(QMainWindow):
     def show_message(self, sentence: str) -> None:
         """Show a sentence in the status line in place of the last one; empty removes it."""
         self._status_line.showMessage(sentence)
+        if sentence != self.failure.sentence.text():
+            self.failure.hide()
+
+    def show_photo(self, name: str) -> None:
+        """Say in each mode but its own that a photo is open; empty if none is."""
+        self._photo_name = name
+        badge = None
+        if name and self.modes.mode != _WITH_PICTURE:
+            text = html.escape(one_line(name, _LONGEST_NAME))
+            meaning = f"The photo {name} is open: the mode Photo shows it, and the menu closes it."
+            badge = Badge("photo", f"photo {text}", meaning)
+        self._status_line.show_photo(badge)
+
+    def show_failure(self, sentence: str) -> None:
+        """Show why a file was not opened or saved, unless a pane in view says it."""
+        QTimer.singleShot(0, self, lambda: self._show_failure(sentence))
+
+    def _show_failure(self, sentence: str) -> None:
+        if not self._status_line.is_shown_elsewhere:
+            self.failure.show_sentence(sentence)
 
     def leave_messages_to(self, *labels: QLabel) -> None:
         """Suppress messages in the status line that one of these labels shows."""
@@ -274,5 +305,8 @@ class MainWindow(QMainWindow):
         self.dropped.emit([Path(url.toLocalFile()) for url in urls])
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
+        if not self.may_close():
+            event.ignore()
+            return
         self.closing.emit()
         super().closeEvent(event)

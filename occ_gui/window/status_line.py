@@ -19,6 +19,8 @@ _TEXT_EVENTS = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
 
 _BULLET = "• "
 
+_LASTING = ("photo", "accuracy")  # keys of what lasts though it may be out of view
+
 _GAP = 8  # pixels to the left of a readout
 
 
@@ -37,16 +39,18 @@ class StatusLine(QStatusBar):
         self._sentence = ElidedLabel()
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName("Message")
-        self.reading = WorkBar("How much of the photo has been read")
-        self.filming = WorkBar("How much of the animation has been written")
+        self.reading = WorkBar("Progress of reading the photo")
+        self.filming = WorkBar("Progress of writing the animation")
         self.readout, self.timing = _Readout(), _Readout()
-        # Its size is fixed, so that other texts cannot reduce it.
-        self.accuracy = BadgeLabel(Badge("accuracy", "", ""))
-        self.accuracy.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.accuracy.hide()
+        self.photo, self.accuracy = (BadgeLabel(Badge(key, "", "")) for key in _LASTING)
         self.addWidget(self._sentence, 1)
-        for widget in (self.reading, self.filming, self.readout, self.timing, self.accuracy):
+        for widget in (self.reading, self.filming, self.readout, self.timing):
             self.addPermanentWidget(widget)
+        for badge in (self.photo, self.accuracy):
+            # Its size is fixed, so that other texts cannot reduce it.
+            badge.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+            badge.hide()
+            self.addPermanentWidget(badge)
         for readout in (self.readout, self.timing):
             readout.hide()
 
@@ -74,16 +78,19 @@ class StatusLine(QStatusBar):
             self._show_sentence()
         return super().eventFilter(watched, event)
 
-    def _is_shown_elsewhere(self) -> bool:
+    @property
+    def is_shown_elsewhere(self) -> bool:
+        """Whether one of these labels shows the message."""
         texts = (label.text() for label in self._other_labels if label.isVisible())
         return bool(self._message) and any(self._message in _join_lines(text) for text in texts)
 
     def show_accuracy(self, badge: Badge | None) -> None:
         """Show the badge of the accuracy, which is never elided; None hides it."""
-        self.accuracy.setVisible(badge is not None)
-        if badge is not None:
-            self.accuracy.show_badge(badge)
-            self.accuracy.updateGeometry()
+        _show(self.accuracy, badge)
+
+    def show_photo(self, badge: Badge | None) -> None:
+        """Show the badge of an open photo that is out of view; None hides it."""
+        _show(self.photo, badge)
 
     def show_plan_change(self, sentence: str) -> None:
         """Show which effects the plan has switched, while there is no message; empty removes it."""
@@ -112,8 +119,15 @@ class StatusLine(QStatusBar):
         return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
 
     def _show_sentence(self) -> None:
-        is_elsewhere = self._is_shown_elsewhere()
+        is_elsewhere = self.is_shown_elsewhere
         self._sentence.set_full_text("" if is_elsewhere else self._message or self._plan_change)
+
+
+def _show(label: BadgeLabel, badge: Badge | None) -> None:
+    label.setVisible(badge is not None)
+    if badge is not None:
+        label.show_badge(badge)
+        label.updateGeometry()
 
 
 def _join_lines(text: str) -> str:

@@ -102,7 +102,8 @@ class PaneBench:
         self.hear_first: list[Callable[[Snapshot], object]] = []
         """Who hears of exact results before the panes."""
         self.shell, self.said = Shell(self.store, self.results_store), list[str]()
-        self.shell.status_message.connect(self.said.append)
+        for said in (self.shell.status_message, self.shell.file_failed):
+            said.connect(self.said.append)
         self.settings.refused.connect(self.said.append)
         qtbot.addWidget(self.window, before_close_func=lambda _window: self.stop())
         self._qtbot, self._before = qtbot, QApplication.topLevelWidgets()

@@ -50,7 +50,8 @@ class Bench(PaneBench):
         self.files = FileController(
             self.window, scenes, self.photos, Preferences(None), lambda use: None
         )
-        self.files.status_message.connect(self.said.append)
+        for said in (self.files.status_message, self.files.failed):
+            said.connect(self.said.append)
         image = self.add(picture(store, str)).view
         self.profile = self.add(profile(store, results_store, str)).view
         for feature in (

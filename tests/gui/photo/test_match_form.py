@@ -159,7 +159,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
     fields = {"auto": view.form.known["switching_frequency"], "lamp": view.form.lamp}
     for sent, field in fields.items():
         choose(qtbot, view.form.sent, sent)
-        shown, notice = field.text(), view.form.notices[field]
+        shown, notice = field.text(), field.notice
         for text, sentence in (("0", "cannot be 0 Hz"), ("1,000 Hz", "thousands")):
             field.selectAll()
             qtbot.keyClicks(field, text)

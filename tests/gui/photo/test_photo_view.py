@@ -112,12 +112,12 @@ def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
     for field, text in ((form.column, "1,000"), (form.row, "left"), (form.scale, "0")):
         shown = field.text()
         enter(field, text)
-        assert form.notices[field].isVisible()
-        assert "cannot be" in form.notices[field].text()
+        assert field.notice.isVisible()
+        assert "cannot be" in field.notice.text()
         assert field.text() == shown
     assert len(placed) == count
     enter(form.column, "13")
-    assert not form.notices[form.column].isVisible()
+    assert not form.column.notice.isVisible()
     assert placed[-1].column == 13.0
 
 

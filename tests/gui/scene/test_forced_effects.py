@@ -60,7 +60,7 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
     ("settings", "text"),
     [
         ({"tolerance": 10.0}, "tolerance 10 levels"),
-        ({"tolerance": math.inf}, "bare paper model"),
+        ({"tolerance": math.inf}, "paper's model, no effects"),
         (
             {"tolerance": 2.0, "observable": "decision"},
             "tolerance 2 margins of the decision",

@@ -2,11 +2,12 @@
 
 from dataclasses import replace
 
+from gui.kinds import not_none
 from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -106,6 +107,47 @@ def test_fields_show_why_there_is_no_picture_and_a_picture_ends_only_that(
     )  # there is a picture
     assert user.row("iso").notice.text()
     assert user.row("yaw").notice.text() == ""
+
+
+def test_the_sentence_goes_with_the_next_key_escape_or_focus_and_there_is_one_at_a_time(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    distance, bits, pattern = (user.row(name) for name in ("distance", "bits", "exposure_time"))
+    for end in (
+        lambda: qtbot.keyClick(distance.field, Qt.Key.Key_5),
+        lambda: qtbot.keyClick(distance.field, Qt.Key.Key_Escape),
+        lambda: pattern.field.setFocus(),
+    ):
+        distance.field.setFocus()
+        user.enter("distance", "0 m")
+        QApplication.processEvents()
+        assert distance.notice.isVisible()
+        # The field shows the last value again, which is valid.
+        assert count_red_pixels(distance.field) == 0
+        end()
+        assert not distance.notice.isVisible()
+        assert distance.notice.text() == ""
+    for row in (distance, pattern):
+        user.enter(row.name, "soon")
+        QApplication.processEvents()
+    notices = application.window.findChildren(RefusalNotice)
+    assert [notice for notice in notices if notice.isVisible()] == [pattern.notice]
+    assert bits.notice.text() == ""
+
+
+def test_what_is_wrong_with_a_present_value_is_said_again_at_its_field(
+    application: Application, user: User
+) -> None:
+    application.store.change(distance=0.1, yaw=1.2)
+    user.wait_until_idle()
+    QApplication.processEvents()
+    row = user.row("distance")
+    user.row("iso").field.setFocus()
+    assert not row.notice.isVisible()
+    assert count_red_pixels(row.field) > 0
+    row.field.setFocus()
+    assert row.notice.isVisible()
+    assert not_none(row.notice.parentWidget()).rect().contains(row.notice.geometry())
 
 
 def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:

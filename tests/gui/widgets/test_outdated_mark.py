@@ -1,10 +1,10 @@
 """The mark of an outdated result appears after a moment, and lets all input through."""
 
 import pytest
-from gui.kinds import add_widget, not_none
+from gui.kinds import GreyPicture, add_widget, not_none
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QPalette, QPixmap
+from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
@@ -74,3 +74,23 @@ def test_the_mark_dims_the_pane_and_says_why(mark: OutdatedMark, pane: QWidget) 
     assert before.pixelColor(corner).lightness() > 64
     mark.show_age(1.0, "computing…")
     assert pane.grab().toImage() != before
+
+
+def test_a_pane_within_a_marked_one_is_dimmed_once(qtbot: QtBot, grey_picture: GreyPicture) -> None:
+    outer = add_widget(qtbot, QLabel())
+    picture = QPixmap(200, 150)
+    picture.fill(QColor("black"))
+    outer.setPixmap(picture)
+    inner = QLabel(outer)
+    inner.setGeometry(100, 80, 90, 60)
+    outer.resize(200, 150)
+    outer.show()
+    marks = [OutdatedMark(pane) for pane in (inner, outer)]
+    levels = []
+    for mark in marks:
+        mark.show_age(1.0, "computing…")
+        levels.append(grey_picture(outer)[130, 150])
+    assert levels[0] == levels[1]
+    marks[1].show_age(0.0, "")
+    assert grey_picture(outer)[130, 150] == levels[0]
+    assert grey_picture(outer)[30, 20] != levels[0]

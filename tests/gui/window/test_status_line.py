@@ -1,11 +1,15 @@
 """The texts of the status line never overlap, and a text that is too long ends in dots."""
 
+from pathlib import Path
+
 import pytest
 from gui.kinds import show_widget
+from gui.user import User
 from PySide6.QtCore import QRect
 from PySide6.QtWidgets import QApplication, QLabel, QStatusBar
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.application import Application
 from occ_gui.window.status_line import StatusLine
 
 LONG = "Switching frequency is '1,000 Hz', which means 1 Hz or 1 kHz, " * 6
@@ -100,3 +104,25 @@ def test_times_are_shown_to_three_digits(line: StatusLine) -> None:
     QApplication.processEvents()
     texts = [label.text() for label in line.findChildren(QLabel)]
     assert "simulated in 12.3 ms, read in 1.29 s" in texts
+
+
+def test_an_open_photo_is_named_in_every_mode_but_its_own(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    window, line = application.window, application.window.statusBar()
+    assert isinstance(line, StatusLine)
+    badge = line.photo
+    assert not badge.isVisible()
+    application.files.open_photo(photo_file)
+    user.wait_until_idle()
+    assert not badge.isVisible()
+    window.resize(1000, 700)
+    window.modes.switch("explore")
+    window.show_message("A sentence that is longer than the window is wide. " * 9)
+    QApplication.processEvents()
+    assert badge.isVisible()
+    assert badge.width() >= badge.sizeHint().width()
+    assert photo_file.name in badge.accessibleName()
+    application.photos.close()
+    user.wait_until_idle()
+    assert not badge.isVisible()

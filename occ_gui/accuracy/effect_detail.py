@@ -108,9 +108,7 @@ class EffectDetail(QWidget):
     def _describe_crop(self, row: EffectRow, crop: EffectCrop | None) -> str:
         if crop is None:
             return (
-                ""
-                if row.is_absent or row.effect == EVERYTHING_ELSE
-                else "Its pictures are being made…"
+                "" if row.is_absent or row.effect == EVERYTHING_ELSE else "Computing its pictures…"
             )
         where = "Whole panel, averaged" if crop.is_averaged else "Real pixels where it changes most"
         return f"This effect alone. {where}; contrast stretched."

@@ -5,11 +5,13 @@ from typing import Any
 
 from PySide6.QtCore import (
     QAbstractTableModel,
+    QEvent,
     QModelIndex,
     QObject,
     QPersistentModelIndex,
     QSize,
     Qt,
+    QTimer,
     Signal,
 )
 from PySide6.QtGui import QColor, QMouseEvent, QPalette, QResizeEvent
@@ -86,7 +88,7 @@ class EffectModel(QAbstractTableModel):
                     "their scatter keep their order when sorted."
                 ),
             ),
-            SWITCH: ("Switch", "Whether the plan or you decide."),
+            SWITCH: ("Switch", "Automatic (plan), always on, or always off."),
         }
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
@@ -191,7 +193,8 @@ def _find_colour(row: EffectRow, column: int) -> QColor | None:
 
 class _FlatSwitch(QComboBox):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(super().minimumSizeHint().width(), LOWEST_ROW)
+        # Qt keeps the least width of before the size of text changed.
+        return QSize(self.sizeHint().width(), LOWEST_ROW)
 
 
 class EffectTable(QTableView):
@@ -308,7 +311,7 @@ class EffectTable(QTableView):
         switch.setFont(self.font())
         switch.addItems(["plan", "on", "off"])
         switch.setAccessibleName(f"Switch: {row.label}")
-        switch.setToolTip(f"{row.label}\nplan: the plan decides; on, off: you do.")
+        switch.setToolTip(f"{row.label}\nplan: decided automatically; on, off: always.")
         keep_wheel_for_scrolling(switch)
         switch.activated.connect(lambda index: self.switched.emit(row.effect, _STATES[index]))
         return switch
@@ -355,6 +358,11 @@ class EffectTable(QTableView):
         super().resizeEvent(event)
         self._size_rows()
         self._hide_columns()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and getattr(self, "switches", None):
+            QTimer.singleShot(0, self, self._size_columns)  # once the switches have the font, too
 
     def _size_rows(self) -> None:
         count = max(1, len(self.effects.rows))

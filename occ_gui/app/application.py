@@ -89,9 +89,7 @@ class Application(Parts):
         window.reading.cancelled.connect(photos.cancel)
         photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)
-        photos.opened.connect(
-            lambda photo: window.show_photo("" if photo is None else photo.path.name)
-        )
+        self.document.photo_named.connect(window.show_photo)
         self.files.pane_wanted.connect(window.bring_to_front)
         menus.scan_axes.triggered.connect(lambda action: photos.set_scan_axis(action.data()))
         scan_axis = self.store.store.select(

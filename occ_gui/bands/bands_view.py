@@ -2,7 +2,7 @@
 
 from itertools import chain
 
-from PySide6.QtCore import QTimer, Signal
+from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -66,10 +66,11 @@ class BandsView(QWidget):
         self.table = make_read_only(
             QTableWidget(0, 4),
             "Depth of the bars at usual shutter speeds",
-            "Many cameras expose for a power of two, not the written time: 1/64 s for 1/60 s. "
+            "Many cameras expose for the nearest power of two, not the nominal time: 1/64 s for "
+            "1/60 s. "
             "A double click, or Enter, sets a speed; ISO speed and aperture follow.",
         )
-        self.table.setHorizontalHeaderLabels(["Shutter", "as written", "power of two", "Bars"])
+        self.table.setHorizontalHeaderLabels(["Shutter", "nominal", "actual (2ⁿ)", "Bars"])
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _PADDING)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
@@ -109,6 +110,11 @@ class BandsView(QWidget):
         usual = [speed.nominal <= _USUAL_SHUTTER_TIME for speed in self._speeds].index(True)
         middle = QAbstractItemView.ScrollHint.PositionAtCenter
         self.table.scrollTo(self.table.model().index(usual, 0), middle)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "table"):
+            QTimer.singleShot(0, self, self._fit_table)  # once the table has the font, too
 
     def _fit_table(self) -> None:
         header, bar = self.table.horizontalHeader(), self.table.verticalScrollBar()
@@ -150,5 +156,5 @@ def _judge_speed(speed: SpeedDepth) -> tuple[str, str]:
         return "none", f"{speed.name} shows no bars."
     if not speed.is_doubtful:
         return "yes", f"{speed.name} shows bars."
-    duration = "the written time" if speed.at_nominal < speed.at_real else "a power of two"
+    duration = "the nominal time" if speed.at_nominal < speed.at_real else "a power of two"
     return "depends", f"{speed.name} shows no bars if the camera exposes for {duration}."

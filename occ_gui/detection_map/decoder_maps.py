@@ -209,7 +209,7 @@ _LIMIT_TEXTS = {
     "band": ("t = 1 chip", "The exposure lasts as long as a chip: the limit of the band model."),
     "null": ("null, f = 2/t", "The exposure lasts two chips: alternating chips leave no stripes."),
     "packets": ("two packets", "Below this frequency, two packets do not fit the panel's image."),
-    "saturation": ("white", "The lit panel reaches the largest grey level."),
+    "saturation": ("saturated", "The lit panel reaches the largest grey level."),
 }
 """Name and meaning of the line of each limit."""
 

@@ -30,7 +30,7 @@ from occ_model.results.limits import (
 from occ_model.scene.units import HERTZ
 
 _PARAMETER = "switching_frequency"
-_WAITING = "begins when a process is free"
+_WAITING = "waits for its turn"
 _LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
 REST_MS = 800  # milliseconds without a change before the limits of a scene are searched for
@@ -133,7 +133,7 @@ class LimitCard(QFrame):
         self._is_beside: bool | None = None
         self.name = paragraph()
         self.value = QLabel()
-        self.range = ElidedLabel()
+        self.range = ElidedLabel(separator="; ")
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(heading_font(self.font()))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")

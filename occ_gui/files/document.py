@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from occ_gui.files.file_controller import FileController
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 class Document(QObject):
     """The file that the scene is saved to, and whether the scene has changed since."""
+
+    photo_named = Signal(str)  # the name of the open photo; empty if none is
 
     def __init__(self, window: QWidget, store: SceneStore, files: FileController) -> None:
         super().__init__(window)
@@ -66,6 +68,7 @@ class Document(QObject):
 
     def show_photo(self, photo: "Photo | None") -> None:
         self._photo_name = "" if photo is None else photo.path.name
+        self.photo_named.emit(self._photo_name)
         self._show_title()
 
     def _adopt_file(self, path: Path) -> None:

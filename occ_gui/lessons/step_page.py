@@ -200,8 +200,8 @@ class StepPage(QWidget):
             "Next", "Go to the next step, and set its scene.", lambda: self.moved.emit(1)
         )
         self.reset = push_button(
-            "Set the scene again",
-            "Set the scene of this step again, as one step that can be undone.",
+            "Restore this scene",
+            "Undo your own changes; Undo brings them back.",
             self.again_asked,
         )
 

@@ -80,7 +80,8 @@ class PhotoVerdictBar(StateBar):
     The verdict on the simulated picture, which may differ, is a badge beside it.
     """
 
-    MOST_LINES = 3  # enough for the first reason of a refusal, which says what to do about it
+    USUAL_LINES = MOST_LINES = 3
+    """Enough for the first reason of a refusal, which says what to do about it."""
 
     def __init__(self) -> None:
         super().__init__()

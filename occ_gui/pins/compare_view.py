@@ -46,7 +46,7 @@ class CompareView(QWidget):
         }
         self.return_buttons = {
             name: push_button(
-                f"Take me to {name}",
+                f"Go to {name}",
                 f"Return to the scene of {name}, as one step that can be undone.",
                 lambda _=False, name=name: self.go_asked.emit(name),
             )

@@ -40,7 +40,7 @@ def _tolerance_text(settings: SimulationSettings) -> str:
         return ""
     amount = f"tolerance {tolerance:g} {unit_of(observable)}"
     if tolerance == math.inf:
-        amount = "bare paper model"
+        amount = "paper's model, no effects"
     return amount if observable == FIRST_SETTINGS.observable else f"{amount} of the {observable}"
 
 

@@ -5,7 +5,6 @@ field. Qt's own fields would read ``1,5`` as 15, and ignore characters that they
 """
 
 from dataclasses import replace
-from functools import partial
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
@@ -66,7 +65,7 @@ class DecimalEdit(QDoubleSpinBox):
 def _set_up(field: CountEdit | DecimalEdit) -> None:
     field.setKeyboardTracking(False)
     field.notice = RefusalNotice(field)
-    field.refused.connect(partial(field.notice.show_problem, stays=False))
+    field.refused.connect(field.notice.show_refusal)
     field.accepted.connect(field.notice.end)
     leave_undo_to_window(field)
     select_number_on_double_click(field)
@@ -111,7 +110,7 @@ class QuantityEdit(QAbstractSpinBox):
         self.editingFinished.connect(self.accept_text)
         self._is_edited = False
         self.notice = RefusalNotice(self)
-        self.refused.connect(partial(self.notice.show_problem, stays=False))
+        self.refused.connect(self.notice.show_refusal)
         self.edited.connect(self.notice.end)
         leave_undo_to_window(self)
         select_number_on_double_click(self)

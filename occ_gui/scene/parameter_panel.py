@@ -3,22 +3,14 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import (
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QScrollArea,
-    QSpacerItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSpacerItem, QVBoxLayout, QWidget
 
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.player import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
-from occ_gui.widgets.building import embolden, fill
+from occ_gui.widgets.building import ScrollPane, embolden, fill
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.colour_scenes import is_colour
@@ -134,10 +126,10 @@ def _make_label(declared: Parameter) -> QLabel:
     return label
 
 
-_SCROLL_BAR_WIDTH = 20  # greatest width of the scroll bar in pixels
+_LEAST = QSize(100, 80)  # of a page in pixels, whatever its rows need
 
 
-class ParameterPage(QScrollArea):
+class ParameterPage(ScrollPane):
     """A page with the controls of some parameters; by default without headings."""
 
     made = Signal(object)  # its controls have been made: the ParameterPanel
@@ -145,19 +137,16 @@ class ParameterPage(QScrollArea):
     def __init__(
         self, names: Sequence[str], make: Callable[[], ParameterPanel] | None = None
     ) -> None:
-        super().__init__()
+        super().__init__(least=_LEAST)
         self.names = names
         self.content: ParameterPanel | None = None
         self._make = make or (lambda: ParameterPanel(names))
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
 
     def panel(self) -> ParameterPanel:
         if self.content is None:
             self.content = self._make()
             self.setWidget(self.content)
-            self.setMinimumWidth(self.content.minimumSizeHint().width() + _SCROLL_BAR_WIDTH)
+            self.updateGeometry()
             leave_drops_to_window(self)
             self.made.emit(self.content)
         return self.content

@@ -65,6 +65,10 @@ class RefusalNotice(QLabel):
         self._show_on_page()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
 
+    def show_refusal(self, sentence: str) -> None:
+        """Show why an input was refused; the field shows the last value again."""
+        self.show_problem(sentence, stays=False)
+
     def _show_on_page(self) -> None:
         """Show the sentence on top of the field's page, in place of any other of the window."""
         page = _page_of(self._field)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QSizePolicy
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.simulation.verdict import describe_received, find_wrong_bits
 from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits, have_room_for_marks
-from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_height
+from occ_gui.story.column_axis import RIGHT, ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
@@ -180,8 +180,7 @@ class CodeRow(StoryRow):
         self._write_text(painter, rect, text)
 
     def _write_text(self, painter: QPainter, rect: QRectF, text: str) -> None:
-        painter.setPen(self.colour(QPalette.ColorRole.Text))
-        painter.drawText(rect.adjusted(8, 0, 0, 0), LEFT, text)
+        self.write_sentence(painter, rect.adjusted(8, 0, 0, 0), text)
 
     def make_list_label(self) -> str:
         """Return the label before bits that have no columns of their own."""

@@ -13,6 +13,8 @@ from occ_model.scene.light_words import blinking_lamp, has_chips
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
+VALUE_SEPARATOR = "  ·  "
+
 _MICRO = 1e6
 _MOST_CHIPS = 20_000  # most chips in an exposure whose light is averaged while the mouse moves
 
@@ -77,7 +79,7 @@ def describe_values(values: ColumnValues, scene: Scene) -> str:
     if values.bit is not None and values.value is not None:
         mark = {State.GOOD: "right", State.BAD: "wrong"}.get(values.state, "")
         parts.append(f"bit {values.bit + 1}: {values.value} {mark}".rstrip())
-    return "  ·  ".join(parts)
+    return VALUE_SEPARATOR.join(parts)
 
 
 def _describe_light(light: float) -> str:
@@ -122,4 +124,4 @@ def describe_difference(difference: CursorDifference) -> str:
     parts.append(f"{difference.count:.2f} {difference.unit}")
     if difference.time:
         parts.append(f"as a period {HERTZ.format(1 / abs(difference.time), 4)}")
-    return "  ·  ".join(parts)
+    return VALUE_SEPARATOR.join(parts)

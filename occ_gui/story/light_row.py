@@ -153,9 +153,8 @@ class LightRow(StoryRow):
 
     def _write_too_fast(self, painter: QPainter, light: QRectF) -> None:
         painter.fillRect(light, _GLOW[is_dark(self.palette())])
-        painter.setPen(self.colour(QPalette.ColorRole.Text))
         text = "The LED switches faster than this view can show: zoom in."
-        painter.drawText(light, Qt.AlignmentFlag.AlignCenter, text)
+        self.write_sentence(painter, light, text, Qt.AlignmentFlag.AlignCenter)
 
     def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
         """Draw header and bits of each packet in view under their chips."""
@@ -209,8 +208,7 @@ class LightRow(StoryRow):
 
     def _write_sent(self, painter: QPainter, area: QRectF) -> None:
         rect = area.adjusted(8, area.height() - self._strip_height(), 0, 0)
-        painter.setPen(self.colour(QPalette.ColorRole.Text))
-        painter.drawText(rect, LEFT, self.describe_sent())
+        self.write_sentence(painter, rect, self.describe_sent())
 
     def describe_sent(self) -> str:
         if self._scene is None:

@@ -12,12 +12,13 @@ from PySide6.QtGui import (
     QPalette,
     QPen,
     QPixmap,
+    QRegion,
     QResizeEvent,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, ColumnAxis, Crosshair, measure_name
+from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, LEFT, ColumnAxis, Crosshair, measure_name
 from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
@@ -47,6 +48,7 @@ class StoryRow(QWidget):
         self.axis, self.crosshair = axis, crosshair
         self._pixmap: QPixmap | None = None
         self._is_pixmap_valid = False
+        self._sentences: list[QRectF] = []  # the places of sentences, which no line crosses
         self._press_position: QPointF | None = None
         self._last_position: QPointF | None = None
         self._grabbed_cursor: int | None = None
@@ -81,6 +83,14 @@ class StoryRow(QWidget):
         """Draw what depends on the results, clipped to an area."""
         raise NotImplementedError
 
+    def write_sentence(
+        self, painter: QPainter, rect: QRectF, text: str, flags: Qt.AlignmentFlag = LEFT
+    ) -> None:
+        """Write a sentence into the row, where the crosshair's lines leave it out."""
+        painter.setPen(self.colour(QPalette.ColorRole.Text))
+        painter.drawText(rect, flags, text)
+        self._sentences.append(painter.boundingRect(rect, flags, text))
+
     def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         """Draw what stands in the gutter, beside the row's name."""
 
@@ -111,11 +121,15 @@ class StoryRow(QWidget):
         painter = QPainter(self)
         painter.drawPixmap(QPoint(0, 0), self._pixmap)
         area = self.plot_area()
-        painter.setClipRect(area)
+        beside_sentences = QRegion(area.toRect())
+        for place in self._sentences:
+            beside_sentences -= QRegion(place.toAlignedRect().adjusted(-4, 0, 4, 0))
+        painter.setClipRegion(beside_sentences)
         if self.crosshair.column is not None:
             self._draw_line(painter, self.crosshair.column, area, Qt.PenStyle.SolidLine)
         if self.crosshair.mouse_column is not None:
             self._draw_line(painter, self.crosshair.mouse_column, area, Qt.PenStyle.DashLine)
+        painter.setClipRect(area)
         self.draw_markers(painter, area)
         self._draw_cursors(painter, area)
         if self.crosshair.shown_column is not None:
@@ -138,6 +152,7 @@ class StoryRow(QWidget):
         painter.fillRect(area, self.colour(QPalette.ColorRole.Base))
         painter.save()
         painter.setClipRect(area)
+        self._sentences = []
         self.draw(painter, area)
         painter.restore()
         painter.setFont(self._find_gutter_font())

@@ -7,10 +7,13 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QStackedWidget, QVBoxLayout, QWidget
 
 from occ_gui.simulation.snapshot import Picture, Reading
+from occ_gui.story.column_values import VALUE_SEPARATOR
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
 from occ_model.scene.light_words import has_chips
+
+_LEAST_VALUES = "column 9999  ·  99999.9 µs  ·  light off  ·"
 
 _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the four rows."
 
@@ -45,10 +48,13 @@ class StoryView(QWidget):
         self._photo_verdict: QWidget | None = None
         self._is_about_photo = False
         self.rows.stripes.thumbnail.clicked.connect(lambda: self.show_whole_picture(True))
-        self.readout = name_widget(ElidedLabel(), "Values at the crosshair")
+        values = ElidedLabel(separator=VALUE_SEPARATOR)
+        self.readout = name_widget(values, "Values at the crosshair")
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.rows.values_changed.connect(self.readout.set_full_text)
-        self.measured = name_widget(ElidedLabel(), "Measured between the cursors")
+        self.measured = name_widget(
+            ElidedLabel(separator=VALUE_SEPARATOR), "Measured between the cursors"
+        )
         self.measured.setContentsMargins(4, 0, 0, 0)
         self.measured.hide()
         self.rows.measured_changed.connect(self._show_measured)
@@ -57,16 +63,28 @@ class StoryView(QWidget):
         for page in (self.rows, picture):
             self._pages.addWidget(page)
         self._size_by_page()
-        row = fill(
-            QHBoxLayout(), 4, (_LayoutBarrier(self.readout), 1), self.decoder,
+        self._readout_place = _LayoutBarrier(self.readout)
+        self._row = fill(
+            QHBoxLayout(), 4, (self._readout_place, 1), (None, 0), self.decoder,
             (self.whole_picture, 0, Qt.AlignmentFlag.AlignRight), margins=0,
         )  # fmt: skip
         for control in (self.picture_kind, *self.rows.ranges.values()):
             self.rows.controls.addWidget(control)
         self._layout = fill(
-            QVBoxLayout(self), self.verdict, row, self.measured, (self._pages, 1),
+            QVBoxLayout(self), self.verdict, self._row, self.measured, (self._pages, 1),
             margins=4, spacing=4,
         )  # fmt: skip
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Give the values a line of their own where they have no room beside the controls."""
+        super().resizeEvent(event)
+        controls = self.decoder.sizeHint().width() + self.whole_picture.sizeHint().width()
+        least = self.readout.fontMetrics().horizontalAdvance(_LEAST_VALUES)
+        has_room = self.width() - controls >= least
+        if has_room and self._row.indexOf(self._readout_place) < 0:
+            self._row.insertWidget(1, self._readout_place, 1)
+        elif not has_room and self._row.indexOf(self._readout_place) >= 0:
+            self._layout.insertWidget(self._layout.indexOf(self.measured), self._readout_place)
 
     def offer_decoders(self, decoders: Sequence[str]) -> None:
         for name in decoders:
@@ -111,7 +129,7 @@ class StoryView(QWidget):
         self._size_by_page()
         self.whole_picture.setText("Four rows" if is_whole else _WHOLE)
         self.whole_picture.setToolTip("Show the four rows again." if is_whole else _WHOLE_TIP)
-        self.readout.setVisible(not is_whole)
+        self._readout_place.setVisible(not is_whole)
         self._show_verdicts()
 
     def add_photo_verdict(self, bar: QWidget) -> None:

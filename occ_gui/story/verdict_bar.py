@@ -32,7 +32,7 @@ def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
     """Yield all badges of a reading, for which the decoder's verdict is shown."""
     if not reading.has_picture:
         meaning = "Read from the column profile or a draft; the exact picture is being computed."
-        yield Badge(_COMPUTING, "picture follows", meaning, State.WAITING, stays=True)
+        yield Badge(_COMPUTING, "computing the picture", meaning, State.WAITING, stays=True)
     if reading.overexposed:
         text = f"overexposed: {PERCENT.format(reading.overexposed, 2)}"
         yield Badge("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
@@ -49,7 +49,7 @@ def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
 def _make_ratio_badge(reading: Reading) -> Badge:
     exposure, sent = reading.scene.camera.exposure_time, reading.scene.transmitter
     if has_chips(sent):
-        meaning = "Exposure time over chip duration. Above 1, no column sees a single chip."
+        meaning = "Exposure time over chip duration. Above 1, each column sees more than one chip."
         ratio = exposure / sent.switching_period
         return Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
     meaning = (
@@ -65,7 +65,7 @@ def make_computing_badge() -> Badge:
 
 def make_rate_badge(rate: SceneRate) -> Badge:
     """Return the success rate of pictures that begin at any time."""
-    text = f"of {rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits"
+    text = f"{rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits read"
     meaning = (
         f"This is one picture. Of {rate.images} with different start times, "
         f"{100.0 * rate.fraction:.3g} % of the bits are read (95 % interval {100.0 * rate.low:.1f} "
@@ -100,7 +100,7 @@ def _list_other_decoders(reading: Reading, decoder: str) -> list[Badge]:
         f"Every picture is read with the decoders {', '.join(READ_BY_ALL)}; of these, {names} also "
         "read all bits. Other decoders read a picture when they are chosen."
     )
-    text = f"also read: {names}" if decoder in right else f"read by: {names}"
+    text = f"also read by: {names}" if decoder in right else f"read by: {names}"
     return [Badge("others", text, meaning, State.GOOD)]
 
 
@@ -256,12 +256,12 @@ class VerdictBar(StateBar):
         ]
         if not _is_averaged(verdict, reading):
             return texts
-        averages = f"averages {chips}, and the averages of different codes differ; so it is read"
+        averages = f"averages {chips}; different codes give different averages, so the code is read"
         return [
             f"Exposure {exposure}, chip {period}: each column {averages}, though the "
             "band model ends.",
             f"Each column {averages}.",
-            "No column sees one chip alone: the band model ends.",
+            "Each column sees more than one chip: the band model ends.",
             *texts,
         ]
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QSizePolicy,
     QSplitter,
     QStackedWidget,
     QVBoxLayout,
@@ -15,7 +14,7 @@ from PySide6.QtWidgets import (
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.simulation.snapshot import ColumnView, PictureView
 from occ_gui.story.story_rows import StoryRows
-from occ_gui.widgets.building import ElidedLabel, fill, name_widget, paragraph
+from occ_gui.widgets.building import fill, paragraph
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
 
@@ -105,8 +104,7 @@ class FrameRows(QWidget):
         super().__init__()
         self.rows = StoryRows()
         self.rows.stripes.thumbnail.clicked.connect(self.picture_asked)
-        self.title = name_widget(ElidedLabel(), "What the rows show")
-        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.title = paragraph(name="What the rows show")
         ranges = self.rows.ranges.values()
         line = fill(QHBoxLayout(), (self.title, 1), *ranges, margins=(4, 0, 4, 0))
         fill(QVBoxLayout(self), line, (self.rows, 1), margins=(0, 4, 0, 0), spacing=2)
@@ -115,9 +113,9 @@ class FrameRows(QWidget):
     def show_story(self, story: FrameStory | None, placeholder: str = "") -> None:
         self.rows.setVisible(story is not None)
         if story is None:
-            self.title.set_full_text(placeholder)
+            self.title.setText(placeholder)
             return
-        self.title.set_full_text(story.title)
+        self.title.setText(story.title)
         # For a frame that was filmed, only what its columns gathered is known, not the light.
         self.rows.light.setVisible(story.knows_light)
         self.rows.time.setVisible(story.knows_light)

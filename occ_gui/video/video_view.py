@@ -128,9 +128,9 @@ class Transport(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.back = TransportButton("step-back", "Step back", "Show the previous frame (Left).")
+        self.back = TransportButton("step-back", "Previous frame", "Show the frame before (Left).")
         self.play = TransportButton("play", "", "")
-        self.forward = TransportButton("step-on", "Step on", "Show the next frame (Right).")
+        self.forward = TransportButton("step-on", "Next frame", "Show the frame after (Right).")
         self.place = name_widget(ElidedLabel(), "Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         parts = (self.back, self.play, self.forward, 6, (self.place, 1))

@@ -28,13 +28,15 @@ from occ_model.errors import one_line
 Label = TypeVar("Label", bound=QLabel)
 
 
+_FONT_DECIMALS = 6  # of a size in points, which is the same again after a change there and back
+
 _HEADING = 16 / 13  # size of a heading relative to text: 16 pixels if text has 13
 
 
 def resize_font(font: QFont, factor: float) -> QFont:
     new_font = QFont(font)
     if font.pointSizeF() > 0.0:
-        new_font.setPointSizeF(factor * font.pointSizeF())
+        new_font.setPointSizeF(round(factor * font.pointSizeF(), _FONT_DECIMALS))
     else:  # a font whose size is given in pixels
         new_font.setPixelSize(round(factor * font.pixelSize()))
     return new_font
@@ -57,13 +59,21 @@ def embolden(label: Label, factor: float = 1.0) -> Label:
 
 
 class ElidedLabel(QLabel):
-    """Shows as much of a text as fits, and the whole text in the tooltip."""
+    """Shows as much of a text as fits, and the whole text in the tooltip.
+
+    ``separator``: what stands between its parts, of which only whole ones are shown; by default,
+    the text is cut anywhere.
+    """
 
     def __init__(
-        self, text: str = "", *, how: Qt.TextElideMode = Qt.TextElideMode.ElideRight
+        self,
+        text: str = "",
+        *,
+        how: Qt.TextElideMode = Qt.TextElideMode.ElideRight,
+        separator: str = "",
     ) -> None:
         super().__init__()
-        self._how = how
+        self._how, self._separator = how, separator
         self._full = ""
         self._last_fit: tuple[str, int] | None = None
         self.setTextFormat(Qt.TextFormat.PlainText)
@@ -80,7 +90,10 @@ class ElidedLabel(QLabel):
         fit = (self._full, self.contentsRect().width())
         if fit != self._last_fit:  # avoids laying out the surrounding widgets again
             self._last_fit = fit
-            self.setText(self.fontMetrics().elidedText(self._full, self._how, fit[1]))
+            text, metrics, separator = self._full, self.fontMetrics(), self._separator
+            while separator and separator in text and metrics.horizontalAdvance(text) > fit[1]:
+                text = text.rpartition(separator)[0]
+            self.setText(metrics.elidedText(text, self._how, fit[1]))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -100,13 +113,14 @@ class ElidedLabel(QLabel):
 class ScrollPane(QScrollArea):
     """Shows a widget that is as wide as the pane, and as high as it needs to be."""
 
-    def __init__(self, content: QWidget, least: QSize) -> None:
+    def __init__(self, content: QWidget | None = None, least: QSize | None = None) -> None:
         super().__init__()
-        self._least = least
+        self._least = least or QSize()
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setWidget(content)
+        if content is not None:
+            self.setWidget(content)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         handled = super().eventFilter(watched, event)

@@ -10,8 +10,8 @@ from occ_gui.widgets.colours import lighten_for
 
 _LEAST_DIGIT_WIDTH = 7.5
 
-_MIN_FITTING_FRACTION = 0.6
-"""Least fraction of cells with room for a digit; cells at the edges may be cut off."""
+_MIN_FITTING_FRACTION = 0.6  # least fraction of cells with room for a digit
+_LEAST_CONDENSED = 0.5  # of its width that a digit in a narrow cell has at least
 
 _FADED_OPACITY = 0.45
 
@@ -26,21 +26,36 @@ def _digit_text(value: float) -> QStaticText:
 def draw_digits(
     painter: QPainter, cells: Sequence[tuple[int, QRectF]], within: QRectF | None = None
 ) -> None:
-    """Write the digit of each chip into its cell, if it has room ``within`` the visible area."""
+    """Write the digit of each chip into its cell, if it has room ``within`` the visible area.
+
+    In a cell that is narrower than most, the digit is condensed.
+    """
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()
     for chip, cell in cells:
         left = cell.left() + (cell.width() - width) / 2
-        is_in_view = within is None or within.left() <= left <= within.right() - width
-        if cell.width() >= _LEAST_DIGIT_WIDTH and is_in_view:
-            top = cell.top() + (cell.height() - height) / 2
+        if within is not None and not within.left() <= left <= within.right() - width:
+            continue
+        top = cell.top() + (cell.height() - height) / 2
+        if cell.width() >= _LEAST_DIGIT_WIDTH:
             painter.drawStaticText(QPointF(left, top), _digit_text(chip))
+            continue
+        painter.save()
+        painter.translate(cell.center().x(), top)
+        painter.scale(cell.width() / _LEAST_DIGIT_WIDTH, 1.0)
+        painter.drawStaticText(QPointF(-width / 2, 0.0), _digit_text(chip))
+        painter.restore()
 
 
 def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
-    """Return whether most cells have room for a digit; if not, no digit is drawn."""
-    fitting_count = sum(cell.width() >= _LEAST_DIGIT_WIDTH for _, cell in cells)
-    return fitting_count >= _MIN_FITTING_FRACTION * len(cells)
+    """Return whether most cells have room for a digit, and all for a condensed one.
+
+    If not, no digit is drawn.
+    """
+    widths = [cell.width() for _, cell in cells]
+    fitting_count = sum(width >= _LEAST_DIGIT_WIDTH for width in widths)
+    is_readable = min(widths, default=0.0) >= _LEAST_CONDENSED * _LEAST_DIGIT_WIDTH
+    return is_readable and fitting_count >= _MIN_FITTING_FRACTION * len(cells)
 
 
 def draw_chips(

@@ -136,8 +136,16 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and self.plotItem is not None:
+        if self.plotItem is None:  # once the plot is closed
+            return
+        if event.type() == QEvent.Type.PaletteChange:
             self.apply_palette(self.palette())
+        if event.type() == QEvent.Type.FontChange:
+            for side in ("bottom", "left"):
+                axis = self.getAxis(side)
+                # pyqtgraph leaves the axis' name in the font in which it was made.
+                axis.label.setFont(self.font())
+                axis._updateLabel()  # which adapts the axis to it
 
     def show_axis_name(self, visible: bool) -> None:
         self._is_named = visible

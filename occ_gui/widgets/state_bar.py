@@ -4,10 +4,10 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
+from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
-from occ_gui.widgets.building import ElidedLabel, embolden, push_button
+from occ_gui.widgets.building import ElidedLabel, push_button, resize_font
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.state_look import Badge, BadgeRow, State, StateIcon, colours_of
 
@@ -15,12 +15,14 @@ _ICON = 32
 _TEXT_SCALE = 1.25
 _RADIUS = 8
 _PADDING, _MARGIN = 12, 5
+_WIDEST_STEP = 0.4  # of the room that the button of a step may take beside the texts
 
 
 class StateBar(QWidget):
     """A title in the colours and with the icon of its state, a sentence, and a row of badges."""
 
-    MOST_LINES = 1  # most lines that a sentence may take
+    USUAL_LINES, MOST_LINES = 1, 3
+    """Lines that a sentence may take, and that the shortest may take where none is short enough."""
     changed = Signal()  # the contents of the bar have changed
     step_taken = Signal()  # the user presses the button of the step that helps
 
@@ -30,12 +32,13 @@ class StateBar(QWidget):
         self._sentences: tuple[str, ...] = ("",)
         self._shown_state: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
-        self.title = embolden(ElidedLabel(), _TEXT_SCALE)
+        self.title = QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True)
         self.sentence = ElidedLabel()
         self.wrapped = QLabel(
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop
         )
-        self._lines = 1
+        self._lines = self._title_lines = 1
+        self._step_height = 0  # that the button takes below the texts
         self.badges = BadgeRow()
         tip = "Changes the scene or the decoder in one step."
         self.step = push_button("", tip, self.step_taken, name="A step that helps")
@@ -50,65 +53,102 @@ class StateBar(QWidget):
         return QSize(400, self.minimumSizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(_ICON + 4 * _PADDING, self._heights()[0] + self._heights()[1] + 2 * _MARGIN)
+        height = sum(self._heights()) + 2 * _MARGIN + self._step_height
+        return QSize(_ICON + 4 * _PADDING, height)
 
     def _heights(self) -> tuple[int, int]:
-        title = max(self.title.fontMetrics().height(), self.badges.sizeHint().height()) + 2
+        metrics = self.title.fontMetrics()
+        title = metrics.height() + (self._title_lines - 1) * metrics.lineSpacing()
+        title = max(title, self.badges.sizeHint().height()) + 2
         metrics = self.sentence.fontMetrics()
         return title, metrics.height() + (self._lines - 1) * metrics.lineSpacing() + 2
 
     def _lay_out(self) -> None:
-        """Give the title the width that it needs, and the badges the rest."""
+        """Give the title the width that it needs, and the badges the rest.
+
+        Badges that would shorten the title stand beside the sentence, which can be shorter.
+        """
         left = 2 * _PADDING + _ICON
-        room = full_width = max(0, self.width() - left - _PADDING)
-        if not self.step.isHidden():
-            size = self.step.sizeHint()
-            room = max(0, full_width - size.width() - _PADDING)
-            top = (self.height() - size.height()) // 2
-            self.step.setGeometry(left + room + _PADDING, top, size.width(), size.height())
-        text = self._choose_sentence(room)
-        self._set_line_count(text, room)
+        room = self._place_step(left, max(0, self.width() - left - _PADDING))
+        title_width = self._fit_title(room)
+        self.title.setText(self._title)
+        badges = self.badges.minimumSizeHint().width() + _PADDING if self.badges.badges else 0
+        is_beside_title = title_width + badges <= room
+        text_room = room if is_beside_title else max(0, room - badges)
+        text = self._choose_sentence(text_room)
+        self._set_line_count(text, text_room)
         first, second = self._heights()
-        title_width = self.title.fontMetrics().horizontalAdvance(self._title) + 4
-        badges = self.badges.minimumSizeHint().width() if self.badges.badges else 0
-        title = max(0, min(title_width, room - _PADDING - badges))
+        title = min(title_width, room)
         self.icon.move(_PADDING, (self.height() - _ICON) // 2)
         self.title.setGeometry(left, _MARGIN, title, first)
-        badges_left = left + title + _PADDING
+        badges_left = left + _PADDING + (title if is_beside_title else text_room - _PADDING)
         height = self.badges.sizeHint().height()
-        top = _MARGIN + (first - height) // 2
+        top = _MARGIN + (first - height) // 2 + (0 if is_beside_title else first)
         self.badges.setGeometry(badges_left, top, max(0, left + room - badges_left), height)
         for label in (self.sentence, self.wrapped):
-            label.setGeometry(left, _MARGIN + first, room, second)
+            label.setGeometry(left, _MARGIN + first, text_room, second)
         # A widget that is not shown yet gets no resize event.
-        self.title.set_full_text(self._title)
         self.sentence.set_full_text(text)
         self.wrapped.setText(text)
         self.wrapped.setToolTip("" if text == self._sentences[0] else self._sentences[0])
         self.wrapped.setVisible(self._lines > 1)
         self.sentence.setVisible(self._lines == 1)
 
+    def _place_step(self, left: int, room: int) -> int:
+        """Place the step's button at the right, or below all where little else had room.
+
+        Return the room beside it.
+        """
+        self._step_height = 0
+        if self.step.isHidden():
+            return room
+        size = self.step.sizeHint()
+        rest = max(0, room - size.width() - _PADDING)
+        top = (self.height() - size.height()) // 2
+        if size.width() > _WIDEST_STEP * room:
+            rest, self._step_height = room, size.height() + _MARGIN
+            top = self.height() - _MARGIN - size.height()
+        self.step.setGeometry(left + room - size.width(), top, size.width(), size.height())
+        return rest
+
+    def _fit_title(self, room: int) -> int:
+        """Return the width of the title: if large letters do not fit, they are of the usual size.
+
+        A title that does not fit then either takes several lines.
+        """
+        width = 0
+        for scale in (_TEXT_SCALE, 1.0):
+            font = resize_font(self.font(), scale)
+            font.setBold(True)
+            metrics = QFontMetrics(font)
+            width = metrics.horizontalAdvance(self._title) + 4
+            if width <= room:
+                break
+        if font != self.title.font():
+            self.title.setFont(font)
+        lines = _count_lines(metrics, self._title, room - 4)
+        if lines != self._title_lines:
+            self._title_lines = lines
+            self.updateGeometry()
+        return width
+
     def _set_line_count(self, text: str, room: int) -> None:
-        lines = self._count_lines(text, room)
+        lines = _count_lines(self.sentence.fontMetrics(), text, room)
         lines = lines if lines <= self.MOST_LINES else 1
         if lines != self._lines:
             self._lines = lines
             self.updateGeometry()
 
-    def _count_lines(self, text: str, room: int) -> int:
-        metrics = self.sentence.fontMetrics()
-        if room <= 0 or metrics.horizontalAdvance(text) <= room:
-            return 1
-        box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
-        # A word that is wider than the room is cut off, however many lines there are.
-        return max(2, math.ceil(box.height() / metrics.lineSpacing()))
-
     def _choose_sentence(self, room: int) -> str:
-        """Return the longest sentence that fits, or else the shortest."""
+        """Return the longest sentence that fits into as many lines as usual, or else the shortest.
+
+        Only the shortest may take more of them.
+        """
+        metrics = self.sentence.fontMetrics()
         fitting = (
             sentence
             for sentence in self._sentences
-            if self._count_lines(sentence, room) <= self.MOST_LINES
+            if _count_lines(metrics, sentence, room) <= self.USUAL_LINES
         )
         return next(fitting, self._sentences[-1])
 
@@ -149,6 +189,7 @@ class StateBar(QWidget):
             self.step.setAccessibleName(label)
         self.step.setVisible(bool(label))
         self._lay_out()
+        self.updateGeometry()
 
     def _apply_colours(self) -> None:
         ink = colours_of(self.state, self.palette()).ink
@@ -177,3 +218,11 @@ class StateBar(QWidget):
         painter.setBrush(colours.paper)
         place = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
         painter.drawRoundedRect(place, _RADIUS, _RADIUS)
+
+
+def _count_lines(metrics: QFontMetrics, text: str, room: int) -> int:
+    if room <= 0 or metrics.horizontalAdvance(text) <= room:
+        return 1
+    box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
+    # A word that is wider than the room is cut off, however many lines there are.
+    return max(2, math.ceil(box.height() / metrics.lineSpacing()))

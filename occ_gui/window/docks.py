@@ -85,8 +85,8 @@ def _show_as_tabs(
     front.raise_()
 
 
-_WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
-"""Pixels; the latter is Qt's value for no limit."""
+_WIDEST_SIDE = 26  # lines of text that a pane at the side may be wide
+_ANY_WIDTH = 16_777_215  # pixels; Qt's value for no limit
 
 
 class ModeSwitch(QObject):
@@ -149,7 +149,7 @@ class ModeSwitch(QObject):
             for pane in self.panes.values():
                 window.removeDockWidget(pane.dock)
             self._show_page(MODES[self.mode].centre)
-            self._limit_sides()
+            self.limit_sides()
             # Even if a layout is stored, because Qt leaves the tabs of the former mode behind.
             self.panes.arrange(window, self.mode)
             # Once more when the panes know what they need: each has the least height of when it
@@ -164,7 +164,7 @@ class ModeSwitch(QObject):
         finally:
             window.setUpdatesEnabled(True)
 
-    def _limit_sides(self) -> None:
+    def limit_sides(self) -> None:
         """Without a page, give all width that the window gains to the main pane.
 
         Qt would divide it among the panes.
@@ -172,7 +172,8 @@ class ModeSwitch(QObject):
         has_page, places = bool(MODES[self.mode].centre), self.panes.places_in(self.mode)
         for name, pane in self.panes.items():
             is_limited = not has_page and name in places and places[name].side == "left"
-            pane.dock.setMaximumWidth(_WIDEST_SIDE if is_limited else _ANY_WIDTH)
+            widest = _WIDEST_SIDE * pane.dock.fontMetrics().height()
+            pane.dock.setMaximumWidth(widest if is_limited else _ANY_WIDTH)
 
 
 _OFFSET = 24  # pixels by which a pane moves when it starts to float, so that this is visible

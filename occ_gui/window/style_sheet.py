@@ -35,7 +35,7 @@ QTabBar#modes::tab:selected {
 QTabBar#modes::tab:selected:focus { border: 2px solid palette(accent); padding: 6px 7px; }
 
 QPushButton {
-    padding: 4px 9px; min-height: 16px; border: 1px solid palette(mid); border-radius: 4px;
+    padding: 5px 9px; border: 1px solid palette(mid); border-radius: 4px;
     background: palette(button);
 }
 QPushButton:hover:enabled { background: palette(midlight); }
@@ -49,13 +49,13 @@ QPushButton#way:checked:hover:enabled {
     background: palette(midlight); color: palette(button-text); border-color: palette(mid);
 }
 QPushButton:disabled { border-color: palette(midlight); }
-QPushButton:focus { border: 2px solid palette(accent); padding: 3px 8px; }
-QPushButton#step { border-radius: 13px; padding: 4px 4px; background: transparent; }
+QPushButton:focus { border: 2px solid palette(accent); padding: 4px 8px; }
+QPushButton#step { border-radius: 13px; padding: 5px 4px; background: transparent; }
 QPushButton#step[current="true"] {
     background: palette(highlight); color: palette(highlighted-text);
     border-color: palette(highlight); font-weight: 600;
 }
-QPushButton#step:focus { border: 2px solid palette(window-text); padding: 3px 3px; }
+QPushButton#step:focus { border: 2px solid palette(window-text); padding: 4px 3px; }
 
 QLineEdit, QAbstractSpinBox, QComboBox {
     border: 1px solid palette(mid); border-radius: 4px; background: palette(base);
@@ -128,7 +128,7 @@ QFrame#card { background: palette(base); border: 1px solid palette(mid); border-
 
 QTabWidget::pane { border: none; border-top: 1px solid palette(midlight); }
 QTabBar::tab {
-    padding: 5px 10px; border: none; border-bottom: 2px solid transparent;
+    padding: 5px 8px; border: none; border-bottom: 2px solid transparent;
     background: transparent;
 }
 QTabBar::tab:hover:!selected { background: palette(midlight); }

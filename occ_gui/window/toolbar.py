@@ -66,7 +66,7 @@ class ModeBar(QTabBar):
         self._has_icons, self._full_width = False, 0
         self.setObjectName("modes")
         self.setAccessibleName("Mode")
-        self.setToolTip("The task that the window is laid out for.")
+        self.setToolTip("Choose a task: the window shows what belongs to it.")
         self.setDrawBase(False)
         self.setExpanding(False)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))

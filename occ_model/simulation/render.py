@@ -70,7 +70,7 @@ def render(
     ----------
     tolerance
         Largest change by the omitted effects, in levels of the stretched profile. 0 simulates every
-        effect of the scene; infinity simulates none, which is the bare paper model.
+        effect of the scene; infinity simulates none, which is the paper's model, no effects.
     seed
         Seed of all random numbers.
     observable, force

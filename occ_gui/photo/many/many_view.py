@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QModelIndex, QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
@@ -129,14 +129,25 @@ class ManyPhotosView(QWidget):
         # The model marks the row of the open photo, however it was opened.
         self.table.setSelectionMode(QTableView.SelectionMode.NoSelection)
         self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader()
         self.table.verticalHeader().hide()
-        self.table.verticalHeader().setDefaultSectionSize(row)
+        header = self.table.horizontalHeader()
         header.setHighlightSections(False)
         header.setStretchLastSection(True)
-        self.table.setMinimumHeight(header.sizeHint().height() + _MIN_VISIBLE_ROWS * row)
         self.table.clicked.connect(self._choose)
         self.table.activated.connect(self._choose)
+        self._fit_table()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "table"):
+            QTimer.singleShot(0, self, self._fit_table)  # once the table has the font, too
+
+    def _fit_table(self) -> None:
+        """Fit rows and columns to the size of text."""
+        row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader()
+        self.table.verticalHeader().setDefaultSectionSize(row)
+        self.table.setMinimumHeight(header.sizeHint().height() + _MIN_VISIBLE_ROWS * row)
+        self._fit_columns()
 
     def _fit_columns(self) -> None:
         """Fit the columns to their texts, up to a largest width, and scroll to the first one."""

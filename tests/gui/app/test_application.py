@@ -162,7 +162,7 @@ def test_an_exception_in_a_slot_is_reported_and_logged_and_the_window_works_on(
         qtbot.waitUntil(lambda: bool(user.message))
         application.error_reports.remove()
     assert "ZeroDivisionError: a mistake" in user.message
-    assert "Your work is still there." in user.message
+    assert "Your work is not lost." in user.message
     assert "Traceback" in caplog.text
     application.window.statusBar().clearMessage()
     user.enter("iso", "456")

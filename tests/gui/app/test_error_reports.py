@@ -22,7 +22,7 @@ from occ_gui.app.panes import picture
 from occ_gui.app.report import report_text, show_report
 from occ_model.scene.scene import Scene, SimulationSettings
 
-STILL_THERE = "Your work is still there."
+STILL_THERE = "Your work is not lost."
 
 
 @pytest.fixture

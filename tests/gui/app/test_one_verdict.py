@@ -188,7 +188,7 @@ def test_strip_and_banner_state_the_rate_of_the_study(
         round(100.0 * s.present_rate.fraction, 9) for s in strips.values() if s.present_rate
     } == {rate}
     badges = {badge.key: badge.text for badge in application.story.verdict.badges.badges}
-    assert badges["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
+    assert badges["rate"] == f"20 pictures: {rate:.3g} % of bits read"
     strip = strips["iso"]
     assert f"{rate:.3g} % of the bits of 20 pictures" in strip.toolTip()
     strip.show_fractions((0.0,) * 9)

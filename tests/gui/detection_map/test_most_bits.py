@@ -49,7 +49,7 @@ def test_the_card_searches_and_shows_the_best(card: MostBitsCard, small_scene: S
     assert buttons(card) == {"Search"}
     card.show_begun()
     card.show_progress("threshold", 0)
-    assert "searching with threshold: begins when a process is free" in card.text.toolTip()
+    assert "searching with threshold: waits for its turn" in card.text.toolTip()
     card.show_progress("threshold", 12)
     assert "searching with threshold, 12 pictures tried" in card.text.toolTip()
     assert buttons(card) == {"Cancel"}

@@ -97,7 +97,7 @@ def test_an_outdated_verdict_and_one_before_the_picture_are_marked(
     assert "computing" not in texts(bar)
     early = replace(snapshot_of(), source="profile", has_picture=False)
     bar.show_reading(early)
-    assert (bar.state, texts(bar)["computing"]) == (State.GOOD, "picture follows")
+    assert (bar.state, texts(bar)["computing"]) == (State.GOOD, "computing the picture")
     bar.show_reading(replace(early, has_picture=True))
     assert "computing" not in texts(bar)
     bar.show_reading(early)
@@ -123,7 +123,7 @@ def test_a_badge_tells_where_the_band_model_ends(bar: VerdictBar, snapshot_of: S
     assert texts(bar)["ratio"] == "t / t<sub>LED</sub> = 1.36"
     assert texts(bar)["band"] == "no band model here"
     assert (
-        "each column averages 2 or 3 chips, and the averages of different codes differ"
+        "each column averages 2 or 3 chips; different codes give different averages"
         in bar.accessibleDescription()
     )
 

@@ -87,7 +87,7 @@ def test_the_frame_that_is_sought_is_the_one_that_is_shown(pane: VideoWiring, wa
         wait()
         shown = pane.view.pictures.simulated.caption.toolTip()
         assert shown == f"Simulated: frame {index + 1}, {index / 30.0:.4f} s"
-        assert f"frame {index + 1}" in pane.view.rows.title.toolTip()
+        assert f"frame {index + 1}" in pane.view.rows.title.text()
 
 
 def test_a_reading_of_an_earlier_scene_is_marked(

@@ -1,26 +1,15 @@
 """At usual sizes of the window no control is cut off, squeezed or covered."""
 
-from collections import defaultdict
 from collections.abc import Iterator
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-import pyqtgraph as pg
 import pytest
+from gui.layout_faults import find_cut_axis_labels, find_faults, is_cut_off
 from gui.user import User
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
-    QAbstractScrollArea,
-    QAbstractSpinBox,
     QApplication,
-    QCheckBox,
-    QComboBox,
-    QDockWidget,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QSlider,
     QTabWidget,
     QWidget,
 )
@@ -33,7 +22,6 @@ from occ_gui.values.choices import OVERLAYS
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 
-CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
 LEAST, LARGE = QSize(1000, 700), QSize(1920, 1080)
 SIZES = [
     LEAST,
@@ -44,83 +32,6 @@ NO_CODE = {"switching_frequency": 500.0, "distance": 5.0}
 MISREAD: dict[str, Any] = {"exposure_time": 136e-6, "switching_frequency": 20e3}
 MANY_BITS = {"bits": 16, "code": 2**16 - 1}
 STATES: tuple[dict[str, Any], ...] = (NO_BAND_MODEL, NO_CODE, MISREAD, MANY_BITS)
-
-
-def visible_controls(window: QWidget) -> list[QWidget]:
-    controls = [control for kind in CONTROLS for control in window.findChildren(kind)]
-    return [
-        control
-        for control in controls
-        if control.isVisible()
-        and not isinstance(control.parentWidget(), QAbstractSpinBox)
-        and not is_behind(control)
-    ]
-
-
-def is_behind(control: QWidget) -> bool:
-    """Return whether a control is in a dock behind another one."""
-    parent = control.parentWidget()
-    while parent is not None and not isinstance(parent, QDockWidget):
-        parent = parent.parentWidget()
-    return parent is not None and parent.visibleRegion().isEmpty()
-
-
-def is_in_scroll_area(control: QWidget) -> bool:
-    parent = control.parentWidget()
-    while parent is not None and not isinstance(parent, QAbstractScrollArea):
-        parent = parent.parentWidget()
-    return parent is not None
-
-
-def is_too_small(control: QWidget) -> bool:
-    least = control.minimumSizeHint()
-    high = control.height() >= least.height()
-    if isinstance(control, QLabel) and control.wordWrap():
-        high = control.height() >= control.heightForWidth(control.width())
-    return control.width() < least.width() or not high
-
-
-def is_cut_off(control: QWidget) -> bool:
-    """Return whether part of a control can neither be seen nor reached by vertical scrolling."""
-    visible = control.visibleRegion().boundingRect()
-    if is_in_scroll_area(control):
-        return not visible.isEmpty() and visible.width() < control.width()
-    return visible != control.rect()
-
-
-def describe(control: QWidget) -> str:
-    name = control.accessibleName() or getattr(control, "text", str)()
-    return f"{type(control).__name__} {name!r} {control.geometry()}"
-
-
-def find_faults(window: QWidget) -> list[str]:
-    controls = visible_controls(window)
-    texts = [f"too small: {describe(control)}" for control in controls if is_too_small(control)]
-    texts += [f"cut off: {describe(control)}" for control in controls if is_cut_off(control)]
-    children = defaultdict[QWidget | None, list[QWidget]](list)
-    for control in controls:
-        children[control.parentWidget()].append(control)
-    texts += [
-        f"overlapping: {describe(one)} and {describe(other)}"
-        for siblings in children.values()
-        for one, other in combinations(siblings, 2)
-        if one.geometry().intersects(other.geometry())
-    ]
-    return texts
-
-
-def find_cut_axis_labels(window: QWidget) -> list[str]:
-    axes = [
-        plot.getAxis(side)
-        for plot in window.findChildren(pg.PlotWidget)
-        if plot.isVisible() and not is_behind(plot)
-        for side in ("left", "bottom")
-    ]
-    return [
-        axis.labelText
-        for axis in axes
-        if axis.label.boundingRect().width() > max(axis.width(), axis.height())
-    ]
 
 
 def assert_faultless(qtbot: QtBot, window: QWidget, what: object) -> None:

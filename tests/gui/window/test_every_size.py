@@ -1,0 +1,110 @@
+"""In every mode, pane and tab, at every usual size and scale, no text is cut off or squeezed."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pyqtgraph as pg
+import pytest
+from gui.detection_map.test_advice import advice_on
+from gui.user import User
+from gui.window.size_walk import LARGE, LEAST, SIZES, USUAL, walk
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.window.theme import SIZES as TEXT_SIZES
+from occ_model.receiver.decode import DECODERS
+
+TESTS = Path(__file__).parents[2]
+
+
+def faults_of(
+    qtbot: QtBot, application: Application, user: User, sizes: tuple[QSize, ...] = SIZES
+) -> dict[str, str]:
+    def settle() -> None:
+        user.wait_until_idle()
+        for _ in range(4):  # what is laid out asks for more in turn
+            QApplication.processEvents()
+
+    qtbot.wait(1)
+    return walk(application, settle, sizes)
+
+
+def assert_none(faults: dict[str, str]) -> None:
+    assert not faults, "\n".join(f"{place}: {fault}" for fault, place in faults.items())
+
+
+def test_nothing_is_cut_at_any_size_after_all_modes_and_with_filled_limits(
+    qtbot: QtBot, application: Application, user: User
+) -> None:
+    application.window.resize(LARGE)
+    application.window.bring_to_front("map")
+    advice = advice_on(application.store.scene)
+    for decoder in DECODERS:
+        limits = replace(advice.limits, decoder=decoder)
+        application.view("map").advice.show_advice(replace(advice, limits=limits))
+    assert_none(faults_of(qtbot, application, user))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"exposure_time": 136e-6, "switching_frequency": 20e3, "iso": 6400.0},
+        {"light": "lamp", "lamp_frequency": 120.0, "duty": 0.3},
+        pytest.param({"bits": 16, "code": 2**16 - 1}, marks=pytest.mark.whole),
+        pytest.param({"light": "mains"}, marks=pytest.mark.whole),
+    ],
+    ids=str,
+)
+def test_nothing_is_cut_for_any_light_and_verdict(
+    qtbot: QtBot, application: Application, user: User, changes: dict[str, Any]
+) -> None:
+    application.store.change(**changes)
+    user.wait_until_idle()
+    assert_none(faults_of(qtbot, application, user, (USUAL, LEAST)))
+
+
+@pytest.mark.own_window
+def test_larger_text_is_not_cut_and_all_is_as_before_once_it_is_normal_again(
+    qtbot: QtBot, application: Application, user: User
+) -> None:
+    window = application.window
+    faults_of(qtbot, application, user, (USUAL,))  # makes all panes
+    first = fonts_and_axes(window)
+    application.options.text_size.choose(TEXT_SIZES[-1])
+    faults = faults_of(qtbot, application, user, (LARGE,))
+    application.options.text_size.reset()
+    QApplication.processEvents()
+    assert_none(faults)
+    again = fonts_and_axes(window)
+    changed = {each: (size, again.get(each, size)) for each, size in first.items()}
+    assert {each: two for each, two in changed.items() if two[0] != two[1]} == {}
+
+
+def fonts_and_axes(window: QWidget) -> dict[object, object]:
+    """Return the size of text of each widget that was shown, and the height of each axis' name."""
+    sizes: dict[object, object] = {
+        widget: widget.font().pointSizeF()
+        for widget in window.findChildren(QWidget)
+        if widget.testAttribute(Qt.WidgetAttribute.WA_WState_Polished)
+    }
+    for plot in window.findChildren(pg.PlotWidget):
+        for side in ("left", "bottom"):
+            sizes[plot, side] = plot.getAxis(side).label.boundingRect().height()
+    return sizes
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("scale", ["2", "1.5"])
+def test_nothing_is_cut_on_a_screen_of_another_scale(scale: str) -> None:
+    command = [sys.executable, "-m", "gui.window.size_walk", "phone-136us"]
+    environment = {**os.environ, "QT_SCALE_FACTOR": scale, "PYTHONPATH": str(TESTS)}
+    done = subprocess.run(
+        command, env=environment, capture_output=True, text=True, timeout=600, check=True
+    )
+    assert done.stdout == ""

@@ -30,8 +30,8 @@ def state_move(costs: MeasuredCosts, forecast: Forecast | None) -> str:
             now = costs.picture.times.number
             time = f"about {format_milliseconds(forecast.seconds)} ms, now {now} ms"
         return f"A slider's next move: the picture in {time}."
-    draft = f"a draft in {costs.draft}, " if costs.draft is not None else ""
-    return f"A slider's next move: {draft}the picture in {costs.picture.times}."
+    start = f"a draft in {costs.draft}, then" if costs.draft is not None else ""
+    return " ".join(f"A slider's next move: {start} the picture in {costs.picture.times}.".split())
 
 
 def state_measurement(costs: MeasuredCosts) -> str:

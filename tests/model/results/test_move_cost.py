@@ -94,7 +94,8 @@ def test_a_time_has_the_digits_that_its_scatter_leaves() -> None:
 def test_a_move_is_stated_by_kind_and_with_its_scatter() -> None:
     costs = MeasuredCosts(runs(300, 320, 410), draft=Times.of((0.05, 0.06, 0.09)))
     assert state_move(costs, None) == (
-        "A slider's next move: a draft in 60 ms (50 to 90), the picture in 320 ms (300 to 410)."
+        "A slider's next move: a draft in 60 ms (50 to 90), then the picture in 320 ms "
+        "(300 to 410)."
     )
     assert state_measurement(costs).startswith("Median and range of the last 3 pictures and 3 ")
     assert "A draft has only some rows" in state_measurement(costs)

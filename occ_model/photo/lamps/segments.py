@@ -6,8 +6,9 @@ of a chip. Where one lamp ends and another begins, the progressions or lattices 
 """
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -66,12 +67,14 @@ def segments_of(
 ) -> list[Segment]:
     """Split the edges of a strip into those of single lamps."""
     found: list[Segment] = []
+    # What is left of a strip is searched again, mostly in the same stretches.
+    chip_within = cache(lambda first, last: chip_of(edges.part(first, last)))
     waiting = [(0, len(edges), progressions_of(edges.place, tolerance))]
     while waiting:
         first, last, progressions = waiting.pop()
         longest = max(progressions, key=lambda one: one[1] - one[0], default=(first, first, 0.0))
         begin, end, period = longest
-        coded = _code_within(edges, first, last) if codes else None
+        coded = _code_within(edges, first, last, chip_within) if codes else None
         if (
             coded is not None
             and coded[1] - coded[0] >= end - begin + _LEAST_MORE_EDGES
@@ -122,14 +125,16 @@ def progressions_of(place: FloatArray, tolerance: float) -> list[tuple[int, int,
     return found
 
 
-def _code_within(edges: Edges, first: int, last: int) -> tuple[int, int, float] | None:
+def _code_within(
+    edges: Edges, first: int, last: int, chip_within: Callable[[int, int], float | None]
+) -> tuple[int, int, float] | None:
     """Find the longest stretch of edges that lie on a lattice, with the columns of a chip."""
     if not _LEAST_CODE_EDGES <= last - first <= _MOST_EDGES:
         return None
     best: tuple[int, int, float] | None = None
     for begin, end in _stretches(edges.part(first, last)):
         part = first + begin, first + end
-        chip = chip_of(edges.part(*part))
+        chip = chip_within(*part)
         if chip is not None:
             part = _without_strangers(edges, *part, chip)
             if best is None or part[1] - part[0] > best[1] - best[0]:

@@ -4,8 +4,8 @@
     python tests/benchmarks/lamp_world.py others 100 1000
     python tests/benchmarks/lamp_world.py blinds 20 1000
 
-The numbers are how many pictures, and the first seed. Thresholds may be set on seeds below 2000;
-those from 5000 judge. *blinds* are upright and have black gaps: no single picture tells them from a
+The numbers are how many pictures, and the first seed. Thresholds may be set on seeds below 5000;
+those from 9000 judge. *blinds* are upright and have black gaps: no single picture tells them from a
 lamp.
 """
 

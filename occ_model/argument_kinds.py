@@ -45,6 +45,7 @@ def checked(function: _Function) -> _Function:
     raises an error other than an OccError.
     """
     declared = signature(function)
+    takes_colours = _takes_colours(function.__module__)
 
     @wraps(function)
     def call(*arguments: Any, **named: Any) -> Any:
@@ -56,6 +57,10 @@ def checked(function: _Function) -> _Function:
         # An iterator fails later, when it is consumed, so that all arguments are checked now.
         is_lazy = _class_of(hints.get("return")) is Iterator
         _refuse_wrong(values, hints, declared, objects_only=not is_lazy)
+        for value in () if takes_colours else values.values():
+            check = getattr(type(value), "check_one_colour", None)
+            if check is not None:
+                check(value)
         try:
             return function(*arguments, **named)
         except OccError:
@@ -67,6 +72,13 @@ def checked(function: _Function) -> _Function:
     # The name by which pickle finds it in another process.
     call.__module__, call.__qualname__ = "occ_model", function.__name__
     return call  # type: ignore[return-value]
+
+
+def _takes_colours(module: str) -> bool:
+    """Return whether the functions of a module take scenes of three colours, not of one."""
+    return module.endswith(".colour") or module.startswith(
+        ("occ_model.scene.", "occ_model.transmitter.")
+    )
 
 
 @cache

@@ -63,7 +63,7 @@ class AnimationExport(Service):
         forward = [parameter.at(step / STEPS) for step in range(STEPS + 1)]
         values = (*forward, *forward[-2:0:-1])  # without the first value, with which it repeats
         settings = self._scenes.settings.settings
-        self.writer.start(_Film(path, self._scenes.scene, settings, name, values))
+        self.writer.start(_Film(path, self._scenes.seen, settings, name, values))
 
 
 def _write(film: _Film, report: Report) -> Path:

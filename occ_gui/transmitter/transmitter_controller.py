@@ -113,7 +113,7 @@ class TransmitterController(Service):
             self.dialog.frequency_asked.connect(self._take_frequency)
             self.dialog.save_asked.connect(self.ask_to_save)
             self.dialog.finished.connect(self._forget_dialog)
-            self._follow(self._store.scene)
+            self._follow(self._store.seen)
         self.dialog.show()
         self.dialog.activateWindow()
 
@@ -124,7 +124,7 @@ class TransmitterController(Service):
     def _choose_board(self, board: str) -> None:
         self._board = board
         self._preferences.keep(_BOARD_KEY, board)
-        self._follow(self._store.scene)
+        self._follow(self._store.seen)
 
     def _follow(self, scene: Scene) -> None:
         if self.dialog is None:

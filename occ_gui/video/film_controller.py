@@ -162,7 +162,7 @@ class FilmController(QObject):
     def simulate(self) -> Video:
         """Simulate a film of the present scene; raises OccError if it cannot be recorded."""
         return occ.render_video(
-            self._scenes.scene, self.choice.frames, self.choice.recording,
+            self._scenes.seen, self.choice.frames, self.choice.recording,
             settings=self._scenes.settings.settings,
         )  # fmt: skip
 
@@ -226,7 +226,7 @@ class FilmController(QObject):
                 film=self.film,
                 live=self.live_frame,
                 index=0 if self.is_live else self.player.index,
-                scene=self._scenes.scene,
+                scene=self._scenes.seen,
                 settings=self._scenes.settings.settings,
                 recording=self.choice.recording,
                 draft_step=_DRAFT_STEP if is_fast else 1,

@@ -50,7 +50,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view = view
         self.films = FilmController(scenes, results_store)
         self.readings = FilmReader()
-        self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
+        self.live = LiveController(self.films, self.readings, lambda: scenes.seen)
         self.saving: FileWriter[_FilmToSave] = FileWriter(
             _save, "writing of the film", self.view.form.saving,
             "The film was cancelled.",
@@ -66,7 +66,7 @@ class VideoWiring(Pane[FilmChoice]):
         scenes.changed.connect(self._on_scene)
         self.view.form.changed.connect(self._on_recording)
         self.view.form.refused.connect(self.status_message)
-        self.view.form.show_scene(scenes.scene)
+        self.view.form.show_scene(scenes.seen)
         self.films.put(results_store.results.film)
 
     def show_part(self, part: FilmChoice) -> None:
@@ -144,7 +144,7 @@ class VideoWiring(Pane[FilmChoice]):
         except OccError as error:
             self.view.show_message(str(error))
             return
-        self.readings.start(film, self._scenes.scene)
+        self.readings.start(film, self._scenes.seen)
 
     def save(self, path: Path) -> None:
         try:
@@ -170,7 +170,7 @@ class VideoWiring(Pane[FilmChoice]):
         self._show_reading()
         has_code = self._scenes.store.workspace.has_code  # else there is nothing to read
         if film is not None and not self.films.is_live and has_code:
-            self.readings.start(film, self._scenes.scene)
+            self.readings.start(film, self._scenes.seen)
 
     def _adopt_frame_rate(self, film: Video | None) -> None:
         if film is None or self.films.is_live:
@@ -182,7 +182,7 @@ class VideoWiring(Pane[FilmChoice]):
             except OccError:  # a film that is out of range
                 return
             self._keep_recording()
-        form.show_scene(self._scenes.scene)
+        form.show_scene(self._scenes.seen)
 
     def _on_scene(self, scene: Scene) -> None:
         self.view.form.show_scene(scene)
@@ -200,7 +200,7 @@ class VideoWiring(Pane[FilmChoice]):
 
     def _show_recording(self) -> None:
         self.films.apply_recording()
-        self.view.form.show_scene(self._scenes.scene)
+        self.view.form.show_scene(self._scenes.seen)
         if self.films.film is None:
             self.readings.forget()
             self._show_bar()
@@ -285,7 +285,7 @@ class VideoWiring(Pane[FilmChoice]):
 
     def _mark_outdated(self) -> None:
         scene = self.readings.scene
-        self.view.show_outdated(scene is not None and scene != self._scenes.scene)
+        self.view.show_outdated(scene is not None and scene != self._scenes.seen)
 
     def _make_marks(self) -> Marks:
         """Return marks for the frames that were read and for the frames to come."""

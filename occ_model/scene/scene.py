@@ -142,6 +142,13 @@ class Scene:
             for group in groups
         }
 
+    def check_one_colour(self) -> None:
+        """Raise a ParameterError for a scene of three colours, where only one is simulated."""
+        if self.colours.bayer != "none" or self.colours.colour_light != "white":
+            from occ_model.scene.colour_scenes import check_monochrome
+
+            check_monochrome(self)
+
     def colour(self, name: str = "") -> "Scene":
         """Return the ordinary scene of one LED and the colour camera's own pixels for it.
 

@@ -113,6 +113,8 @@ class SmoothedCurves:
         if float(spread.min()) < tabulated:
             noise = table.interpolate(spread, values)
             sharp = noise < tabulated
+            if not sharp.any():  # only levels that no pixel has are so
+                return means
             means[sharp] = LevelSteps.of(values[sharp], noise[sharp]).mean_of(curve)
         return means
 

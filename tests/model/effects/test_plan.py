@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from physics.effect_world import scene_of
 
 import occ_model as occ
 from occ_model.effects import plan as module
@@ -234,3 +235,8 @@ def test_no_picture_is_planned_after_one_that_needs_all_effects(
     assert len(planned) == 1
     plan_of_any([noisy] * 3, SimulationSettings(math.inf))
     assert len(planned) == 1 + 3
+
+
+def test_a_signal_is_planned_where_only_levels_of_no_pixel_have_little_noise() -> None:
+    estimates = [each.estimate for each in occ.plan(scene_of(71151), 0.0, "signal").decisions]
+    assert np.isfinite(estimates).all()

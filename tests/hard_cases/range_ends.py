@@ -33,7 +33,7 @@ from occ_model.scene.light_samples import MOST_LEVELS, MOST_SAMPLES
 from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, ParameterValue, Payload
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import OBSERVABLES, Scene
+from occ_model.scene.scene import GROUPS, OBSERVABLES, Scene
 from occ_model.study import theory
 from occ_model.study.bands.advice import cure_of
 from occ_model.study.bands.least_depth import depth_map
@@ -69,6 +69,7 @@ _LIGHT_TEXTS = {
         "0,1\n1e-300,0\n1\n",
         "".join(f"{second},{second % 7 / 7}\n" for second in range(MOST_SAMPLES)),
     ),
+    "mixing": ("0.01 0 0 0 1 0 0 0 1", "1 1 1 1 1 0.99 1 0.9 0"),
 }  # fmt: skip
 
 
@@ -94,11 +95,7 @@ def ends(name: str) -> tuple[ParameterValue, ...]:
 
 def cases() -> list[Case]:
     """Return all parameters by themselves, pairs that multiply, and the longest packets."""
-    alone = [
-        {"light": declared.lights[0] if declared.lights else "code", name: end}
-        for name, declared in PARAMETERS.items()
-        for end in ends(name)
-    ]
+    alone = [{**_where_it_matters(name), name: end} for name in PARAMETERS for end in ends(name)]
     paired = [
         {one: end, other: other_end}
         for one, other in combinations(_MULTIPLIED, 2)
@@ -109,6 +106,13 @@ def cases() -> list[Case]:
     long = [{**each, "switching_frequency": end}
             for each, end in product(sent, ends("switching_frequency"))]  # fmt: skip
     return [*alone, *paired, *long]
+
+
+def _where_it_matters(name: str) -> Case:
+    """Return what a parameter needs: the light that it is of, and a colour camera."""
+    lights = PARAMETERS[name].lights
+    colour: Case = {"bayer": "rggb", "averaging": "light"} if name in GROUPS["colours"] else {}
+    return {"light": lights[0] if lights else "code", **colour}
 
 
 @lru_cache(maxsize=2)
@@ -169,6 +173,7 @@ def questions() -> dict[str, Callable[[Scene], object]]:
         **{f"read a photo {each}": partial(_read_photo, decoder=each) for each in DECODERS},
         **{f"cause {each}": partial(cause_of, decoder=each) for each in DECODERS},
         **{f"success {each}": partial(_success, decoder=each) for each in DECODERS},
+        **{f"decode colours {each}": partial(_decode_colours, decoder=each) for each in DECODERS},
         "bit errors": lambda scene: occ.bit_error_rate(scene, "threshold", bits=20),
         "bands": partial(_command, "bands"),
         "map of bars": depth_map,
@@ -194,6 +199,10 @@ def _decode(scene: Scene, decoder: str) -> None:
 def _read_photo(scene: Scene, decoder: str) -> None:
     """Decode a picture that is not the scene's, with its settings, as a photo."""
     occ.decode(_frame(base()).image, scene, decoder)
+
+
+def _decode_colours(scene: Scene, decoder: str) -> None:
+    occ.decode_colours(occ.render_colour(scene, tolerance=0.0).image, scene, decoder)
 
 
 def _success(scene: Scene, decoder: str) -> None:

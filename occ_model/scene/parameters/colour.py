@@ -17,7 +17,12 @@ COLOURS = ("red", "green", "blue")
 
 CSK_ORDERS = {"4-csk": 4, "8-csk": 8, "16-csk": 16}
 
-_MATRIX = "nothing, or nine numbers from 0 to 10, three for each channel, each row above 0"
+_LEAST_SENSITIVITY = 0.01  # to white, of a channel
+
+_MATRIX = (
+    "nothing, or nine numbers from 0 to 1, three for each channel, "
+    f"whose sum is {_LEAST_SENSITIVITY:g} or more"
+)
 
 
 def _canonical_matrix(text: str) -> str:
@@ -31,11 +36,11 @@ def _canonical_matrix(text: str) -> str:
         raise ValueError("has a word that is not a number") from None
     if len(numbers) != 9:
         raise ValueError(f"has {len(numbers)} numbers")
-    if not all(math.isfinite(number) and 0.0 <= number <= 10.0 for number in numbers):
-        raise ValueError("has a number outside 0 to 10")
+    if not all(math.isfinite(number) and 0.0 <= number <= 1.0 for number in numbers):
+        raise ValueError("has a number outside 0 to 1")
     rows = [numbers[first : first + 3] for first in (0, 3, 6)]
-    if not all(any(row) for row in rows):
-        raise ValueError("has a channel that sees no light")
+    if not all(sum(row) >= _LEAST_SENSITIVITY for row in rows):
+        raise ValueError("has a channel that sees hardly any light")
     if abs(_determinant(rows)) < 1e-6:
         raise ValueError("cannot be inverted")
     return " / ".join(" ".join(f"{number:g}" for number in row) for row in rows)

@@ -83,7 +83,7 @@ def test_there_are_three_colours() -> None:
 @pytest.mark.parametrize(
     ("text", "problem"),
     [("1 2", "2 numbers"), ("1 0 0 1 0 0 0 0 1", "inverted"), ("a" * 9, "not a number"),
-     ("0 0 0 0 1 0 0 0 1", "sees no light"), ("-1 0 0 0 1 0 0 0 1", "outside 0 to 10")],
+     ("0 0 0 0 1 0 0 0 1", "hardly any light"), ("-1 0 0 0 1 0 0 0 1", "outside 0 to 1")],
 )  # fmt: skip
 def test_a_matrix_that_cannot_be_used_is_refused(text: str, problem: str) -> None:
     with pytest.raises(occ.ParameterError, match=problem):

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.camera.exposure import lit_fraction
+from occ_model.camera.exposure import lit_fraction, lit_fractions
 from occ_model.camera.projection import panel_corners
 from occ_model.commands.command_line import make_parser
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
 
-COSTLY = {work.__code__: work.__name__ for work in (lit_fraction, panel_corners)}
+COSTLY = {work.__code__: work.__name__ for work in (lit_fraction, lit_fractions, panel_corners)}
 
 
 @contextmanager
@@ -92,15 +92,18 @@ def test_a_plan_takes_one_exposure_and_one_projection(scene: Scene) -> None:
     assert calls == {"lit_fraction": 1, "panel_corners": 1}
 
 
-@pytest.mark.parametrize(("path", "planned", "projections"), [("profile", 0, 1), ("image", 1, 1)])
-def test_five_images_take_five_exposures(
-    scene: Scene, path: str, planned: int, projections: int
-) -> None:
+def test_five_whole_pictures_take_five_exposures_and_a_plan(scene: Scene) -> None:
     with count_calls() as calls:
-        occ.success_rate(scene, images=5, path=path)  # type: ignore[arg-type]
-    # One more for the common plan, which is not needed if only columns are studied; the profile
-    # path checks once whether the panel is upright.
-    assert calls == {"lit_fraction": planned + 5, "panel_corners": projections + 5}
+        occ.success_rate(scene, images=5, path="image")
+    assert calls == {"lit_fraction": 6, "panel_corners": 6}
+
+
+def test_five_pictures_of_a_batch_are_exposed_together(scene: Scene) -> None:
+    with count_calls() as calls:
+        occ.success_rate(scene, images=5, path="auto")
+    assert calls["lit_fractions"] == 1
+    assert calls["lit_fraction"] == 0
+    assert calls["panel_corners"] <= 1  # kept from an earlier study of the same geometry
 
 
 def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:

@@ -40,6 +40,7 @@ from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory
 from occ_model.study.limits import advice_of, limits_of
 from occ_model.study.most_bits import DECODERS as MOST_BITS_DECODERS, most_bits
+from occ_model.study.success_rate import check_rate
 from occ_model.study.working_range import READ_RATE
 
 _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
@@ -87,16 +88,17 @@ def _run(options: argparse.Namespace) -> int:
 
 def _print_limits(options: argparse.Namespace, scene: Scene) -> int:
     decoders = tuple(dict.fromkeys(options.decoder or DECODERS))
+    settings = RateSettings(options.images, decoders, options.seed)
+    check_rate(scene, settings)
+    for line in _heading_lines(scene, options):
+        print(line, flush=True)
     with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
 
         def show(fraction: float, what: str) -> None:
             bar.set_description_str(what, refresh=False)
             bar.update(round(100.0 * fraction) - bar.n)
 
-        settings = RateSettings(options.images, decoders, options.seed)
         answers = limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show)
-    for line in _heading_lines(scene, options):
-        print(line)
     for limits in answers:
         print(format_row(limits, options.fps))
     for line in sentences(answers, options.fps):

@@ -269,7 +269,7 @@ def search_sentences(limits: Limits) -> list[str]:
     """State the confidence of the ends, and what the search can miss."""
     step = 100.0 * (limits.frequency.step - 1.0)
     step_sentence = (
-        f"Values were tried in steps of {step:.0f} %: a narrower gap or interval can be missed."
+        f"Values were tried in steps of {step:.2g} %: a narrower gap or interval can be missed."
     )
     if not limits.frequency.intervals and not limits.exposure.intervals:
         return [step_sentence]

@@ -9,23 +9,18 @@ light is computed once for all pictures of a scene, whatever their frequency and
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, islice
-from typing import Any
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.exposure import lit_fractions
 from occ_model.camera.grey_law import GreyLaw, grey_law
-from occ_model.camera.interpolation import Places, divide_weights, interpolate_at
+from occ_model.camera.interpolation import Places, interpolate_at
 from occ_model.camera.photometry import (
-    ColumnLight,
-    panel_values,
     saturate,
-    surroundings_values,
 )
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import FileEffect, LightEffect, PixelEffect
+from occ_model.effects.effect import FileEffect, PixelEffect
 from occ_model.effects.noise import noise_of
 from occ_model.effects.registry import effects_named
 from occ_model.receiver.decode import decode
@@ -33,16 +28,24 @@ from occ_model.receiver.signal import bright_level
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene
 from occ_model.study.signals.bands import Bands, bands_of, column_gains, without_light
+from occ_model.study.signals.exposed import (
+    Image,
+    PixelLevels,
+    as_one_band,
+    columns_of,
+    even_out,
+    expose,
+    interpolate_each,
+    some_bands,
+    some_bands_of,
+    weights_of_levels,
+)
 from occ_model.study.signals.grey_tables import (
     GREYS,
-    GreyTable,
     StoredMeans,
     moved_after_file,
     places_of_stored,
-    split,
     table_of_file,
-    table_of_law,
-    table_without_noise,
 )
 from occ_model.study.signals.region import BrightPixels
 
@@ -63,17 +66,6 @@ class Observation:
     def read(self, scene: Scene, decoder: str) -> DecodeResult:
         result = decode(self.signal, scene, decoder)
         return result if self.region is None else replace(result, region=self.region)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Image:
-    """One picture of a scene, whose own start time and flicker's phase are not used."""
-
-    scene: Scene
-    included: frozenset[str]  # Names of the effects
-    start_time: float
-    flicker_phase: float
-    random: np.random.Generator
 
 
 def simulate_images(images: Sequence[Image]) -> Iterator[Observation]:
@@ -115,52 +107,6 @@ def _alike(images: Sequence[Image]) -> Iterator["_Pictures"]:
             yield _Pictures(part, bands)
 
 
-def _expose(images: Sequence[Image]) -> tuple[FloatArray, FloatArray]:
-    """Return pixel values on the panel, (images, columns), and beside it, perhaps in one column."""
-    panels, arounds = [], []
-    for _, group in groupby(images, lambda image: id(image.scene)):
-        of_scene = list(group)
-        scene = of_scene[0].scene
-        starts = [image.start_time for image in of_scene]
-        phases = [image.flicker_phase for image in of_scene]
-        light = ColumnLight(np.ones((1, 1)), np.ones((len(starts), 1)))
-        effects = effects_named(of_scene[0].included, LightEffect)
-        if not any(effect.sets_panel_light(scene) for effect in effects):
-            light = replace(light, lit=lit_fractions(scene, starts))
-        for effect in effects:
-            light = effect.apply_to_images(scene, light, starts, phases)
-        panels.append(panel_values(scene, light))
-        arounds.append(surroundings_values(scene, light))
-    width = max(around.shape[1] for around in arounds)
-    wide = [np.broadcast_to(around, (len(around), width)) for around in arounds]
-    return np.concatenate(panels), np.concatenate(wide)
-
-
-def _even_out(panel: FloatArray) -> FloatArray:
-    """Make values equal that differ only by rounding, since they could round to two levels."""
-    low = panel.min(axis=1, keepdims=True)
-    return np.where(panel.max(axis=1, keepdims=True) - low < 1e-9, low, panel)
-
-
-class _Pixels:
-    """The law of a pixel's grey level by its mean value, for many pictures at once."""
-
-    def __init__(self, law: GreyLaw | None) -> None:
-        self.law = law
-        self.table = table_without_noise() if law is None else table_of_law(law)
-
-    def places(self, values: Pixels | FloatArray) -> Places:
-        """Return the places of pixel values in the table."""
-        if self.law is None:
-            return to_bytes(values).astype(np.intp), np.zeros(values.shape, dtype=np.float32)
-        return split(self.law.levels_of(values.astype(np.float32)), len(self.table.below))
-
-
-def _part(places: Places, columns: slice) -> Places:
-    """Return the places of some columns as those of one band."""
-    return places[0][:, None, columns], places[1][:, None, columns]
-
-
 class _Pictures:
     """Some pictures of scenes that differ only in light."""
 
@@ -169,16 +115,16 @@ class _Pictures:
         self._scene = scene = images[0].scene
         self._randoms = [image.random for image in images]
         included = images[0].included
-        panel, around = _expose(images)
+        panel, around = expose(images)
         noise, law = noise_of(scene, included), None
         if noise is None:
             for limit in effects_named(included, PixelEffect):
                 panel, around = limit.apply(scene, panel), limit.apply(scene, around)
-            panel, around = _even_out(saturate(panel)), saturate(around)
+            panel, around = even_out(saturate(panel)), saturate(around)
         else:
             law = grey_law(noise, max(float(panel.max()), float(around.max())))
         self._panel, self._around = panel, around
-        self._pixels = _Pixels(law)
+        self._pixels = PixelLevels(law)
         self._places = self._pixels.places(panel)
         self._enhancements = self._enhance()
         self._curves = np.array([each.curve for each in self._enhancements], dtype=np.float64)
@@ -195,7 +141,7 @@ class _Pictures:
         if pixels.law is not None:
             ends = interpolate_at(pixels.law.means, pixels.places(ends))
         weights = np.full(panel.shape, float(self._scene.camera.rows), dtype=np.float32)
-        counts = pixels.table.histograms(_weights_of_levels(self._places, weights, pixels.table))
+        counts = pixels.table.histograms(weights_of_levels(self._places, weights, pixels.table))
         method = self._scene.model.enhancement
         return [Enhancement(end, method, own) for end, own in zip(ends, counts, strict=True)]
 
@@ -267,7 +213,7 @@ class _Pictures:
             return None
         tables = self._table.means_of(self._curves)
         slopes = np.gradient(tables, axis=1) * self._levels_a_gain(law)
-        slope = _interpolate(slopes, _some_bands(inside))
+        slope = interpolate_each(slopes, some_bands(inside))
         camera, variation = self._scene.camera, law.noise.gain_variation
         gains = column_gains(
             variation, self._scene.sensor.sensor_seed, (camera.rows, camera.columns), span
@@ -286,12 +232,12 @@ class _Pictures:
     def _mean_over_bands(self, inside: Places, mixed: Places) -> tuple[FloatArray, FloatArray]:
         """Return the mean of pixels of the receiver's picture, and their variance in a band."""
         part = self.bands.panel
-        mean = _interpolate(self._table.means_of(self._curves), inside)
+        mean = interpolate_each(self._table.means_of(self._curves), inside)
         is_panel = bool((part == 1.0).all())
         variance: FloatArray = np.zeros((len(mean), mean.shape[2]))
         if self._pixels.law is not None:
-            square = _interpolate(self._table.means_of(self._curves**2), _some_bands(inside))
-            own = _some_bands_of(mean)
+            square = interpolate_each(self._table.means_of(self._curves**2), some_bands(inside))
+            own = some_bands_of(mean)
             variance = np.maximum(square - own**2, 0.0).mean(axis=1, dtype=np.float64)
         known = self._known_gains(inside)
         if known is not None:
@@ -299,7 +245,7 @@ class _Pictures:
             variance = np.maximum(variance - known[1], 0.0)
         if not is_panel:
             columns = np.flatnonzero((part != 1.0).any(axis=0))
-            off, variance_off = self._identity_moments(_columns_of(mixed, columns))
+            off, variance_off = self._identity_moments(columns_of(mixed, columns))
             mean[:, :, columns] += (1.0 - part[:, columns]) * (off - mean[:, :, columns])
             fraction = part[:, columns].mean(axis=0)
             variance[:, columns] *= fraction
@@ -323,7 +269,7 @@ class _Pictures:
         if bands.light is None:
             around = pixels.places(self._around)
             seen = bands.columns if around[0].shape[1] > 1 else slice(None)
-            return _part(self._places, bands.columns), _part(around, seen), beside
+            return as_one_band(self._places, bands.columns), as_one_band(around, seen), beside
         values = bands.expose(
             self._panel[:, bands.columns], self._seen(self._around), self._scene.camera
         )
@@ -349,20 +295,20 @@ class _Pictures:
     def _draw_regions(self, inside: Places, mixed: Places, beside: Places) -> list[Region]:
         """Draw the rectangle in which a receiver finds the panel, for each picture."""
         bands, table = self.bands, self._table
-        inside, mixed = _some_bands(inside), _some_bands(mixed)
-        part = _some_bands_of(bands.panel[None])[0]
+        inside, mixed = some_bands(inside), some_bands(mixed)
+        part = some_bands_of(bands.panel[None])[0]
         levels = self._bright_levels(inside, mixed, beside, part)
         # The enhancement never falls: a pixel is bright after it if it is before.
         before = np.array([
             np.searchsorted(curve, level) for curve, level in zip(self._curves, levels, strict=True)
         ])  # fmt: skip
-        bright = _interpolate(table.fractions_from(before), inside)
+        bright = interpolate_each(table.fractions_from(before), inside)
         unenhanced = table.fractions_from(levels)
         if (part != 1.0).any():
             columns = np.flatnonzero((part != 1.0).any(axis=0))
-            off = _interpolate(unenhanced, _columns_of(mixed, columns))
+            off = interpolate_each(unenhanced, columns_of(mixed, columns))
             bright[:, :, columns] += (1.0 - part[:, columns]) * (off - bright[:, :, columns])
-        around = _interpolate(unenhanced, beside).astype(np.float32)
+        around = interpolate_each(unenhanced, beside).astype(np.float32)
         shape = len(around), bands.size[1]
         everywhere = np.empty((shape[0], len(part), shape[1]), dtype=np.float32)
         everywhere[:] = around[:, None]
@@ -403,47 +349,4 @@ class _Pictures:
         if places[0].shape[-1] == 1:
             weights = weights.sum(axis=-1, keepdims=True)
         weights = np.broadcast_to(weights, places[0].shape)
-        return self._table.histograms(_weights_of_levels(places, weights, self._table))
-
-
-_SOME_BANDS = 4  # bands that suffice to find the panel, and to measure the noise
-
-
-def _some_bands(places: Places) -> Places:
-    return _some_bands_of(places[0]), _some_bands_of(places[1])
-
-
-def _some_bands_of(values: Any) -> Any:
-    """Return some of the bands, evenly from the first to the last: shape (images, bands, ...)."""
-    count = values.shape[1]
-    if count <= _SOME_BANDS:
-        return values
-    return values[:, np.linspace(0, count - 1, _SOME_BANDS).round().astype(int)]
-
-
-def _columns_of(places: Places, columns: IndexArray) -> Places:
-    if places[0].shape[-1] == 1:
-        return places
-    return places[0][..., columns], places[1][..., columns]
-
-
-def _weights_of_levels(places: Places, weights: Pixels, table: GreyTable) -> FloatArray:
-    """Return the sums of weights at each level of a table, for each picture: (images, levels)."""
-    below, fraction = places
-    count, levels = len(below), len(table.below)
-    offset = (np.arange(count) * levels).reshape(-1, *(1,) * (below.ndim - 1))
-    sums = divide_weights(np.asarray(weights, float), (below + offset, fraction), count * levels)
-    return sums.reshape(count, levels)
-
-
-def _interpolate(tables: FloatArray, places: Places) -> Pixels:
-    """Interpolate a table of its own, (images, levels), for each picture, in single precision."""
-    below, fraction = places
-    values = tables.astype(np.float32)
-    steps = np.zeros_like(values)
-    np.subtract(values[:, 1:], values[:, :-1], out=steps[:, :-1])
-    at = below + (np.arange(len(tables)) * tables.shape[1]).reshape(-1, *(1,) * (below.ndim - 1))
-    found = steps.ravel().take(at)
-    found *= fraction
-    found += values.ravel().take(at)
-    return np.asarray(found)
+        return self._table.histograms(weights_of_levels(places, weights, self._table))

@@ -13,7 +13,8 @@ from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import render_plan
-from occ_model.study.signals.batch import Image, Observation, simulate_images
+from occ_model.study.signals.batch import Observation, simulate_images
+from occ_model.study.signals.exposed import Image
 from occ_model.transmitter.scheme import sent_chips
 
 _SEEDS = 2**32

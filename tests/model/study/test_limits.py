@@ -471,3 +471,39 @@ def test_the_rate_at_the_scenes_own_values_is_that_of_its_own_code(
         "  At 10 kHz it read 19 of 20 pictures of code 5, 95 % of the bits (76.4 to 99.1 %): "
         "190 bits a second, if others are read as well."
     ) in lines
+
+
+def searches_with_a_gap(
+    decoding: Decoding, in_gap: float, elsewhere: float, trials: int
+) -> Iterator[bool]:
+    """Yield whether a search lists a gap of 4 % that reads so much, anywhere, between others."""
+    for trial in range(trials):
+        random = np.random.default_rng([trial, 8])
+        first = float(np.exp(random.uniform(np.log(3e3), np.log(15e3))))
+
+        def fraction(frequency: float, image: int, seed: int, first: float = first) -> float:
+            if not 1e3 <= frequency <= 20e3:
+                return 0.0
+            rate = in_gap if first <= frequency <= 1.04 * first else elsewhere
+            key = [seed, round(frequency * 1e3), image]
+            return float(np.random.default_rng(key).random() < rate)
+
+        decoding(fraction)
+        settings = RateSettings(20, ("threshold",), 100 + trial)
+        found = module.working_range(SCENE, "switching_frequency", 99.0, settings)
+        gaps = [(end.value, following.value) for end, following in found.gaps]
+        yield any(low < 1.04 * first and high > first for low, high in gaps)
+
+
+@pytest.mark.parametrize(("rate", "chance"), [(0.45, 0.97), (0.8, 0.67)])
+def test_a_gap_of_4_percent_is_found_with_the_stated_chance(
+    decoding: Decoding, rate: float, chance: float
+) -> None:
+    trials = amount(60, 400)
+    found = sum(searches_with_a_gap(decoding, rate, 1.0, trials))
+    assert found / trials > chance - 2.5 * math.sqrt(chance * (1.0 - chance) / trials)
+
+
+def test_few_searches_list_a_gap_where_none_is(decoding: Decoding) -> None:
+    trials = amount(20, 100)
+    assert sum(searches_with_a_gap(decoding, 0.998, 0.998, trials)) <= 0.1 * trials

@@ -13,7 +13,8 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate as module
-from occ_model.study.signals.batch import Image, Observation, simulate_images
+from occ_model.study.signals.batch import Observation, simulate_images
+from occ_model.study.signals.exposed import Image
 from occ_model.study.signals.pictures import observe_images, picture_itself
 
 

@@ -12,7 +12,8 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import render_plan
 from occ_model.study.signals.bands import bands_of, without_light
-from occ_model.study.signals.batch import Image, Observation, simulate_images
+from occ_model.study.signals.batch import Observation, simulate_images
+from occ_model.study.signals.exposed import Image
 from occ_model.study.signals.pictures import image_of, picture_itself
 
 SIGNAL = SimulationSettings(observable="signal")

@@ -12,12 +12,15 @@
   trials of other codes, start times, 4 to 60 kHz, 300 to 1800 columns, noise of 0.01 to 32 grey
   levels on the column means, 136 us;
 * ``scheme``: random payloads of 10 bits read of every scheme, at 4 kHz and 68 us;
+* ``together``: processor time of each decoder for 40 pictures, one at a time and all together, in
+  turn in one process;
 * ``line-code``: the highest frequency up to which all of them are read, at 136 us. In both the
   panel is 0.6 m away, the enhancement off; the columns' means have noise of one grey level.
 """
 
 import argparse
 import math
+import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
@@ -29,7 +32,7 @@ from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import level_values
 from occ_model.camera.projection import row_spans
 from occ_model.effects.plan import complete_plan
-from occ_model.receiver.decode import DECODERS
+from occ_model.receiver.decode import DECODERS, decode_profiles
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.bit_error_rate import with_payload
 from occ_model.study.signals.batch import simulate_images
@@ -47,6 +50,7 @@ POSES: dict[str, dict[str, float]] = {
 }
 NOISES = (1.0, 3.0, 10.0)
 BITS = 10
+_TOGETHER = 40  # pictures that are read together
 FREQUENCIES = tuple(np.arange(4e3, 61e3, 2e3).tolist())
 
 
@@ -95,6 +99,30 @@ def print_frequencies(options: argparse.Namespace) -> None:
             for frequency in frequencies.tolist():
                 found = counts(base.replace(switching_frequency=frequency), options.codes)
                 print(f"| {frequency / 1e3:g} kHz | {written(found)} |", flush=True)
+
+
+def print_together(options: argparse.Namespace) -> None:
+    """Print the milliseconds of a picture that is read alone, and their ratio to those in 40."""
+    random = np.random.default_rng(6)
+    print(f"| frequency | {' | '.join(DECODERS)} |\n|---|{'---|' * len(DECODERS)}")
+    for frequency in (4e3, 14e3, 50e3):
+        base = occ.load_preset("phone-136us").replace(switching_frequency=frequency)
+        scenes = [base.replace(start_time=one) for one in random.uniform(0.0, 0.01, _TOGETHER)]
+        signals = [signal_of(scene, random) for scene in scenes]
+        cells = []
+        for name in DECODERS:
+            alone, together = [], []
+            for _ in range(options.rounds):
+                start = time.process_time()
+                for signal, scene in zip(signals, scenes, strict=True):
+                    occ.decode(signal, scene, name)
+                middle = time.process_time()
+                decode_profiles(signals, scenes, name)
+                alone.append(middle - start)
+                together.append(time.process_time() - middle)
+            each = 1e3 * min(alone) / _TOGETHER
+            cells.append(f"{each:.2f} ms, {min(alone) / min(together):.2f} times")
+        print(f"| {frequency / 1e3:g} kHz | {' | '.join(cells)} |", flush=True)
 
 
 def print_wrong_timings(options: argparse.Namespace) -> None:
@@ -259,6 +287,7 @@ PARTS = {
     "pose": print_poses,
     "confidence": print_confidences,
     "scheme": print_schemes,
+    "together": print_together,
     "line-code": print_line_codes,
 }
 
@@ -271,6 +300,7 @@ def main() -> None:
     add("--step", type=float, default=1.0, help="of the frequencies in kHz, default: %(default)s")
     add("--all-codes", type=int, default=1024, help="how many of the 1024 codes in a pose")
     add("--trials", type=int, default=10_000, help="of the confidence, default: %(default)s")
+    add("--rounds", type=int, default=3, help="of which the fastest counts, default: %(default)s")
     add("--jobs", type=int, default=2)
     options = parser.parse_args()
     for part in options.parts or PARTS:

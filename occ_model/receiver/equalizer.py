@@ -42,6 +42,8 @@ _UNKNOWN_CURVE = (
 _MAX_VOTES = 15  # packets to compare; more take longer and change nothing
 _MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that can be undone
 
+_LEAST_LIGHT = 1e-9  # of white, by which the light of columns differs
+
 _WEAK_CHECK = "this scheme does not detect all wrong chips; the framing raw checks the payload."
 
 _SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # of a packet's start, up to a chip
@@ -61,6 +63,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
             "image: they are too few to undo it.",
         )
     light = convert_to_light(signal, scene)
+    if np.ptp(light.values) < _LEAST_LIGHT:
+        return replace(result, failure="No stripes: no column is brighter than black.")
     chip = scene.transmitter.switching_period / camera.readout_time
     equalized = undo_exposure(light.values, exposure, chip, scene.receiver.equalizer) * WHITE
     result = _take_majority(read_by_threshold(equalized, scene), scene)

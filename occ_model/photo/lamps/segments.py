@@ -81,7 +81,9 @@ def segments_of(
             and not _are_pulses(progressions, *coded[:2])
         ):
             begin, end, chip = coded
-            found.append(Segment(strip, edges.part(begin, end), None, chip))
+            part = edges.part(begin, end)
+            cycle = _repeated(part, chip)
+            found.append(Segment(strip, part, cycle, 0.5 * cycle if cycle else chip))
         elif period:
             found.append(Segment(strip, edges.part(begin, end), period, 0.5 * period))
         else:
@@ -90,6 +92,13 @@ def segments_of(
             if right - left >= LEAST_EDGES:
                 waiting.append((left, right, clipped_to(progressions, left, right)))
     return found
+
+
+def _repeated(edges: Edges, chip: float) -> float | None:
+    """Return the period where all edges of a kind are as many chips apart: a pulse that repeats."""
+    apart = [np.diff(edges.place[edges.rises == kind]) / chip for kind in (True, False)]
+    turns = np.rint(np.concatenate(apart))
+    return float(turns[0]) * chip if (turns == turns[0]).all() and turns[0] > 0 else None
 
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:

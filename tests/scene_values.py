@@ -37,7 +37,7 @@ def _matrix_text(numbers: list[int]) -> str:
     rows = (numbers[first : first + 3] for first in (0, 3, 6))
     # A large diagonal can be inverted.
     return " / ".join(
-        " ".join(f"{(number + 10 * (row == column)) / 4:g}" for column, number in enumerate(line))
+        " ".join(f"{(number + 10 * (row == column)) / 16:g}" for column, number in enumerate(line))
         for row, line in enumerate(rows)
     )
 

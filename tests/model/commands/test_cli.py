@@ -299,14 +299,15 @@ def test_a_calibration_gives_the_matrix_that_the_camera_has(
         lit = {"red": 0, "green": 1, "blue": 2}.get(colour)
         matrix = np.array([[0.8, 0.15, 0.05], [0.1, 0.6, 0.3], [0.05, 0.2, 0.75]])
         # The light of one LED alone is that of its column of the matrix, white on each channel.
-        share = np.full(3, 1e-3) if lit is None else matrix[:, lit]
+        share = np.ones(3) if lit is None else matrix[:, lit]
         diagonal = " / ".join(
             " ".join(f"{share[row] if row == column else 0.0:g}" for column in range(3))
             for row in range(3)
         )
         steady = full.replace(
-            mixing=diagonal, colour_light="white", light="waveform", levels="1", illuminance=0.0
-        )
+            mixing=diagonal, colour_light="white", light="waveform", levels="1", illuminance=0.0,
+            luminance=0.0 if lit is None else 3600.0,
+        )  # fmt: skip
         names.append(tmp_path / f"{colour}.png")
         Image.fromarray(occ.render_colour(steady, tolerance=float("inf")).image).save(names[-1])
     read = command("decode", tmp_path / "x.png", *COLOUR, "--calibration", *names)

@@ -8,6 +8,7 @@ from occ_model.receiver.csk import shares
 from occ_model.scene.csk import PARTS, POINTS, bits_of, symbols_of
 from occ_model.scene.parameters.colour import CSK_ORDERS
 from occ_model.scene.scene import Scene
+from occ_model.teaching.lessons import lessons
 
 PHONE_MATRIX = "0.864 0.044 0.091 / 0.129 0.222 0.649 / 0.029 0.045 0.926"
 
@@ -38,8 +39,8 @@ def test_mixed_codes_need_the_matrix() -> None:
     # Solving this matrix makes green's noise 6.6 times as large: it takes more rows.
     scene = small(mixing=PHONE_MATRIX, demosaicing="none").replace(rows=1152, panel_height=0.15)
     image = occ.render_colour(scene).image
-    assert codes_of(occ.decode_colours(image, scene)) == (718, 345, 201)
-    reading = occ.decode_colours(image, scene.replace(mixing="", crosstalk=0.0))
+    assert codes_of(occ.decode_colours(image, scene, "matched")) == (718, 345, 201)
+    reading = occ.decode_colours(image, scene.replace(mixing="", crosstalk=0.0), "matched")
     assert codes_of(reading)[1] != 345
     assert "green" in str(reading)
 
@@ -146,3 +147,15 @@ def test_one_code_in_one_colour_leaves_the_others_steady() -> None:
     reading = occ.decode_colours(occ.render_colour(scene).image, scene)
     assert reading.results[1].code == 718
     assert [result.code for result in (reading.results[0], reading.results[2])] == [None, None]
+
+
+@pytest.mark.parametrize(("chroma", "read"), [("subsampled", (718, 345, None)), ("full", None)])
+def test_a_file_loses_blue_first_as_the_lesson_says(
+    chroma: str, read: tuple[int | None, ...] | None
+) -> None:
+    lesson = next(lesson for lesson in lessons().lessons if lesson.name.startswith("colour"))
+    scene = lesson.steps[-1].scene.replace(chroma=chroma)
+    for seed in (1, 7):
+        image = occ.render_colour(scene, seed=seed).image
+        reading = occ.decode_colours(image, scene, lesson.steps[-1].decoder)
+        assert codes_of(reading) == (read or (718, 345, 201))

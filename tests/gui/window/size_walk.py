@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 
 from gui.layout_faults import find_cut_axis_labels, find_cut_texts, find_faults
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QEvent, QSize
 from PySide6.QtWidgets import QApplication, QTabWidget
 from shiboken6 import isValid
 
@@ -30,6 +30,9 @@ def walk(
     for size in sizes:
         window.resize(size)
         for place in _list_places(application, settle):
+            # A report that has just come may have changed a text that is not laid out yet.
+            for _ in range(4):
+                QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
             found = [*find_faults(window), *find_cut_texts(window)]
             found += [f"axis {text!r}" for text in find_cut_axis_labels(window)]
             if window.size() != size:

@@ -221,7 +221,8 @@ class StateBar(QWidget):
 
 
 def _count_lines(metrics: QFontMetrics, text: str, room: int) -> int:
-    if room <= 0 or metrics.horizontalAdvance(text) <= room:
+    # Qt rounds the width of a text, and would shorten one that is a fraction of a pixel wider.
+    if room <= 0 or metrics.horizontalAdvance(text) < room:
         return 1
     box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
     # A word that is wider than the room is cut off, however many lines there are.

@@ -50,10 +50,10 @@ def test_the_bar_and_the_decoding_pane_agree(application: Application, user: Use
         assert (bar.state is State.GOOD) == is_read
         states.add(bar.state)
         if is_read:
-            assert pane.verdict.text() == f"✓ {bar.title.toolTip()}"
+            assert pane.verdict.text() == f"✓ {bar.title.text()}"
         else:
             assert pane.verdict.text() == "✗ No code read"
-            assert bar.title.toolTip().startswith("No code: ")
+            assert bar.title.text().startswith("No code: ")
     assert states >= {State.GOOD, State.BAD}
 
 

@@ -88,6 +88,14 @@ class EffectDetail(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._limit_pictures()
+        if event.oldSize().width() != event.size().width():
+            self.updateGeometry()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a height with room for all lines of the texts, not for one of each."""
+        least, layout = super().minimumSizeHint(), self.layout()
+        height = layout.minimumHeightForWidth(self.width()) if layout is not None else 0
+        return QSize(least.width(), max(least.height(), height))
 
     def _limit_pictures(self) -> None:
         self.pictures.setMaximumHeight(self.pictures.height_for(self.width() - _GAP))

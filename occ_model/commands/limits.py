@@ -38,7 +38,7 @@ from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory
-from occ_model.study.limits import advice_of, limits_of
+from occ_model.study.limits import advice_of, check_search, limits_of
 from occ_model.study.most_bits import DECODERS as MOST_BITS_DECODERS, most_bits
 from occ_model.study.success_rate import check_rate
 from occ_model.study.working_range import READ_RATE
@@ -77,6 +77,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
     FRAME_RATE.check(options.fps)
+    check_search(options.rate, options.jobs)
     if not is_colour(scene):
         return _print_limits(options, scene)
     codes = []

@@ -100,8 +100,7 @@ def limits_of(
     progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them."""
-    required_rate = _check_wanted_rate(rate)
-    check_count("jobs", jobs, 1, MOST_PROCESSES)
+    required_rate = check_search(rate, jobs)
     searches = []
     for decoder in settings.decoders:
         decoder_settings = replace(settings, decoders=(decoder,))
@@ -204,7 +203,9 @@ def _unwrap_result(result: JobResult) -> Any:
     return result.value
 
 
-def _check_wanted_rate(rate: object) -> float:
+def check_search(rate: object, jobs: object) -> float:
+    """Return the rate that counts as read; raise ParameterError if it or ``jobs`` is refused."""
+    check_count("jobs", jobs, 1, MOST_PROCESSES)
     if not is_number(rate) or not 0.0 < rate <= 100.0:
         raise ParameterError.of("rate", f"{quote(rate)} %", "above 0 % to 100 %")
     return float(rate)

@@ -31,6 +31,7 @@ WITHOUT_FILES = {
     "film-study --frequencies ,": "switching_frequency is '', which is not a number in kHz",
     "film-study --gaps 10,": "gaps has ''; allowed: numbers",
     "limits --jobs 3": "jobs is 3; allowed: a whole number from 1 to 2.",
+    "limits --rate 0": "rate is 0.0 %; allowed: above 0 % to 100 %.",
     f"sweep --vary distance=1 --images {'9' * 4000}": "a whole number from 1 to 1,000,000.",
     "sweep --vary iso=100:4000:1 --vary distance=1:2:x300": "1,170,300 points; allowed",
     "sweep --vary distance=1 --on jpeg --off jpeg": "both on and off",

@@ -108,23 +108,17 @@ def right_bits_of_images(
     scene: Scene,
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
-    chosen: Plan | None = None,
     at_once: int = 1,
 ) -> Iterator[tuple[int, ...]]:
     """Yield the number of bits that each decoder reads correctly, image by image.
 
-    ``chosen``: the effects to simulate, by default those that the scene's own signal needs.
     ``at_once``: images that are read first, more if more are asked for.
     """
     check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     pictures = _pictures_of(scene, settings)
-    for first, last in _batches(settings, at_once):
-        observations = (
-            _observe_cached(pictures, first, last)
-            if chosen is None
-            else observe_batch(pictures, chosen, first, last)
-        )
+    for numbers in _batches(settings, at_once):
+        observations = _observe_cached(pictures, numbers)
         scenes = [scene] * len(observations)
         results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
         for of_image in zip(*results, strict=True):
@@ -135,12 +129,12 @@ def right_bits_of_images(
 _MOST_AT_ONCE = 40  # images that are simulated and read at once
 
 
-def _batches(settings: RateSettings, count: int) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last number of images that are read at once."""
+def _batches(settings: RateSettings, count: int) -> Iterator[range]:
+    """Yield the numbers of images that are read at once."""
     first, count = 0, 1 if settings.path == "image" else count
     while first < settings.images:
         last = min(first + count, settings.images)
-        yield first, last
+        yield range(first, last)
         first = last
         if settings.path != "image":
             count = min(4 * count, _MOST_AT_ONCE)
@@ -235,23 +229,19 @@ def forget_images() -> None:
 
 
 def _observe_cached(
-    pictures: _StudyPictures, first: int, last: int
+    pictures: _StudyPictures, numbers: Sequence[int]
 ) -> tuple[Observation | None, ...]:
-    keys = [(pictures, number) for number in range(first, last)]
-    if any(key not in _observed for key in keys):
+    """Return the signals of some pictures, simulated if they are not kept from before."""
+    keys = {number: (pictures, number) for number in numbers}
+    found = {number: _observed[key] for number, key in keys.items() if key in _observed}
+    missing = [number for number in numbers if number not in found]
+    if missing:
         chosen = _plan_cached(pictures)
-        _keep(keys, observe_batch(pictures, chosen, first, last))
-    return tuple(_observed[key] for key in keys)
-
-
-def observe_batch(
-    pictures: _StudyPictures, chosen: Plan, first: int, last: int
-) -> tuple[Observation | None, ...]:
-    """Simulate the signals of some pictures; None where no panel is found."""
-    images = [
-        image_of(pictures.scene, chosen, pictures.seed, number) for number in range(first, last)
-    ]
-    return tuple(observe_images(images, pictures.path, chosen))
+        images = [image_of(pictures.scene, chosen, pictures.seed, number) for number in missing]
+        observations = list(observe_images(images, pictures.path, chosen))
+        _keep([keys[number] for number in missing], observations)
+        found |= zip(missing, observations, strict=True)
+    return tuple(found[number] for number in numbers)
 
 
 def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:

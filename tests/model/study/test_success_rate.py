@@ -133,3 +133,17 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     assert rates == [100.0 * each / 30 for each in right]
     occ.success_rate(at, 3, seed=82)
     assert len(simulated) == 9
+
+
+def test_a_rate_does_not_depend_on_which_of_its_pictures_are_kept_from_before(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # So far away that two headers fit only at some start times.
+    at = occ.load_preset("phone-136us").replace(switching_frequency=4e3, distance=1.8)
+    alone = occ.success_rate(at, 10, seed=83)
+    assert 0.0 < alone < 100.0
+    monkeypatch.setattr(module, "_MOST_KEPT", 12)
+    module.forget_images()
+    occ.success_rate(at, 5, seed=83)
+    occ.success_rate(at, 7, seed=84)  # now those of the first rate are the oldest
+    assert occ.success_rate(at, 10, seed=83) == alone

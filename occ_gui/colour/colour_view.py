@@ -116,12 +116,11 @@ class ColourView(QWidget):
 
 def verdict_of(reading: ColourReading) -> str:
     """Return the verdicts of all colours in one line, with a mark for each."""
-    marks = {
-        name: "✗" if result.failure is not None else "✓"
+    descriptions = reading.descriptions
+    return "   ".join(
+        f"{'✓' if result.failure is None else '✗'} {descriptions[name]}"
         for name, result in reading.by_colour.items()
-    }
-    parts = str(reading).split(", ")
-    return "   ".join(f"{marks[part.split()[0]]} {part}" for part in parts)
+    )
 
 
 def reasons_of(reading: ColourReading) -> str:

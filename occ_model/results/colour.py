@@ -68,8 +68,13 @@ class ColourReading:
         names = COLOURS if len(self.results) == len(COLOURS) else ("colours",)
         return dict(zip(names, self.results, strict=True))
 
+    @property
+    def descriptions(self) -> dict[str, str]:
+        """What each colour says, after its name: a code, a payload, or that it is not read."""
+        return {name: f"{name} {_describe(result)}" for name, result in self.by_colour.items()}
+
     def __str__(self) -> str:
-        return ", ".join(f"{name} {_describe(result)}" for name, result in self.by_colour.items())
+        return ", ".join(self.descriptions.values())
 
 
 def _describe(result: DecodeResult) -> str:

@@ -83,3 +83,8 @@ def test_each_reason_is_stated_once() -> None:
     reading = ColourReading((failed, right, failed), None)
     assert verdict_of(reading) == "✗ red not read   ✓ green 5   ✗ blue not read"
     assert reasons_of(reading) == "Red, blue: No header."
+
+
+def test_a_payload_may_have_commas() -> None:
+    reading = ColourReading((DecodeResult("csk", payload="one, two"),), None)
+    assert verdict_of(reading) == "✓ colours one, two"

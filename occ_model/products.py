@@ -11,7 +11,10 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-_MOST_TERMS = 2**17  # of a product; OpenBLAS takes one thread up to 2^18
+MOST_MULTIPLIED = 2**18
+"""Multiplications of a product of matrices up to which OpenBLAS takes one thread."""
+
+_MOST_TERMS = MOST_MULTIPLIED // 2  # of a product here
 _DEPENDENT = 1e-13  # squared distance of a unit row from the others' combinations that is none
 _SQUARINGS = 20  # of a matrix, after which eigenvalues a millionth smaller than the first are gone
 _LONGEST_DOT = 2**13  # of two vectors; OpenBLAS takes one thread up to 10,000

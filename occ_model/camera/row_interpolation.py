@@ -13,10 +13,9 @@ from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
+from occ_model.products import MOST_MULTIPLIED
 
 NODES = 6  # nodes of a band
-
-_MOST_PRODUCTS = 2**18  # in a product of matrices of which BLAS makes no parts
 
 TOLERANCE = 2e-3  # largest error of mean values in grey levels, far below that of rounding to bytes
 
@@ -40,7 +39,7 @@ def apply_weights(weights: Pixels, values: Pixels) -> Pixels:
     Some columns at a time are so few that BLAS starts no threads, which would compete with those
     that compute the bands.
     """
-    width = max(_MOST_PRODUCTS // weights.size, 1)
+    width = max(MOST_MULTIPLIED // weights.size, 1)
     out = np.empty((len(weights), values.shape[1]), dtype=np.float32)
     for start in range(0, values.shape[1], width):
         columns = slice(start, start + width)

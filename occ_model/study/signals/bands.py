@@ -88,13 +88,13 @@ def bands_of(scene: Scene, included: frozenset[str]) -> Bands:
         optics = effect.apply(scene, optics)
     span = region_of(optics.outline, rows, columns)
     if span is None:
-        return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
+        return _without_panel(size)
     has_file = any(each.is_present(scene) for each in effects_named(included, FileEffect))
     if optics.is_plain and not has_file:
         first, last = column_spans(optics.outline, rows, columns)
         seen = np.flatnonzero(last > first)
         if not len(seen):
-            return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
+            return _without_panel(size)
         span = Region(
             int(first[seen].min()), int(last[seen].max()), int(seen[0]), int(seen[-1]) + 1
         )
@@ -102,6 +102,10 @@ def bands_of(scene: Scene, included: frozenset[str]) -> Bands:
         part = ((last - first) / span.rows).astype(np.float32)[None, seen_columns]
         return Bands(size, span, seen_columns, part, None, None, None, None)
     return _sample_rows(scene, optics, span)
+
+
+def _without_panel(size: tuple[int, int]) -> Bands:
+    return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
 
 
 def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
@@ -113,7 +117,7 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
     )
     lit = np.flatnonzero(covered.any(axis=0))
     if not len(lit):
-        return Bands(size, None, slice(0), np.zeros((1, 0), np.float32), None, None, None, None)
+        return _without_panel(size)
     first, last = int(lit[0]) // BLOCK * BLOCK, (int(lit[-1]) // BLOCK + 1) * BLOCK
     seen = slice(first, min(last, columns))
     light: Pixels = covered[:, seen].astype(np.float32)

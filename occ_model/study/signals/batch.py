@@ -16,9 +16,8 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.grey_law import GreyLaw, grey_law
 from occ_model.camera.interpolation import Places, interpolate_at
-from occ_model.camera.photometry import (
-    saturate,
-)
+from occ_model.camera.photometry import saturate
+from occ_model.camera.pixel_noise import GREYS
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import FileEffect, PixelEffect
 from occ_model.effects.noise import noise_of
@@ -41,7 +40,6 @@ from occ_model.study.signals.exposed import (
     weights_of_levels,
 )
 from occ_model.study.signals.grey_tables import (
-    GREYS,
     StoredMeans,
     moved_after_file,
     places_of_stored,

@@ -16,12 +16,7 @@ from occ_model.camera.photometry import ColumnLight, panel_values, surroundings_
 from occ_model.effects.effect import LightEffect
 from occ_model.effects.registry import effects_named
 from occ_model.scene.scene import Scene
-from occ_model.study.signals.grey_tables import (
-    GreyTable,
-    split,
-    table_of_law,
-    table_without_noise,
-)
+from occ_model.study.signals.grey_tables import GreyTable, split, table_of_law, table_without_noise
 
 
 @dataclass(frozen=True, eq=False, slots=True)

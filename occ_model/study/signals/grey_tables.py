@@ -16,14 +16,10 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.interpolation import Places
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.normal_noise import (
-    density_at_boundaries,
-    square_of_rounded_noise,
-)
+from occ_model.camera.pixel_noise import GREYS
+from occ_model.effects.normal_noise import density_at_boundaries, square_of_rounded_noise
+from occ_model.products import MOST_MULTIPLIED
 
-GREYS = 256
-_MOST_MULTIPLIED = 2**18
-"""Multiplications of a product of matrices below which a library starts no threads."""
 _PER_GREY = 2  # levels to a grey level of a file's pixels
 _FILE_LEVELS = (GREYS - 1) * _PER_GREY + 1
 _LEAST_NOISE = 1e-6  # grey levels, in place of none
@@ -34,7 +30,7 @@ _STRIDE = 5  # equal steps from the number of a band to that of the next one
 
 def product(left: FloatArray, right: FloatArray) -> FloatArray:
     """Multiply matrices in parts so small that no threads are started for them."""
-    height = max(_MOST_MULTIPLIED // max(right.size, 1), 1)
+    height = max(MOST_MULTIPLIED // max(right.size, 1), 1)
     if height >= len(left):
         return np.asarray(left @ right)
     return np.concatenate([

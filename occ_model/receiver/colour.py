@@ -95,14 +95,7 @@ class ColourSignals:
 
 def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | None:
     """Find the panel and return the means of its pixels by column; None if there is none."""
-    image = np.asarray(image)
-    is_kind = image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)
-    if image.dtype != np.uint8 or not is_kind or min(image.shape[:2]) < 2:
-        raise DecodeInputError(
-            "Three colours are read from 8-bit pixels of shape (rows, columns, 3), or a raw mosaic "
-            f"(rows, columns), of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
-        )
-    mosaic = mosaic_of(image, scene)
+    mosaic = mosaic_of(_check_image(image), scene)
     rows, columns = (size // 2 for size in mosaic.shape)
     places = [mosaic[place // 2 : 2 * rows : 2, place % 2 : 2 * columns : 2] for place in range(4)]
     # Of one colour alone the mean of four pixels would be as dark as the noise beside the panel.
@@ -121,6 +114,17 @@ def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | No
         2 * part.first_row, 2 * part.last_row, 2 * part.first_column, 2 * part.last_column
     )
     return ColourSignals(scene, region, greys[0], greys[1])
+
+
+def _check_image(image: NDArray[np.uint8]) -> ByteArray:
+    image = np.asarray(image)
+    is_kind = image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)
+    if image.dtype != np.uint8 or not is_kind or min(image.shape[:2]) < 2:
+        raise DecodeInputError(
+            "Three colours are read from 8-bit pixels of shape (rows, columns, 3), or a raw mosaic "
+            f"(rows, columns), of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
+        )
+    return image
 
 
 def _mean_light(pixels: ByteArray, light: FloatArray) -> FloatArray:
@@ -151,10 +155,16 @@ def measure_mixing(pictures: list[NDArray[np.uint8]], scene: Scene) -> Scene:
     ParameterError
         The light of the four pictures gives no matrix that can be inverted.
     DecodeInputError
-        A picture is none of a colour camera, or shows no panel.
+        A picture is none of a colour camera, or shows no panel, or their shapes differ.
     """
     if len(pictures) != 4:
         raise ParameterError.of("pictures", f"{len(pictures)}", "4: red, green, blue and none lit")
+    shapes = [_check_image(picture).shape for picture in pictures]
+    if len(set(shapes)) > 1:
+        raise DecodeInputError(
+            "The four pictures of a calibration must have the same shape, not "
+            f"{', '.join(map(str, shapes))}."
+        )
     lit = colour_signals(pictures[1], scene)
     if lit is None:
         raise DecodeInputError("The picture of the green LED shows no panel.")

@@ -82,6 +82,21 @@ def test_three_pictures_are_no_calibration() -> None:
         occ.measure_mixing([np.zeros((4, 4, 3), np.uint8)] * 3, small())
 
 
+@pytest.mark.parametrize(
+    ("other", "reason"),
+    [
+        (np.zeros((8, 8, 3)), "8-bit pixels"),
+        (np.zeros((8, 6, 3), np.uint8), r"same shape, not \(8, 6, 3\), \(8, 8, 3\)"),
+        (np.zeros((8, 8), np.uint8), "same shape"),
+    ],
+)
+def test_a_calibration_of_other_pictures_is_refused(other: np.ndarray, reason: str) -> None:
+    lit = np.full((8, 8, 3), 9, np.uint8)
+    lit[2:6, 2:6] = 200
+    with pytest.raises(occ.DecodeInputError, match=reason):
+        occ.measure_mixing([other, lit, lit, lit], small())
+
+
 @pytest.mark.parametrize("image", [np.zeros((4, 4)), np.zeros((4, 4, 2), np.uint8), np.uint8(1)])
 def test_other_arrays_are_refused(image: np.ndarray) -> None:
     with pytest.raises(occ.DecodeInputError, match="8-bit pixels"):

@@ -18,6 +18,7 @@ from occ_model.simulation.colour_channels import channel_views
 
 _ROWS = 16  # of a sample of the panel, as many as a block of subsampled chroma has
 _LEAST = 1e-9  # change of what is done even if it changes nothing
+_LEAST_STATED = 1e-6  # levels: less than one grey level of one pixel of a sample
 
 
 def colour_decisions(
@@ -85,6 +86,8 @@ def _rms(change: FloatArray) -> float:
 
 def _decide(name: str, label: str, stage: Stage, estimate: float) -> Decision:
     size = f"about {NONE.format(estimate, 2)} {LEVEL.symbol}" if estimate else "none in this scene"
+    if 0.0 < estimate < _LEAST_STATED:
+        size = "no change in this scene"
     why = "takes less time than its estimate" if estimate else size
     reason = f"{size}, {why}: included" if estimate else f"{size}: left out"
     return Decision(

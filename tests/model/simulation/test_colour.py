@@ -175,3 +175,13 @@ def test_a_blur_acts_on_light_and_not_on_the_mosaic() -> None:
     quiet = {"sensor-noise": False, "fixed-pattern": False}
     image = occ.render_colour(scene, force=quiet).image[100:140, 1000:2000]
     assert np.abs(image[::2].astype(int) - image[1::2]).max() <= 1
+
+
+def test_what_is_done_without_a_change_is_not_said_to_change_anything() -> None:
+    lit = small(
+        light="waveform", levels="1 / 1", colour_light="white", illuminance=0.0, jpeg_quality=95
+    )
+    reasons = {d.effect: d.reason for d in occ.render_colour(lit).plan.decisions}
+    for effect in ("demosaicing", "jpeg"):
+        assert reasons[effect].startswith("no change in this scene, ")
+        assert reasons[effect].endswith(": included")

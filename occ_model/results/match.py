@@ -14,6 +14,7 @@ from occ_model.scene.light_words import (
     frequency_parameter,
     lamp_of_chips,
 )
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, Transmitter
 
 ESTIMATES = ("readout_time", "switching_frequency")
@@ -284,9 +285,8 @@ class Match:
 
     def _count_changes(self, scene: Scene) -> int:
         return sum(
-            not self._is_same(name, scene.value(name), value)
-            for table in self.scene.tables().values()
-            for name, value in table.items()
+            not self._is_same(name, scene.value(name), self.scene.value(name))
+            for name in PARAMETERS
         )
 
     def _is_same(self, name: str, scene_value: object, match_value: object) -> bool:

@@ -132,9 +132,9 @@ class Scene:
         return value
 
     def tables(self) -> dict[str, dict[str, ParameterValue]]:
-        """Return all parameters, one table for each group; none of colour without a colour camera.
+        """Return all parameters, one table for each group.
 
-        A camera without a Bayer pattern has none of them.
+        There is no table of colours if all of them are at their defaults.
         """
         groups = (group for group in GROUPS if group != "colours" or self.colours != Colours())
         return {

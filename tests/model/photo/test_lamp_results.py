@@ -88,6 +88,7 @@ def test_a_lamp_is_measured_and_told_in_its_own_words(photo: occ.Photo, estimate
     )
     again = occ.match_photo(photo, match.scene, sent="scene", estimate=estimate)
     assert again.is_applied_to(match.scene)
+    assert not again.is_applied_to(match.scene.replace(bayer="rggb"))
     said = "\n".join(format_facts(match_facts(match, "if it is a lamp of 850 Hz: ")))
     assert "chip" not in said
     assert "duty cycle            30 %" in said

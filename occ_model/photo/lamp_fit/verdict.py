@@ -1,5 +1,6 @@
 """Why a fit of a lamp's stripes is doubted or refused, in sentences."""
 
+from occ_model.errors import distinct_texts
 from occ_model.photo.lamp_fit.cues import Cues
 
 _MOST_FLOOR, _FLOOR_PART = 0.06, 0.15  # of the stripes' height, and of the floor that is expected
@@ -71,11 +72,12 @@ def _doubts_by_light(cues: Cues, has_note: bool) -> list[str]:
     if cues.floor_expected >= _LIT_GAPS and (
         cues.edges <= _FEW_LOW_EDGES or cues.white > _MOST_WHITE
     ):
+        white, most = distinct_texts(100.0 * cues.white, 100.0 * _MOST_WHITE, 0)
         found.append(
             f"The light between the stripes is {cues.floor_expected:.2g} times as high as they "
             f"are. Of such stripes more than {_FEW_LOW_EDGES} edges are needed, of which "
-            f"{cues.edges} are in view, and at most {100.0 * _MOST_WHITE:.0f} % white columns, of "
-            f"which there are {100.0 * cues.white:.0f} %."
+            f"{cues.edges} are in view, and at most {most} % white columns, of which "
+            f"there are {white} %."
         )
     low, high = _GAMMAS
     if not low <= cues.gamma <= high:

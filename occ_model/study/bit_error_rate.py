@@ -54,7 +54,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     tolerance, force, path
         As for :func:`occ_model.success_rate`.
     heartbeat
-        Called before each picture; an exception from it ends the measurement.
+        Called for each picture; an exception from it ends the measurement.
 
     Raises
     ------

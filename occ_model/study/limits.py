@@ -73,7 +73,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     jobs
         Number of processes, two at most; the answer does not depend on it.
     heartbeat
-        Called before each image, or several times a second while other processes search; an
+        Called for each image, or several times a second while other processes search; an
         exception from it ends the search.
     progress
         Called with the completed fraction of the search, from 0 to 1, and what is being searched.

@@ -72,7 +72,7 @@ def most_bits(
     seed
         Seed of payloads, start times and noise.
     heartbeat
-        Called before each picture; an exception from it ends the search.
+        Called for each picture; an exception from it ends the search.
     progress
         Called with a decoder, the number of combinations tried with it, and their total number.
 

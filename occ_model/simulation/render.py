@@ -70,7 +70,7 @@ def render(
     ----------
     tolerance
         Largest change by the omitted effects, in levels of the stretched profile. 0 simulates every
-        effect of the scene; infinity simulates none, which is the paper's model, no effects.
+        effect of the scene; infinity simulates none, which is the paper's model.
     seed
         Seed of all random numbers.
     observable, force

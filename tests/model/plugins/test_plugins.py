@@ -20,7 +20,8 @@ from model.plugins.installed_package import importable, install
 import occ_model as occ
 from occ_model import plugins
 from occ_model.cli import main
-from occ_model.receiver.decode import DECODERS, checked_result
+from occ_model.receiver.decode import DECODERS
+from occ_model.receiver.result_check import check_result
 from occ_model.results.decoding import RunHistogram, Runs
 
 PAGE = text_of(FOLDER / "developers.md")
@@ -119,7 +120,7 @@ def test_a_part_of_a_result_is_as_described_or_refused(name: str) -> None:
     reasons = []
     for value in RUBBISH:
         try:
-            found = checked_result("Own", replace(READ, **{name: value}), 20, SCENE)
+            found = check_result("Own", replace(READ, **{name: value}), 20, SCENE)
         except occ.PluginError as error:
             reasons.append(str(error))
             continue
@@ -158,7 +159,7 @@ IMPOSSIBLE: tuple[tuple[dict[str, Any], str], ...] = (
 @each_case(IMPOSSIBLE)
 def test_what_cannot_be_is_refused_with_what_is_allowed(parts: dict[str, Any], said: str) -> None:
     with pytest.raises(occ.PluginError) as caught:
-        checked_result("Own", replace(READ, **parts), 20, SCENE)
+        check_result("Own", replace(READ, **parts), 20, SCENE)
     assert str(caught.value) == f"Own gives {said}"
 
 
@@ -167,7 +168,7 @@ def test_a_result_of_the_program_passes_the_check_as_it_is() -> None:
     signal = occ.column_profile(scene)
     for name in DECODERS:
         read = DECODERS[name].read(signal, scene)
-        found = checked_result("Own", read, len(signal), scene)
+        found = check_result("Own", read, len(signal), scene)
         for field in fields(occ.DecodeResult):
             value, before = getattr(found, field.name), getattr(read, field.name)
             if field.name in ("runs", "histograms"):

@@ -103,8 +103,8 @@ class AdviceView(QWidget):
                 AdviceLine(f"This advice leaves out: {', '.join(omitted_effects)}.", is_title=True)
             )
 
-    def show_advice_progress(self, fraction: float, pictures: Mapping[str, int]) -> None:
-        """Show the fraction done, and how many pictures each decoder has tried; 0: not begun."""
+    def show_advice_progress(self, fraction: float, pictures: Mapping[str, int | None]) -> None:
+        """Show the fraction done, and how many pictures each decoder has tried; None: not begun."""
         self.progress.setValue(round(100 * fraction))
         self.cards.show_progress(pictures)
 

@@ -79,8 +79,8 @@ class LimitCards(QWidget):
         for card in self.cards.values():
             card.show_searching()
 
-    def show_progress(self, pictures: Mapping[str, int]) -> None:
-        """Show how many pictures each decoder has tried so far; 0: its search has not begun."""
+    def show_progress(self, pictures: Mapping[str, int | None]) -> None:
+        """Show how many pictures each decoder has tried so far; None: its search has not begun."""
         for decoder, count in pictures.items():
             if decoder in self.cards:
                 self.cards[decoder].show_progress(count)
@@ -201,9 +201,9 @@ class LimitCard(QFrame):
         self.range.set_full_text(_WAITING)
         self.set_outdated(False)
 
-    def show_progress(self, pictures: int) -> None:
-        """Show how many pictures the running search has tried; 0: it has not begun."""
-        if self._is_searching and pictures:
+    def show_progress(self, pictures: int | None) -> None:
+        """Show how many pictures the running search has tried; None: it has not begun."""
+        if self._is_searching and pictures is not None:
             tried = f"{inflect(pictures, 'picture')} tried"
             self._show("searching", "Searching for the highest frequency that is read.", None)
             self.range.set_full_text(tried)
@@ -286,9 +286,9 @@ class MostBitsCard(QFrame):
         self._is_running, self._is_outdated = True, False
         self._show()
 
-    def show_progress(self, decoder: str, pictures: int) -> None:
+    def show_progress(self, decoder: str, pictures: int | None) -> None:
         self._state = f"searching with {decoder}: {_WAITING}"
-        if pictures:
+        if pictures is not None:
             self._state = f"searching with {decoder}, {inflect(pictures, 'picture')} tried"
         self._show()
 

@@ -118,8 +118,8 @@ class SearchController(QObject):
     def _request(self) -> Any:
         raise NotImplementedError
 
-    def _show_progress(self, pictures: Sequence[int]) -> None:
-        """Show how many pictures each counter has counted; a job counts one when it begins."""
+    def _show_progress(self, heartbeats: Sequence[int]) -> None:
+        """Show what each counter has counted: pictures, and each job once when it begins."""
         raise NotImplementedError
 
     def _show_outdated(self, outdated: bool) -> None:
@@ -180,9 +180,10 @@ class AdvisorController(SearchController):
     def go_to_limit(self, name: str, value: float, decoder: str) -> None:
         self._go_to(decoder, {name: value})
 
-    def _show_progress(self, pictures: Sequence[int]) -> None:
-        fraction = min(sum(pictures) / (_USUAL_IMAGES * len(DECODERS)), 0.99)
-        self._pane.show_advice_progress(fraction, dict(zip(DECODERS, pictures, strict=True)))
+    def _show_progress(self, heartbeats: Sequence[int]) -> None:
+        fraction = min(sum(heartbeats) / (_USUAL_IMAGES * len(DECODERS)), 0.99)
+        tried = [count - 1 if count else None for count in heartbeats]
+        self._pane.show_advice_progress(fraction, dict(zip(DECODERS, tried, strict=True)))
 
     def _show_outdated(self, outdated: bool) -> None:
         last, present = self._last_request, self._request()
@@ -235,9 +236,11 @@ class MostBitsController(SearchController):
             changes = {name: scene.value(name) for name in most_bits.VARIED_PARAMETERS}
             self._go_to(result.decoder, changes)
 
-    def _show_progress(self, pictures: Sequence[int]) -> None:
+    def _show_progress(self, heartbeats: Sequence[int]) -> None:
         if self._result_count < len(most_bits.DECODERS):
-            self._pane.show_progress(most_bits.DECODERS[self._result_count], sum(pictures))
+            tried = sum(heartbeats) - self._result_count - 1
+            decoder = most_bits.DECODERS[self._result_count]
+            self._pane.show_progress(decoder, tried if tried >= 0 else None)
 
     def _show_outdated(self, outdated: bool) -> None:
         self._pane.show_outdated(outdated)

@@ -108,7 +108,7 @@ def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
     card = cards.cards["threshold"]
     cards.show_begun()
     assert (card.value.text(), card.range.toolTip()) == ("waiting", "waits for its turn")
-    cards.show_progress({"threshold": 0})
+    cards.show_progress({"threshold": None})
     assert card.value.text() == "waiting"
     cards.show_progress({"threshold": 12, "a plug-in's": 3})
     assert (card.value.text(), card.range.toolTip()) == ("searching", "12 pictures tried")

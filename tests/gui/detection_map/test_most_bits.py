@@ -48,7 +48,7 @@ def test_the_card_searches_and_shows_the_best(card: MostBitsCard, small_scene: S
     )
     assert buttons(card) == {"Search"}
     card.show_begun()
-    card.show_progress("threshold", 0)
+    card.show_progress("threshold", None)
     assert "searching with threshold: waits for its turn" in card.text.toolTip()
     card.show_progress("threshold", 12)
     assert "searching with threshold, 12 pictures tried" in card.text.toolTip()
@@ -143,6 +143,16 @@ def test_progress_after_the_last_decoder_changes_nothing(bench: Bench, qtbot: Qt
         timer.timeout.emit()
     assert raised == []
     assert bench.card.text.toolTip() == before
+
+
+@pytest.mark.parametrize(
+    ("heartbeats", "said"),
+    [(0, "waits for its turn"), (1, "0 pictures tried"), (13, "12 pictures tried")],
+)
+def test_the_beginning_of_a_search_is_no_picture(bench: Bench, heartbeats: int, said: str) -> None:
+    bench.card.show_begun()
+    bench.controller._show_progress([heartbeats])
+    assert said in bench.card.text.toolTip()
 
 
 def test_another_distance_or_frame_rate_outdates_the_result(bench: Bench, qtbot: QtBot) -> None:

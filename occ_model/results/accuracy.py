@@ -178,8 +178,8 @@ class EffectDifference:
 @dataclass(frozen=True, slots=True)
 class MeasuredCosts:
     picture: TimeFractions
-    # Of pictures simulated in alternation: one with all effects, which times the omitted ones, and
-    # one without effects, which times the other stages if all rows are equal
+    # Of the last pictures of this size with other effects, the latest first: they time the omitted
+    # effects, and the other stages if all rows are equal
     others: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     # Measured total error, by set of included effects

@@ -1,6 +1,7 @@
 """The commands ``limits`` and ``most-bits`` of ``occ-model``: how fast a scene can be read."""
 
 import argparse
+import sys
 from collections.abc import Sequence
 
 from occ_model.commands.options import (
@@ -99,9 +100,11 @@ def _print_limits(options: argparse.Namespace, scene: Scene) -> int:
             bar.set_description_str(what, refresh=False)
             bar.update(round(100.0 * fraction) - bar.n)
 
-        answers = limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show)
-    for limits in answers:
-        print(format_row(limits, options.fps))
+        answers = []
+        for limits in limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show):
+            answers.append(limits)
+            bar.write(format_row(limits, options.fps), file=sys.stdout)
+            sys.stdout.flush()
     for line in sentences(answers, options.fps):
         print(line)
     reads = any(limits.highest_frequency and limits.longest_exposure for limits in answers)

@@ -1,22 +1,21 @@
 """Find the ranges of switching frequency and exposure time in which decoders read a scene.
 
-The two searches, see :mod:`occ_model.study.working_range`, are independent: two processes find the
-same answer in half the time. All decoders read the same pictures, so one process searches along a
-parameter for all of them.
+The searches, see :mod:`occ_model.study.working_range`, are independent: two processes find the same
+answer in half the time. All decoders read the same pictures, so one process searches along a
+parameter for all of them; the ends of a decoder are confirmed before the next decoder's search.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import ExitStack, suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
-from itertools import cycle, islice
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError, quote
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.results.decoding import PAPER_DECODER
-from occ_model.results.limits import Advice, Limits, TheoryLimits
+from occ_model.results.limits import Advice, Limits, RangeEnd, TheoryLimits, WorkingRange
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
@@ -30,8 +29,6 @@ from occ_model.study.working_range import READ_RATE, estimate_range_images, work
 
 if TYPE_CHECKING:
     from occ_model.parallel.process_pool import ProcessPool
-
-_Result = TypeVar("_Result")
 
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -98,35 +95,15 @@ def limits_of(
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
     progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
-) -> tuple[Limits, ...]:
-    """Find the limits of several decoders, as :func:`limits` does for each of them."""
+) -> Iterator[Limits]:
+    """Yield the limits of several decoders as soon as they are found, as :func:`limits` does."""
     required_rate = check_search(rate, jobs)
     searches = []
     for decoder in settings.decoders:
         decoder_settings = replace(settings, decoders=(decoder,))
         check_rate(scene, decoder_settings)
-        searches += [(scene, name, required_rate, decoder_settings) for name in SEARCHED_PARAMETERS]
-    image_count = len(searches) * estimate_images(settings.images, required_rate)
-    with ExitStack() as stack:
-        runner = _SearchRunner(stack, jobs, image_count, heartbeat, progress)
-        searched_ranges = list(runner.run(working_range, searches, (1,) * len(SEARCHED_PARAMETERS)))
-        pairs = [
-            (search, pair_ends(each))
-            for search, each in zip(searches, searched_ranges, strict=True)
-        ]
-        # Start with the slowest decoder, the last, so that nothing waits for it at the end.
-        end_searches = [(*search, pair) for search, end_pairs in pairs for pair in end_pairs][::-1]
-        ends = iter(list(runner.run(confirm_end, end_searches, (MOST_PROCESSES,)))[::-1])
-        ranges = [
-            replace_ends(each, list(islice(ends, len(end_pairs))))
-            for each, (_, end_pairs) in zip(searched_ranges, pairs, strict=True)
-        ]
-    progress(1.0, "")
-    pairs_of_ranges = zip(settings.decoders, ranges[::2], ranges[1::2], strict=True)
-    return tuple(
-        Limits(scene, decoder, required_rate, settings.images, settings.seed, *pair)
-        for decoder, *pair in pairs_of_ranges
-    )
+        searches.append(_DecoderSearch(scene, required_rate, decoder_settings))
+    return _SearchRunner(searches, heartbeat, progress).run(jobs)
 
 
 SEARCHED_PARAMETERS = ("switching_frequency", "exposure_time")
@@ -139,62 +116,149 @@ def estimate_images(images: int, rate: float) -> int:
     return estimate_range_images(images) + estimate_end_images(rate)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Task:
+    """A search along a parameter, or for one of the ends that it has found."""
+
+    search: "_DecoderSearch"
+    name: str  # of the parameter
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...]
+    end: int | None = None  # which of the parameter's ends
+
+    @property
+    def description(self) -> str:
+        return f"{PARAMETERS[self.name].in_sentence}, {self.arguments[3].decoders[0]} decoder"
+
+
+class _DecoderSearch:
+    """What is to be searched for a decoder, and what has been found."""
+
+    def __init__(self, scene: Scene, rate: float, settings: RateSettings) -> None:
+        self._scene, self._rate, self._settings = scene, rate, settings
+        self.waiting = [self._task(working_range, name) for name in SEARCHED_PARAMETERS]
+        self._ranges: dict[str, WorkingRange] = {}
+        self._ends: dict[str, list[RangeEnd | None]] = {}
+
+    def _task(self, function: Callable[..., Any], name: str, *further: Any, **which: int) -> _Task:
+        arguments = (self._scene, name, self._rate, self._settings, *further)
+        return _Task(self, name, function, arguments, **which)
+
+    def take_next(self, name: str) -> _Task | None:
+        """Take a task that waits: for an end if there is one, else best along a parameter."""
+        order = [task.end is None and 1 + (task.name != name) for task in self.waiting]
+        return self.waiting.pop(order.index(min(order))) if order else None
+
+    def take_result(self, task: _Task, result: Any) -> None:
+        if task.end is not None:
+            self._ends[task.name][task.end] = result
+            return
+        pairs = pair_ends(result)
+        self._ranges[task.name], self._ends[task.name] = result, [None] * len(pairs)
+        self.waiting += [
+            self._task(confirm_end, task.name, pair, end=end) for end, pair in enumerate(pairs)
+        ]
+
+    def found(self) -> Limits | None:
+        """Return the limits if all ends have been found."""
+        ranges = []
+        for name in SEARCHED_PARAMETERS:
+            ends = [end for end in self._ends.get(name, ()) if end is not None]
+            if name not in self._ranges or len(ends) < len(self._ends[name]):
+                return None
+            ranges.append(replace_ends(self._ranges[name], ends))
+        settings = self._settings
+        return Limits(
+            self._scene, settings.decoders[0], self._rate, settings.images, settings.seed, *ranges
+        )
+
+
 class _SearchRunner:
-    """Runs searches in other processes, or in this one if they cannot be started or die."""
+    """Runs searches in other processes, or in this one if they cannot be started or die.
+
+    Each process prefers a parameter, so that it simulates the pictures of a search only once for
+    all decoders. Decoders are searched in their order.
+    """
 
     def __init__(
         self,
-        stack: ExitStack,
-        jobs: int,
-        expected: int,
+        searches: Sequence[_DecoderSearch],
         heartbeat: Heartbeat,
         progress: Callable[[float, str], object],
     ) -> None:
-        self._stack, self._jobs, self._expected = stack, jobs, expected
+        self._searches = list(searches)
         self._heartbeat, self._progress = heartbeat, progress
-        self._pools: list[ProcessPool] = []
         self._read = 0
+        self._expected = sum(
+            estimate_images(each.arguments[3].images, each.arguments[2])
+            for search in searches
+            for each in search.waiting
+        )
 
-    def run(
-        self,
-        function: Callable[..., _Result],
-        arguments: Sequence[tuple[Any, ...]],
-        counts: Sequence[int],
-    ) -> Iterator[_Result]:
-        """Yield a result for each tuple of arguments, by pools of ``counts`` processes in turn."""
-        from occ_model.parallel.process_pool import ProcessPool
+    def run(self, jobs: int) -> Iterator[Limits]:
+        """Yield the limits of each decoder, by so many processes."""
+        if jobs > 1:
+            from occ_model.parallel.process_pool import ProcessPool
 
-        done = 0
-        with suppress(*NO_PROCESSES, *ProcessPool.lost_by):
-            pools = []
-            for count in counts if self._jobs > 1 and arguments else ():
-                pools.append(ProcessPool(count, __name__))
-                self._stack.callback(pools[-1].close)
-            self._pools += pools
-            futures = [
-                pool.submit(Job(function, each), 0, 1)
-                for pool, each in zip(cycle(pools), arguments, strict=False)
-            ]
-            for each, future in zip(arguments, futures, strict=False):
-                while not future.done():
-                    wait([future], timeout=_POLL_SECONDS)
-                    self._report(
-                        self._read + sum(pool.count_heartbeats(0) for pool in self._pools), each
-                    )
-                yield _unwrap_result(future.result())
-                done += 1
-        for each in arguments[done:]:
-            yield function(*each, partial(self._on_image, each))
+            with suppress(*NO_PROCESSES, *ProcessPool.lost_by), ExitStack() as stack:
+                pools = []
+                for name in SEARCHED_PARAMETERS:
+                    pools.append((ProcessPool(1, __name__), name))
+                    stack.callback(pools[-1][0].close)
+                yield from self._run_in(pools)
+        while (task := self._take_next(SEARCHED_PARAMETERS[0])) is not None:
+            beat = partial(self._on_image, task.description)
+            task.search.take_result(task, task.function(*task.arguments, beat))
+            yield from self._take_found()
 
-    def _on_image(self, arguments: tuple[Any, ...]) -> None:
+    def _run_in(self, pools: "Sequence[tuple[ProcessPool, str]]") -> Iterator[Limits]:
+        idle, running = list(pools), dict[Future[JobResult], tuple[_Task, Any]]()
+        try:
+            while True:
+                while idle and (task := self._take_next(idle[0][1])) is not None:
+                    pool = idle.pop(0)
+                    running[_submit(pool[0], task)] = task, pool
+                if not running:
+                    return
+                done, _ = wait(running, timeout=_POLL_SECONDS, return_when=FIRST_COMPLETED)
+                self._read = sum(pool.count_heartbeats(0) for pool, _ in pools)
+                self._report(next(iter(running.values()))[0].description)
+                for future in done:
+                    task, pool = running[future]
+                    task.search.take_result(task, _unwrap_result(future.result()))
+                    del running[future]
+                    idle.append(pool)
+                yield from self._take_found()
+        finally:  # what lost processes have not done
+            for task, _ in running.values():
+                task.search.waiting.insert(0, task)
+
+    def _take_next(self, name: str) -> _Task | None:
+        tasks = (search.take_next(name) for search in self._searches)
+        return next((task for task in tasks if task is not None), None)
+
+    def _take_found(self) -> Iterator[Limits]:
+        while self._searches and (found := self._searches[0].found()) is not None:
+            self._searches.pop(0)
+            if not self._searches:
+                self._progress(1.0, "")
+            yield found
+
+    def _on_image(self, description: str) -> None:
         self._read += 1
-        self._report(self._read, arguments)
+        self._report(description)
 
-    def _report(self, read: int, arguments: tuple[Any, ...]) -> None:
+    def _report(self, description: str) -> None:
         self._heartbeat()
-        _, name, _, settings, *_ = arguments
-        description = f"{PARAMETERS[name].in_sentence}, {settings.decoders[0]} decoder"
-        self._progress(min(read / self._expected, 0.99), description)
+        self._progress(min(self._read / self._expected, 0.99), description)
+
+
+def _submit(pool: "ProcessPool", task: _Task) -> "Future[JobResult]":
+    try:
+        return pool.submit(Job(task.function, task.arguments), 0, 1)
+    except Exception:
+        task.search.waiting.insert(0, task)
+        raise
 
 
 def _unwrap_result(result: JobResult) -> Any:

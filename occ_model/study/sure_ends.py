@@ -118,8 +118,9 @@ class _PicturesAboutEnd:
         """Return the numbers of correct bits in the pictures at a value."""
         if value not in self._counts_by_value:
             settings_at_value = replace(self._settings, seed=_seed_at(value, self._settings.seed))
+            # No other decoder tries these values, unlike those of the scan.
             right_bits = right_bits_at(
-                self._scene, self._name, value, settings_at_value, self._heartbeat
+                self._scene, self._name, value, settings_at_value, self._heartbeat, is_kept=False
             )
             self._counts_by_value[value] = ImageCounts(right_bits)
         return self._counts_by_value[value]

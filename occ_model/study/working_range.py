@@ -33,7 +33,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import count_until_refuted, trial_of
-from occ_model.study.success_rate import right_bits_of_images, simulate_ahead
+from occ_model.study.success_rate import plan_images, right_bits_of_images, simulate_ahead
 
 STEP = 1.036  # ratio of neighbouring values in the scan
 END_RATIO = 1.003  # ratio of the values on both sides of an end at which bisection stops
@@ -64,11 +64,20 @@ def estimate_range_images(images: int) -> int:
 
 
 def right_bits_at(
-    scene: Scene, name: str, value: float, settings: RateSettings, heartbeat: Heartbeat
+    scene: Scene,
+    name: str,
+    value: float,
+    settings: RateSettings,
+    heartbeat: Heartbeat,
+    is_kept: bool = True,
 ) -> Iterator[int]:
-    """Yield the number of bits read correctly in each image at a value, computed on demand."""
+    """Yield the number of bits read correctly in each image at a value, computed on demand.
+
+    ``is_kept``: whether the images are kept for the next decoder.
+    """
     at = scene.replace(**{name: value})
-    return (right for (right,) in right_bits_of_images(at, settings, heartbeat))
+    chosen = None if is_kept else plan_images([at], settings)
+    return (right for (right,) in right_bits_of_images(at, settings, heartbeat, chosen))
 
 
 class ImageCounts:

@@ -21,7 +21,7 @@ from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory, working_range as module
 from occ_model.study.confidence import count_until_refuted, interval_of_pictures
-from occ_model.study.limits import advice_of
+from occ_model.study.limits import advice_of, limits_of
 from occ_model.study.observation import panel_span
 from occ_model.study.sure_ends import (
     MOST_IMAGES_OUTSIDE,
@@ -49,7 +49,7 @@ def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
         read: Counter[tuple[float, int]] = Counter()
 
         def right_bits_of_images(
-            scene: Scene, settings: RateSettings, heartbeat: Callable[[], object]
+            scene: Scene, settings: RateSettings, heartbeat: Callable[[], object], _chosen: object
         ) -> Iterator[tuple[int]]:
             frequency = scene.transmitter.switching_frequency
             for image in range(settings.images):
@@ -258,6 +258,24 @@ def test_two_processes_find_the_same_limits_as_one(
     assert said[-1] == (1.0, "")
 
 
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_the_limits_of_a_decoder_are_known_before_the_next_one_has_read(
+    decoding: Decoding, monkeypatch: pytest.MonkeyPatch, jobs: int
+) -> None:
+    """With two processes, the next decoder may just have begun with one of its searches."""
+    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", PickledJobs)
+    read = decoding(correct_within((2e3, 20e3)))
+    alone = [occ.limits(SCENE, name, rate=60.0, images=2) for name in ("threshold", "matched")]
+    each = sum(read.values()) / 2
+    read.clear()
+    settings = RateSettings(2, ("threshold", "matched"), 1)
+    found = limits_of(SCENE, settings, 60.0, jobs=jobs)
+    assert next(found) == alone[0]
+    assert sum(read.values()) <= each * (1.0 if jobs == 1 else 1.75)
+    assert list(found) == alone[1:]
+    assert sum(read.values()) == 2 * each
+
+
 def test_progress_rises_from_0_to_1_and_states_what_is_searched(decoding: Decoding) -> None:
     decoding(correct_within((0.0, 20e3)))
     said: list[tuple[float, str]] = []
@@ -458,7 +476,7 @@ def test_the_rate_at_the_scenes_own_values_is_that_of_its_own_code(
     """Few images are enough to accept a value, so a range can contain one that is misread once."""
     own = occ.load_preset("phone-68us").replace(code=5)
 
-    def once_wrong(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
+    def once_wrong(scene: Scene, settings: RateSettings, *_: object) -> Iterator[tuple[int]]:
         yield from ((0 if scene == own and image == 7 else 10,) for image in range(settings.images))
 
     monkeypatch.setattr(module, "right_bits_of_images", once_wrong)

@@ -109,16 +109,18 @@ def right_bits_of_images(
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
     at_once: int = 1,
+    is_kept: bool = True,
 ) -> Iterator[tuple[int, ...]]:
     """Yield the number of bits that each decoder reads correctly, image by image.
 
-    ``at_once``: images that are read first, more if more are asked for.
+    ``at_once``: images that are read first, more if more are asked for. ``is_kept``: whether the
+    images are kept for other decoders.
     """
     check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     pictures = _pictures_of(scene, settings)
     for numbers in _batches(settings, at_once):
-        observations = _observe_cached(pictures, numbers)
+        observations = _observe_cached(pictures, numbers, is_kept)
         scenes = [scene] * len(observations)
         results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
         for of_image in zip(*results, strict=True):
@@ -229,7 +231,7 @@ def forget_images() -> None:
 
 
 def _observe_cached(
-    pictures: _StudyPictures, numbers: Sequence[int]
+    pictures: _StudyPictures, numbers: Sequence[int], is_kept: bool
 ) -> tuple[Observation | None, ...]:
     """Return the signals of some pictures, simulated if they are not kept from before."""
     keys = {number: (pictures, number) for number in numbers}
@@ -239,7 +241,8 @@ def _observe_cached(
         chosen = _plan_cached(pictures)
         images = [image_of(pictures.scene, chosen, pictures.seed, number) for number in missing]
         observations = list(observe_images(images, pictures.path, chosen))
-        _keep([keys[number] for number in missing], observations)
+        if is_kept:
+            _keep([keys[number] for number in missing], observations)
         found |= zip(missing, observations, strict=True)
     return tuple(found[number] for number in numbers)
 

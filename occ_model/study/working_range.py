@@ -33,7 +33,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import count_until_refuted, trial_of
-from occ_model.study.success_rate import plan_images, right_bits_of_images, simulate_ahead
+from occ_model.study.success_rate import right_bits_of_images, simulate_ahead
 
 STEP = 1.036  # ratio of neighbouring values in the scan
 END_RATIO = 1.003  # ratio of the values on both sides of an end at which bisection stops
@@ -71,13 +71,10 @@ def right_bits_at(
     heartbeat: Heartbeat,
     is_kept: bool = True,
 ) -> Iterator[int]:
-    """Yield the number of bits read correctly in each image at a value, computed on demand.
-
-    ``is_kept``: whether the images are kept for the next decoder.
-    """
+    """Yield the number of bits read correctly in each image at a value, computed on demand."""
     at = scene.replace(**{name: value})
-    chosen = None if is_kept else plan_images([at], settings)
-    return (right for (right,) in right_bits_of_images(at, settings, heartbeat, chosen))
+    counts = right_bits_of_images(at, settings, heartbeat, is_kept=is_kept)
+    return (right for (right,) in counts)
 
 
 class ImageCounts:

@@ -49,7 +49,7 @@ def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
         read: Counter[tuple[float, int]] = Counter()
 
         def right_bits_of_images(
-            scene: Scene, settings: RateSettings, heartbeat: Callable[[], object], _chosen: object
+            scene: Scene, settings: RateSettings, heartbeat: Callable[[], object], **_: bool
         ) -> Iterator[tuple[int]]:
             frequency = scene.transmitter.switching_frequency
             for image in range(settings.images):
@@ -476,7 +476,9 @@ def test_the_rate_at_the_scenes_own_values_is_that_of_its_own_code(
     """Few images are enough to accept a value, so a range can contain one that is misread once."""
     own = occ.load_preset("phone-68us").replace(code=5)
 
-    def once_wrong(scene: Scene, settings: RateSettings, *_: object) -> Iterator[tuple[int]]:
+    def once_wrong(
+        scene: Scene, settings: RateSettings, *_: object, **_kept: bool
+    ) -> Iterator[tuple[int]]:
         yield from ((0 if scene == own and image == 7 else 10,) for image in range(settings.images))
 
     monkeypatch.setattr(module, "right_bits_of_images", once_wrong)

@@ -86,6 +86,23 @@ def test_every_name_is_in_the_file_that_it_is_said_to_be_in(page: Path) -> None:
     assert [name for name, file in said if name not in text_of(ROOT / file)] == []
 
 
+RESULTS = {
+    "frame": (occ.Frame, occ.VideoFrame), "plan": (occ.Plan,), "match": (occ.Match,),
+    "result": (occ.DecodeResult,), "film": (occ.Video,),
+}  # fmt: skip
+"""The classes that the pages' names of results stand for."""
+
+
+@every_page
+def test_every_attribute_of_a_result_that_is_named_is_there(page: Path) -> None:
+    named = re.findall(rf"`({'|'.join(RESULTS)})\.(\w+)", text_of(page))
+    assert [
+        (name, attribute)
+        for name, attribute in named
+        if not any(attribute in {*dir(kind), *kind.__annotations__} for kind in RESULTS[name])
+    ] == []
+
+
 def commands(text: str) -> list[list[str]]:
     """Return the words of every command of ours that a document names."""
     code = "\n".join(blocks(text, "")).replace("\\\n", " ")

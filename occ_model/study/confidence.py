@@ -83,11 +83,15 @@ def count_until_refuted(counts: Iterable[int], bits: int, least: float) -> list[
     A bet on each image that fewer bits are read, at fair odds if the fraction is reached,
     multiplies its initial stake by c at some time with a probability of at most 1 / c (J. Ville,
     *Etude critique de la notion de collectif*, 1939). The test therefore holds although it stops at
-    its own result.
+    its own result. A fraction of 1 is refuted by the first image with a wrong bit.
     """
     wealth, refuting = [1.0] * len(_STAKES), []
     for right in counts:
         refuting.append(right)
+        if least >= 1.0:
+            if right < bits:
+                return refuting
+            continue
         gain = (least - right / bits) / (1.0 - least)
         wealth = [
             share * (1.0 + stake * gain) for share, stake in zip(wealth, _STAKES, strict=True)

@@ -392,6 +392,15 @@ def test_a_rate_that_is_reached_is_rejected_in_at_most_one_of_forty_studies() ->
     assert np.median(count_refuting_images(0.5, 200)) <= 4  # half of their bits are missing
 
 
+def test_that_all_bits_are_read_is_refuted_by_the_first_wrong_bit() -> None:
+    assert count_until_refuted([10, 10, 9, 10], 10, 1.0) == [10, 10, 9]
+    assert count_until_refuted([10] * 60, 10, 1.0) is None
+    # Two packets hardly fit the panel, so that chance makes narrow gaps and islands.
+    far = occ.load_preset("tablet-122us").replace(distance=2.4, switching_frequency=3e3)
+    found = occ.limits(far, rate=100.0, images=5, seed=3).frequency
+    assert all(each.lowest.works.rate == 100.0 for each in found.intervals)
+
+
 def test_an_exception_from_the_heartbeat_ends_the_search() -> None:
     def stop() -> None:
         raise KeyboardInterrupt

@@ -66,9 +66,11 @@ class Enhancement:
 def equalizing_curve(counts: FloatArray) -> ByteArray:
     """Return the curve that equalizes a histogram, shape (256,), as OpenCV does.
 
-    The darkest level of which at least half a pixel is expected becomes black.
+    The darkest level of which at least half a pixel is expected becomes black. If there is none, as
+    in a picture of a few noisy pixels, it is the darkest one of which any is expected.
     """
-    counts = np.where(counts < _SEEN_PIXELS, 0.0, counts)
+    seen = np.where(counts < _SEEN_PIXELS, 0.0, counts)
+    counts = seen if seen.any() else counts
     darkest = int(np.flatnonzero(counts)[0])
     total = counts.sum() - counts[darkest]
     curve = np.arange(256, dtype=np.uint8)

@@ -102,3 +102,9 @@ def test_a_level_of_which_hardly_a_pixel_is_expected_does_not_become_black() -> 
     counts = np.zeros(256)
     counts[[3, 5, 9]] = 1e-3, 400.0, 600.0
     assert equalizing_curve(counts)[[5, 9]].tolist() == [0, 255]
+
+
+def test_levels_of_few_pixels_are_equalized_as_those_of_many() -> None:
+    counts = np.zeros(256)
+    counts[40:60] = 0.1
+    np.testing.assert_array_equal(equalizing_curve(counts), equalizing_curve(1e3 * counts))

@@ -10,7 +10,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.results.decoding import DecodeResult
-from occ_model.results.sweep_request import RateSettings
+from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate as module
 from occ_model.study.signals.batch import Observation, simulate_images
@@ -147,3 +147,11 @@ def test_a_rate_does_not_depend_on_which_of_its_pictures_are_kept_from_before(
     occ.success_rate(at, 5, seed=83)
     occ.success_rate(at, 7, seed=84)  # now those of the first rate are the oldest
     assert occ.success_rate(at, 10, seed=83) == alone
+
+
+@pytest.mark.parametrize("path", ["auto", "image"])
+def test_a_picture_of_a_few_noisy_pixels_is_read(path: SignalPath) -> None:
+    few = occ.load_preset("phone-68us").replace(
+        rows=1, columns=3, distance=0.3, yaw=1.0, offset_x=0.5, full_well=100.0, adc_bits=8
+    )
+    assert occ.success_rate(few, 2, path=path) == 0.0

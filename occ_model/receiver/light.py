@@ -92,17 +92,20 @@ def _exposed(scene: Scene) -> tuple[Scheme | None, float]:
 
 @lru_cache(maxsize=32)
 def _expected_light(scheme: Scheme | None, exposure: float) -> FloatArray:
-    random = np.random.default_rng(1)
-    chips: ByteArray
-    if scheme is not None:
-        count = max(1, _CHIPS // scheme.length)
-        payloads = random.integers(0, 2, (count, scheme.bits), dtype=np.uint8)
-        chips = np.concatenate([scheme.encode(payload) for payload in payloads])
-    else:
-        chips = random.integers(0, 2, _CHIPS, dtype=np.uint8)
-    light = light_of_chips(chips, exposure)
+    light = light_of_chips(_random_chips(scheme), exposure)
     light.flags.writeable = False
     return light
+
+
+@lru_cache(maxsize=8)
+def _random_chips(scheme: Scheme | None) -> ByteArray:
+    """Return the chips of random payloads, or random chips if there is no scheme."""
+    random = np.random.default_rng(1)
+    if scheme is None:
+        return random.integers(0, 2, _CHIPS, dtype=np.uint8)
+    count = max(1, _CHIPS // scheme.length)
+    payloads = random.integers(0, 2, (count, scheme.bits), dtype=np.uint8)
+    return np.concatenate([scheme.encode(payload) for payload in payloads])
 
 
 @lru_cache(maxsize=32)

@@ -110,16 +110,17 @@ def right_bits_of_images(
     heartbeat: Heartbeat = lambda: None,
     at_once: int = 1,
     is_kept: bool = True,
+    first: int = 0,
 ) -> Iterator[tuple[int, ...]]:
     """Yield the number of bits that each decoder reads correctly, image by image.
 
     ``at_once``: images that are read first, more if more are asked for. ``is_kept``: whether the
-    images are kept for other decoders.
+    images are kept for other decoders. ``first``: number of the first image.
     """
     check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     pictures = _pictures_of(scene, settings)
-    for numbers in _batches(settings, at_once):
+    for numbers in _batches(settings, first, at_once):
         observations = _observe_cached(pictures, numbers, is_kept)
         scenes = [scene] * len(observations)
         results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
@@ -131,9 +132,9 @@ def right_bits_of_images(
 _MOST_AT_ONCE = 40  # images that are simulated and read at once
 
 
-def _batches(settings: RateSettings, count: int) -> Iterator[range]:
+def _batches(settings: RateSettings, first: int, count: int) -> Iterator[range]:
     """Yield the numbers of images that are read at once."""
-    first, count = 0, 1 if settings.path == "image" else count
+    count = 1 if settings.path == "image" else count
     while first < settings.images:
         last = min(first + count, settings.images)
         yield range(first, last)
@@ -185,6 +186,31 @@ def simulate_ahead(scenes: Sequence[Scene], settings: RateSettings, first: int, 
         for pictures, number in missing
     ]
     _keep(missing, simulate_images(images))
+
+
+def read_ahead(
+    scenes: Sequence[Scene], settings: RateSettings, numbers: range, heartbeat: Heartbeat
+) -> Iterator[list[int]]:
+    """Yield how many bits a decoder reads correctly in some images of each scene.
+
+    The images of several scenes are simulated and read at once.
+    """
+    (decoder,) = settings.decoders
+    at_once = max(_MOST_AT_ONCE // len(numbers), 1)
+    for start in range(0, len(scenes), at_once):
+        part = scenes[start : start + at_once]
+        simulate_ahead(part, settings, numbers.start, numbers.stop)
+        observations: list[Observation | None] = []
+        for scene in part:
+            observations += _observe_cached(_pictures_of(scene, settings), numbers, is_kept=True)
+        results = iter(_read([scene for scene in part for _ in numbers], observations, decoder))
+        for scene in part:
+            sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+            counts = []
+            for result in islice(results, len(numbers)):
+                heartbeat()
+                counts.append(_count_right_bits(result, sent))
+            yield counts
 
 
 def _pictures_of(scene: Scene, settings: RateSettings) -> "_StudyPictures":

@@ -33,7 +33,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import count_until_refuted, trial_of
-from occ_model.study.success_rate import right_bits_of_images, simulate_ahead
+from occ_model.study.success_rate import read_ahead, right_bits_of_images
 
 STEP = 1.036  # ratio of neighbouring values in the scan
 END_RATIO = 1.003  # ratio of the values on both sides of an end at which bisection stops
@@ -69,20 +69,22 @@ def right_bits_at(
     value: float,
     settings: RateSettings,
     heartbeat: Heartbeat,
+    *,
+    first: int = 0,
     is_kept: bool = True,
 ) -> Iterator[int]:
     """Yield the number of bits read correctly in each image at a value, computed on demand."""
     at = scene.replace(**{name: value})
-    counts = right_bits_of_images(at, settings, heartbeat, is_kept=is_kept)
+    counts = right_bits_of_images(at, settings, heartbeat, is_kept=is_kept, first=first)
     return (right for (right,) in counts)
 
 
 class ImageCounts:
     """The numbers of bits read correctly in the images at a value, computed once, on demand."""
 
-    def __init__(self, images: Iterator[int]) -> None:
-        self._remaining = images
-        self.counts: list[int] = []
+    def __init__(self, remaining: Iterator[int], known: Sequence[int] = ()) -> None:
+        self._remaining = remaining
+        self.counts = list(known)
 
     def __iter__(self) -> Iterator[int]:
         for index in count():
@@ -124,6 +126,7 @@ class _RangeSearch:
         self._low, self._high = min(low, self._scene_value), max(high, self._scene_value)
         self._values = self._coarse_values()
         self._confirmation_settings = replace(settings, seed=derive_seed(settings.seed))
+        self._known: dict[float, list[int]] = {}  # right bits of the first images, by value
         self._images: dict[tuple[float, int], ImageCounts] = {}
         self._refuted: set[int] = set()
         self._refuted_values: dict[float, bool] = {}
@@ -156,16 +159,19 @@ class _RangeSearch:
         )
 
     def _scan(self) -> None:
-        """Simulate the first image of all values at once, and the next few where it is read."""
-        scenes = {value: self._scene.replace(**{self._name: value}) for value in self._values}
-        few = min(FEW_IMAGES, self._settings.images)
-        simulate_ahead(list(scenes.values()), self._settings, 0, 1)
-        read = [
-            scene
-            for value, scene in scenes.items()
-            if self._bits in islice(self._take_images(value, self._settings), 1)
-        ]
-        simulate_ahead(read, self._settings, 1, few)
+        """Read the first image of all values at once, and the next few where it is read."""
+        if self._settings.path == "image":  # takes as long for each image
+            return
+        self._read_ahead(self._values, range(1))
+        read = [value for value in self._values if self._known[value] == [self._bits]]
+        self._read_ahead(read, range(1, min(FEW_IMAGES, self._settings.images)))
+
+    def _read_ahead(self, values: Sequence[float], numbers: range) -> None:
+        if numbers:
+            scenes = [self._scene.replace(**{self._name: value}) for value in values]
+            read = read_ahead(scenes, self._settings, numbers, self._heartbeat)
+            for value, counts in zip(values, read, strict=True):
+                self._known.setdefault(value, []).extend(counts)
 
     def _find_read_values(self) -> list[bool]:
         """Return which values of the scan are read; narrow gaps only if images refute the rate."""
@@ -344,9 +350,11 @@ class _RangeSearch:
         key = value, settings.seed
         if key not in self._images:
             enough = replace(settings, images=max(settings.images, GAP_IMAGES))
-            self._images[key] = ImageCounts(
-                right_bits_at(self._scene, self._name, value, enough, self._heartbeat)
+            known = self._known.get(value, ()) if settings is self._settings else ()
+            remaining = right_bits_at(
+                self._scene, self._name, value, enough, self._heartbeat, first=len(known)
             )
+            self._images[key] = ImageCounts(remaining, known)
         return islice(self._images[key], most or settings.images)
 
     def _is_read(self, trial: Trial) -> bool:

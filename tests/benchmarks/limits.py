@@ -3,13 +3,18 @@
 python tests/benchmarks/limits.py
 python tests/benchmarks/limits.py --preset phone-136us --decoder threshold
 
-How surely the ends are known is not searched, which takes several times as long.
+How surely the ends are known is not searched, which takes several times as long. ``--total`` does
+so, and prints the processor time of the command ``limits`` until the first decoder's limits are
+known and until all are, with the images that it reads.
 ``--cessation`` prints, for each exposure of the paper beyond the band model, each enhancement and
 some noise, the highest frequency at which 99 % of the bits are read by the paper's decoder.
 """
 
 import argparse
 import time
+from collections.abc import Sequence
+from functools import partial
+from itertools import count
 
 import numpy as np
 from scene_values import presets_of_codes
@@ -23,12 +28,12 @@ from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
-from occ_model.study.limits import SEARCHED_PARAMETERS
+from occ_model.study.limits import SEARCHED_PARAMETERS, limits_of
 from occ_model.study.working_range import working_range
 
 COLUMNS = (
     "preset", "decoder", "lowest", "highest", "gaps", "shortest", "longest", "gaps",
-    "bits a second", "time",
+    "bits a second", "time", "images",
 )  # fmt: skip
 
 RATE, IMAGES, SEED = 99.0, 20, 1
@@ -42,12 +47,29 @@ _NOISE = (0.5, 1.0, 2.0)
 def line(preset: str, decoder: str) -> str:
     """Search for the limits of a decoder and write them as a line of the table."""
     scene, settings = occ.load_preset(preset), RateSettings(IMAGES, (decoder,), SEED)
+    beats = count()
     start = time.process_time()
-    ranges = [working_range(scene, name, RATE, settings) for name in SEARCHED_PARAMETERS]
+    ranges = [
+        working_range(scene, name, RATE, settings, partial(next, beats))
+        for name in SEARCHED_PARAMETERS
+    ]
     seconds = time.process_time() - start
     found = Limits(scene, decoder, RATE, IMAGES, SEED, *ranges)
     cells = [preset, decoder, *(cell for each in ranges for cell in range_cells(each))]
-    return f"| {' | '.join([*cells, f'{found.bits_a_second():.4g}', f'{seconds:.1f} s'])} |"
+    cells += [f"{found.bits_a_second():.4g}", f"{seconds:.1f} s", f"{next(beats)}"]
+    return f"| {' | '.join(cells)} |"
+
+
+def total(preset: str, decoders: Sequence[str]) -> str:
+    """Search for the limits of decoders, and how surely they are known, in one process."""
+    scene, settings = occ.load_preset(preset), RateSettings(IMAGES, tuple(decoders), SEED)
+    beats = count()
+    start = time.process_time()
+    first = None
+    for _ in limits_of(scene, settings, RATE, heartbeat=partial(next, beats)):
+        first = first or time.process_time() - start
+    seconds = time.process_time() - start
+    return f"| {preset} | {first or 0.0:.1f} s | {seconds:.1f} s | {next(beats)} |"
 
 
 def with_noise(scene: Scene, levels: float) -> Scene:
@@ -86,14 +108,22 @@ def main() -> None:
     parser.add_argument("--preset", action="append", choices=presets_of_codes())
     parser.add_argument("--decoder", action="append", choices=occ.decoders())
     parser.add_argument("--cessation", action="store_true", help="of the paper's decoder by noise")
+    parser.add_argument("--total", action="store_true", help="of the command, for each preset")
     asked = parser.parse_args()
+    decoders = asked.decoder or ("threshold", "matched", "equalizer", "sequence")
     if asked.cessation:
         print_cessation(IMAGES)
+        return
+    if asked.total:
+        print("| preset | first decoder | all | images |")
+        print("|---|---|---|---|")
+        for preset in asked.preset or presets_of_codes():
+            print(total(preset, decoders), flush=True)
         return
     print(f"| {' | '.join(COLUMNS)} |")
     print("|---" * len(COLUMNS) + "|")
     for preset in asked.preset or presets_of_codes():
-        for decoder in asked.decoder or ("threshold", "matched", "equalizer", "sequence"):
+        for decoder in decoders:
             print(line(preset, decoder), flush=True)
 
 

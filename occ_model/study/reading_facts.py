@@ -24,7 +24,7 @@ def film_facts(progress: FilmProgress, reading: VideoReading | None) -> tuple[Fa
         ),
         Fact(
             "known",
-            "Payload known",
+            "Chips known",
             f"{100.0 * progress.known:.0f} %",
             meaning="Fraction of the chips of a period that are known, including a header's.",
         ),

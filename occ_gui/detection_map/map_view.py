@@ -41,8 +41,8 @@ class MapView(QWidget):
         self.image_effects = name_widget(
             QCheckBox("image effects"),
             "Image effects",
-            "Simulate lens, tilt and JPEG if the scene has them, which is some 20 times slower. "
-            "Otherwise the map and the advice leave them out, and say so.",
+            "Simulate lens, bundled emission and JPEG if the scene has them, which takes 2 to 4 "
+            "times as long. Otherwise the map and the advice leave them out, and say so.",
         )
         self.image_effects.setChecked(True)
         self.advise = push_button(

@@ -5,7 +5,7 @@ The results of a change arrive in this order, each by a signal:
 1. ``submitted``: the results shown are those of an earlier scene from now on.
 2. ``picture_ready`` with a Picture of some rows, a draft, if the whole one takes long; and with it,
    so that both are painted together, ``reading_shown`` with a Reading: the profile, the band model
-   and the verdict of every decoder. It is read by the profile path, without pixels, or from the
+   and the verdict of every decoder. It is read from column means, without pixels, or from the
    draft if the rows of the scene differ (a lens, a file, a panel that is not level). While the
    scene keeps changing, this begins again at 1.
 3. ``picture_ready`` with the exact Picture, before it is decoded. Without a draft, the Reading

@@ -79,8 +79,8 @@ def add_to(commands: Commands) -> None:
     )  # fmt: skip
     add_switches(parser)
     add_option(
-        parser, "--path", "auto", "by whole images, a sample of their rows, only the column means, "
-        "or as the plan allows", choices=SIGNAL_PATHS,
+        parser, "--path", "auto", "image: simulate whole pictures; all others: only what a decoder "
+        "reads of them, many at once", choices=SIGNAL_PATHS,
     )  # fmt: skip
     add_work_options(parser)
     parser.add_argument(

@@ -155,15 +155,16 @@ def measure_mixing(pictures: list[NDArray[np.uint8]], scene: Scene) -> Scene:
     ParameterError
         The light of the four pictures gives no matrix that can be inverted.
     DecodeInputError
-        A picture is none of a colour camera, or shows no panel, or their shapes differ.
+        A picture is none of a colour camera, or shows no panel, or their sizes differ.
     """
     if len(pictures) != 4:
         raise ParameterError.of("pictures", f"{len(pictures)}", "4: red, green, blue and none lit")
-    shapes = [_check_image(picture).shape for picture in pictures]
-    if len(set(shapes)) > 1:
+    # A picture without colours, as of no light, is read as grey.
+    sizes = [_check_image(picture).shape[:2] for picture in pictures]
+    if len(set(sizes)) > 1:
         raise DecodeInputError(
-            "The four pictures of a calibration must have the same shape, not "
-            f"{', '.join(map(str, shapes))}."
+            "The four pictures of a calibration must have the same rows and columns, not "
+            f"{', '.join(map(str, sizes))}."
         )
     lit = colour_signals(pictures[1], scene)
     if lit is None:

@@ -86,8 +86,7 @@ def test_three_pictures_are_no_calibration() -> None:
     ("other", "reason"),
     [
         (np.zeros((8, 8, 3)), "8-bit pixels"),
-        (np.zeros((8, 6, 3), np.uint8), r"same shape, not \(8, 6, 3\), \(8, 8, 3\)"),
-        (np.zeros((8, 8), np.uint8), "same shape"),
+        (np.zeros((8, 6, 3), np.uint8), r"same rows and columns, not \(8, 6\), \(8, 8\)"),
     ],
 )
 def test_a_calibration_of_other_pictures_is_refused(other: np.ndarray, reason: str) -> None:

@@ -70,6 +70,7 @@ class Application(Parts):
         self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.pins.both_pinned.connect(self._show_comparison)
         story.verdict.lesson_wanted.connect(self._show_lesson)
+        story.verdict.colours_wanted.connect(lambda: window.bring_to_front("colour"))
         self.background_rates.rate_changed.connect(story.verdict.show_rate)
         self._connect_strips()
         window.modes.changed.connect(self._show_bars)

@@ -16,6 +16,7 @@ from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.story_view import StoryView
 from occ_model.receiver.decode import decoders
 from occ_model.results.decoding import Remedy
+from occ_model.scene.colour_scenes import is_colour
 
 _REST_MS = 250  # milliseconds from the first picture to the search for plug-in decoders
 
@@ -30,8 +31,8 @@ class StoryPane(PiecesPane):
     ) -> None:
         self.view = view = StoryView(picture, built_in)
         super().__init__(
-            view, view.choose_decoder, view.choose_picture, view.show_reading, view.show_picture,
-            view.rows.show_photo_profile,
+            view, view.choose_decoder, view.choose_picture, view.verdict.name_colour,
+            view.show_reading, view.show_picture, view.rows.show_photo_profile,
         )  # fmt: skip
         # The stripes' picture follows the reading.
         self.made_of = {view.rows: of_reading, view.rows.stripes: of_picture}
@@ -82,7 +83,12 @@ def declare_story(
         match = results.match
         is_related = match is not None and match.is_origin_of(workspace.scene)
         photo = results.photo_profile if is_comparable and is_related else None
-        return workspace.decoder, workspace.picture_kind, results.reading, results.picture, photo
+        scene = workspace.scene
+        colour = scene.colours.shown_colour if is_colour(scene) else ""
+        return (
+            workspace.decoder, workspace.picture_kind, colour, results.reading, results.picture,
+            photo,
+        )  # fmt: skip
 
     return Feature(
         name="story",

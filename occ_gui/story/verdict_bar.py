@@ -113,11 +113,12 @@ class VerdictBar(StateBar):
 
     step_chosen = Signal(object)  # the user takes the step that helps, a :class:`Remedy`
     lesson_wanted = Signal(str)  # the user asks for the lesson on what is shown, by its name
+    colours_wanted = Signal()  # the user asks for all three colours of a colour camera
 
     def __init__(self) -> None:
         super().__init__()
         self._remedy: Remedy | None = None
-        self._lesson = ""
+        self._lesson = self._colour = ""
         self.step_taken.connect(self._take_remedy)
         self._reading: Reading | None = None
         self._decoder = PAPER_DECODER
@@ -169,6 +170,12 @@ class VerdictBar(StateBar):
             self._names_simulation = named
             self._write()
 
+    def name_colour(self, colour: str) -> None:
+        """Name the colour that the verdict is on; empty for a monochrome camera."""
+        if colour != self._colour:
+            self._colour = colour
+            self._write()
+
     def _write(self) -> None:
         reading = self._reading
         self._offer(None)
@@ -197,7 +204,9 @@ class VerdictBar(StateBar):
             title = verdict.title if reading.causes is None else verdict.heading
             title += _describe_error(verdict, reading)
             heading, sentences = self._make_heading(title), self._explain(verdict, reading)
-            if _is_averaged(verdict, reading) and not (self._is_outdated or self._running_value):
+            if self._colour:
+                self._offer_colours()
+            elif _is_averaged(verdict, reading) and not (self._is_outdated or self._running_value):
                 self._offer_lesson(AVERAGES_LESSON)
         else:
             beginning = "No code" if result.code is None else verdict.title
@@ -215,6 +224,8 @@ class VerdictBar(StateBar):
             self.step_chosen.emit(self._remedy)
         elif self._lesson:
             self.lesson_wanted.emit(self._lesson)
+        elif self._colour:
+            self.colours_wanted.emit()
 
     def _offer(self, step: Remedy | None) -> None:
         self._remedy, self._lesson = step, ""
@@ -226,8 +237,14 @@ class VerdictBar(StateBar):
         self.offer_step("Lesson")
         self.step.setToolTip("Opens the lesson on exposures longer than a chip.")
 
+    def _offer_colours(self) -> None:
+        self.offer_step("Three colours")
+        self.step.setToolTip("Shows all three colours and what is read in each of them.")
+
     def _make_heading(self, verdict: str) -> str:
         """Return the heading, which names the verdict's source if several verdicts are visible."""
+        if self._colour:
+            verdict = f"{self._colour.capitalize()}: {verdict[:1].lower()}{verdict[1:]}"
         if self._running_value:
             verdict = f"{self._running_value}: {verdict[:1].lower()}{verdict[1:]}"
         if not self._names_simulation:

@@ -8,6 +8,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.app.story_wiring import story_menu
 from occ_gui.scene.control_panel import main_of
@@ -169,3 +170,14 @@ def test_the_context_menu_copies_values_and_the_bar_opens_a_lesson(
     pane = application.shell.pane("lessons")
     assert not application.window.docks["lessons"].isHidden()
     assert pane.controller.current.name == AVERAGES_LESSON
+
+
+def test_a_scene_of_three_colours_says_which_is_read_and_leads_to_all(
+    application: Application, user: User
+) -> None:
+    user.wait_until_idle()
+    application.store.put(occ.load_preset("phone-68us-colour").replace(rows=240), "preset")
+    user.wait_until_idle()
+    assert application.story.verdict.heading.startswith("Green: code 345 read")
+    application.story.verdict.step.click()
+    assert not application.window.docks["colour"].isHidden()

@@ -27,15 +27,15 @@ from occ_model.camera.row_interpolation import (
 )
 from occ_model.scene.scene import Camera
 
-BLOCK_ROWS = 128  # rows that are computed at once, a whole number of blocks of a JPEG file
-_JPEG_ROWS = 8
+JPEG_BLOCK = 8  # rows and columns of a block of a JPEG file
+BLOCK_ROWS = 16 * JPEG_BLOCK  # rows that are computed at once
 _BLOCK_PIXELS = 2**22  # most pixels that are computed at once, where rows are very long
 
 
 def split_into_blocks(rows: range, columns: int) -> list[range]:
     """Split rows, or every k-th row, of a picture into blocks that are computed at once."""
-    fitting = _BLOCK_PIXELS // columns // _JPEG_ROWS * _JPEG_ROWS
-    height = min(max(fitting, _JPEG_ROWS), BLOCK_ROWS)
+    fitting = _BLOCK_PIXELS // columns // JPEG_BLOCK * JPEG_BLOCK
+    height = min(max(fitting, JPEG_BLOCK), BLOCK_ROWS)
     return [rows[start : start + height] for start in range(0, len(rows), height)]
 
 

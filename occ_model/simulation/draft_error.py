@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.picture_rows import JPEG_BLOCK
 
-_BLOCK = 8  # rows of a part, those of a block of a JPEG file, whose errors are correlated
+_BLOCK = JPEG_BLOCK  # rows of a part, whose errors are correlated
 _MOST_EXPOSURES = 16  # of columns with few rows
 _DIFFERENCES = 30  # of exposures, of as many blocks of columns, that tell their variance
 _BLOCKS_BEYOND = 4  # blocks of columns that may lie beyond a step that no exposure has passed

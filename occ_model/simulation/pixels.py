@@ -12,7 +12,14 @@ from occ_model.arrays import ByteArray, Pixels
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, split_at, split_into_blocks
+from occ_model.camera.picture_rows import (
+    JPEG_BLOCK,
+    LitPanel,
+    PictureRows,
+    Rows,
+    split_at,
+    split_into_blocks,
+)
 from occ_model.effects.effect import FileEffect, OpticsEffect, PaperView, PixelEffect
 from occ_model.effects.noise import noise_of
 from occ_model.effects.registry import effects_planned
@@ -26,8 +33,6 @@ from occ_model.simulation.pictures import Pictures, ShownPanel
 from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads
-
-_BLOCK = 8  # columns and rows of a block of a JPEG file
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -194,7 +199,8 @@ class PixelExposure:
         if not shown:
             return None
         first, last = min(part.start for part in shown), max(part.stop for part in shown)
-        return slice(first // _BLOCK * _BLOCK, min(-(-last // _BLOCK) * _BLOCK, self._shape[1]))
+        end = min(-(-last // JPEG_BLOCK) * JPEG_BLOCK, self._shape[1])
+        return slice(first // JPEG_BLOCK * JPEG_BLOCK, end)
 
     def observe(self, observable: Observable, numbers: PictureNumbers) -> Pixels:
         """Simulate an observable before enhancement and rounding.

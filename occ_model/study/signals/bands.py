@@ -14,6 +14,7 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.coverage import Coverage, column_spans
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
+from occ_model.camera.picture_rows import JPEG_BLOCK
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.effect import FileEffect, OpticsEffect, region_of
 from occ_model.effects.registry import effects_named
@@ -21,7 +22,6 @@ from occ_model.results.decoding import Region
 from occ_model.scene.scene import Camera, Model, Scene, Transmitter
 from occ_model.simulation.pixel_draw import GainPattern
 
-BLOCK = 8  # rows of a band, those of a block of a JPEG file
 BANDS = 12
 
 
@@ -113,17 +113,21 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
     starts = _first_rows(span)
     coverage = Coverage(optics.outline, rows, columns, optics.blur)
     covered = np.array(
-        [coverage.rows(range(at, min(at + BLOCK, rows))).mean(axis=0) for at in starts.tolist()]
+        [
+            coverage.rows(range(at, min(at + JPEG_BLOCK, rows))).mean(axis=0)
+            for at in starts.tolist()
+        ]
     )
     lit = np.flatnonzero(covered.any(axis=0))
     if not len(lit):
         return _without_panel(size)
-    first, last = int(lit[0]) // BLOCK * BLOCK, (int(lit[-1]) // BLOCK + 1) * BLOCK
+    first = int(lit[0]) // JPEG_BLOCK * JPEG_BLOCK
+    last = (int(lit[-1]) // JPEG_BLOCK + 1) * JPEG_BLOCK
     seen = slice(first, min(last, columns))
     light: Pixels = covered[:, seen].astype(np.float32)
     panel = (light >= 0.5).astype(np.float32)
     weights = _weights(panel, optics.outline, span, size, seen)
-    middle = np.asarray(starts + 0.5 * (BLOCK - 1), dtype=np.float64)
+    middle = np.asarray(starts + 0.5 * (JPEG_BLOCK - 1), dtype=np.float64)
     for gain in optics.emission:
         light = np.multiply(light, gain.at(middle, seen))
     if not optics.transmission:
@@ -158,10 +162,10 @@ def _weights(
 
 def _first_rows(span: Region) -> IndexArray:
     """Return the first rows of the bands, blocks in the middles of equal parts of the span."""
-    first, last = span.first_row // BLOCK, -(-span.last_row // BLOCK)
+    first, last = span.first_row // JPEG_BLOCK, -(-span.last_row // JPEG_BLOCK)
     count = min(BANDS, last - first)
     blocks = first + ((np.arange(count) + 0.5) * ((last - first) / count)).astype(int)
-    return np.asarray(blocks * BLOCK)
+    return np.asarray(blocks * JPEG_BLOCK)
 
 
 _ROWS_AT_ONCE = 64

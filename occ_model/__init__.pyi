@@ -105,6 +105,7 @@ from .room.rooms import (
     load_room as load_room,
     rooms as rooms,
 )
+from .scene.csk import csk_chromaticities as csk_chromaticities
 from .scene.presets import (
     delete_preset as delete_preset,
     load_preset as load_preset,

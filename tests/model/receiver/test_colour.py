@@ -5,7 +5,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.receiver.csk import shares
-from occ_model.scene.csk import PARTS, POINTS, bits_of, symbols_of
+from occ_model.scene.csk import BANDS, PARTS, POINTS, bits_of, symbols_of
 from occ_model.scene.parameters.colour import CSK_ORDERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
@@ -122,6 +122,40 @@ def test_the_average_of_eight_points_is_not_white() -> None:
     assert mean == pytest.approx([0.319, 0.361, 0.319], abs=5e-4)
     for order in ("4-csk", "16-csk"):
         assert np.array(POINTS[order]).mean(axis=0) / PARTS == pytest.approx([1 / 3] * 3)
+
+
+def test_labels_of_neighbours_differ_in_one_bit_but_for_the_pairs_of_the_claim() -> None:
+    points = np.array(POINTS["16-csk"])
+    distances = np.linalg.norm(points[:, None] - points, axis=2)
+    pairs = np.argwhere(np.triu(np.isclose(distances, distances[distances > 0].min())))
+    assert len(pairs) == 18
+    unlike = [{*pair} for pair in pairs.tolist() if (pair[0] ^ pair[1]).bit_count() != 1]
+    # US patent 9467232, claim 1: S6 and S12, S12 and S13, S13 and S15.
+    assert unlike == [{0b0100, 0b0111}, {0b0100, 0b1101}, {0b1000, 0b1101}]
+
+
+def test_centres_of_the_bands_are_those_of_monochromatic_light() -> None:
+    # CIE 1931, 2 degrees: x and y at multiples of 5 nm beside each centre.
+    beside = {
+        429: ((0.1703, 0.0058), (0.1689, 0.0069)), 509: ((0.0039, 0.6548), (0.0139, 0.7502)),
+        564: ((0.3731, 0.6245), (0.4087, 0.5896)), 611: ((0.6658, 0.3340), (0.6801, 0.3197)),
+        656: ((0.7283, 0.2717), (0.7300, 0.2700)), 703: ((0.7347, 0.2653), (0.7347, 0.2653)),
+        753: ((0.7347, 0.2653), (0.7347, 0.2653)),
+    }  # fmt: skip
+    for (first, last, *centre), (middle, (below, above)) in zip(BANDS, beside.items(), strict=True):
+        assert middle == pytest.approx((first + last) / 2, abs=0.5)
+        part = middle % 5 / 5 if middle % 5 else 1.0
+        expected = np.array(below) + part * (np.array(above) - np.array(below))
+        assert centre == pytest.approx(expected, abs=0.0025)
+
+
+def test_a_point_has_the_mean_chromaticity_of_its_leds() -> None:
+    found = occ.csk_chromaticities("4-csk", "420")
+    corners = [(0.729, 0.271), (0.402, 0.597), (0.169, 0.007)]
+    assert found[[3, 0, 2]] == pytest.approx(np.array(corners))
+    assert found[1] == pytest.approx(np.mean(corners, axis=0))
+    with pytest.raises(occ.ParameterError, match="620, 610, 520"):
+        occ.csk_chromaticities("4-csk", "420 nm")
 
 
 @pytest.mark.parametrize("order", CSK_ORDERS)

@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
@@ -135,7 +135,7 @@ def scene_of(options: argparse.Namespace, *, may_have_colours: bool = False) -> 
     return new_scene
 
 
-def add_plan_options(parser: argparse.ArgumentParser) -> None:
+def add_plan_options(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES) -> None:
     defaults = SimulationSettings()
     add_option(
         parser, "--tolerance", defaults.tolerance, "how much omitted effects may change, in levels "
@@ -148,10 +148,10 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
         "the quantity of the tolerance",
         choices=OBSERVABLES,
     )
-    add_switches(parser)
+    add_switches(parser, effects)
 
 
-def add_switches(parser: argparse.ArgumentParser) -> None:
+def add_switches(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES) -> None:
     """Add the options that switch effects on or off, for :func:`forced_effects`."""
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
         parser.add_argument(
@@ -159,7 +159,7 @@ def add_switches(parser: argparse.ArgumentParser) -> None:
             action="append",
             default=[],
             metavar="EFFECT",
-            help=f"{meaning} whatever its estimate, one of {', '.join(NAMES)}; may be repeated",
+            help=f"{meaning} whatever its estimate, one of {', '.join(effects)}; may be repeated",
         )
 
 
@@ -169,15 +169,17 @@ def add_noise_options(parser: argparse.ArgumentParser) -> None:
     add_option(parser, "--seed", SimulationSettings().seed)
 
 
-def add_simulation_options(parser: argparse.ArgumentParser) -> None:
-    add_plan_options(parser)
+def add_simulation_options(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES) -> None:
+    add_plan_options(parser, effects)
     add_noise_options(parser)
 
 
-def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
+def simulation_settings_of(
+    options: argparse.Namespace, effects: Sequence[str] = NAMES
+) -> SimulationSettings:
     return SimulationSettings(
         options.tolerance, options.observable, forced_effects(options), seed=options.seed
-    ).check(NAMES)
+    ).check(effects)
 
 
 def forced_effects(options: argparse.Namespace) -> dict[str, bool]:

@@ -14,21 +14,24 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.effects.plan import plan_with
+from occ_model.effects.registry import NAMES
 from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
-from occ_model.scene.colour_scenes import is_colour
+from occ_model.scene.colour_scenes import EFFECTS_OFF, is_colour
 from occ_model.scene.from_text import write_scene_file
-from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.scene.scene import SimulationSettings
 from occ_model.simulation.colour import plan_colours, render_colour_with
 from occ_model.simulation.render import overexposed_fraction, render_with
+
+_EFFECTS = (*NAMES, *EFFECTS_OFF)
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser("render", help="simulate a picture and write it")
     add_scene_options(parser)
-    add_simulation_options(parser)
+    add_simulation_options(parser, _EFFECTS)
     parser.add_argument(
         "--picture",
         choices=PICTURES,
@@ -51,55 +54,43 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
-    settings = simulation_settings_of(options)
+    settings = simulation_settings_of(options, _EFFECTS)
     check_image_path(options.out)  # before seconds of work
     if is_colour(scene):
-        return _render_colours(options, scene, settings)
-    frame = render_with(scene, settings, options.rows_step)
-    image, title = frame.picture(options.picture), frame.picture_title(options.picture)
+        colours = render_colour_with(scene, settings)
+        image, title, step, timings = colours.image, colours.title, 1, colours.timings
+        fraction = 0.0
+    else:
+        frame = render_with(scene, settings, options.rows_step)
+        image, title = frame.picture(options.picture), frame.picture_title(options.picture)
+        step, timings = frame.rows_step, frame.timings
+        fraction = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
     write_image(options.out, image, title)
     if options.save_scene:
         write_scene_file(options.save_scene, scene)
-    rows, columns = image.shape
-    milliseconds = 1e3 * sum(frame.timings.values())
-    name = one_line(str(options.out))
-    description = f"{title[:1].lower()}{title[1:]}"
+    rows, columns = image.shape[:2]
     lines = inflect(rows, "row")
-    if frame.rows_step > 1:
+    if step > 1:
         lines = f"{rows} of {inflect(scene.camera.rows, 'row')}"
-    size = f"{inflect(columns, 'column')}, {lines}"
-    print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {description}")
-    fraction = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
+    print(
+        f"{one_line(str(options.out))}: {inflect(columns, 'column')}, {lines}, simulated in "
+        f"{1e3 * sum(timings.values()):.1f} ms, {title[:1].lower()}{title[1:]}"
+    )
     if fraction:
         print(overexposed_text(fraction))
-    return 0
-
-
-def _render_colours(options: argparse.Namespace, scene: Scene, settings: SimulationSettings) -> int:
-    frame = render_colour_with(scene, settings)
-    write_image(options.out, frame.image, frame.title)
-    if options.save_scene:
-        write_scene_file(options.save_scene, scene)
-    rows, columns = frame.image.shape[:2]
-    size = f"{inflect(columns, 'column')}, {inflect(rows, 'row')}"
-    milliseconds = 1e3 * sum(frame.timings.values())
-    description = f"{frame.title[:1].lower()}{frame.title[1:]}"
-    print(
-        f"{one_line(str(options.out))}: {size}, simulated in {milliseconds:.1f} ms, {description}"
-    )
     return 0
 
 
 def _add_plan(commands: Commands) -> None:
     parser = commands.add_parser("plan", help="list the effects that a scene needs, and why")
     add_scene_options(parser)
-    add_plan_options(parser)
+    add_plan_options(parser, _EFFECTS)
     defaults = SimulationSettings()
     parser.set_defaults(command=_list_effects, seed=defaults.seed)
 
 
 def _list_effects(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
-    settings = simulation_settings_of(options)
+    settings = simulation_settings_of(options, _EFFECTS)
     print(plan_colours(scene, settings) if is_colour(scene) else plan_with(scene, settings))
     return 0

@@ -13,9 +13,18 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.errors import ParameterError, quote
+from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters.camera import DIAGONAL_35MM
 from occ_model.scene.parameters.colour import COLOURS, CSK_ORDERS
 from occ_model.scene.scene import Scene
+
+EFFECTS_OFF: dict[str, dict[str, ParameterValue]] = {
+    "mixing": {"mixing": "", "crosstalk": 0.0},
+    "white-balance": {"red_gain": 1.0, "blue_gain": 1.0},
+    "demosaicing": {"demosaicing": "none"},
+    "chroma": {"chroma": "full"},
+}
+"""The effects of a colour camera alone, and the parameters of a scene without each."""
 
 
 def is_colour(scene: Scene) -> bool:

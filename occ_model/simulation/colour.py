@@ -23,10 +23,10 @@ from occ_model.effects.sensor_effects import Jpeg
 from occ_model.results.colour import ColourFrame
 from occ_model.results.decoding import Region
 from occ_model.results.frame import Plan
-from occ_model.scene.colour_scenes import check_colour, led_scene
+from occ_model.scene.colour_scenes import EFFECTS_OFF, check_colour, led_scene
 from occ_model.scene.scene import TOLERANCE, Observable, Scene, SimulationSettings
 from occ_model.simulation.colour_channels import channel_views, filter_view
-from occ_model.simulation.colour_effects import colour_decisions
+from occ_model.simulation.colour_effects import plan_with_colour
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.pixels import PixelExposure
@@ -49,7 +49,9 @@ def render_colour(
         One with a Bayer pattern, that averages light.
     tolerance, seed, observable, force
         As for :func:`occ_model.render`; the tolerance holds for each LED's monochrome picture. The
-        effects of colour take less time than their estimates, and so are always simulated.
+        effects of colour take less time than their estimates, and so are simulated unless ``force``
+        leaves one out: ``"mixing"``, ``"white-balance"``, ``"demosaicing"``, ``"jpeg"`` or
+        ``"chroma"``.
 
     Raises
     ------
@@ -85,7 +87,7 @@ def render_colour_with(scene: Scene, settings: SimulationSettings) -> ColourFram
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Prepared:
-    scene: Scene
+    scene: Scene  # Without the effects that are switched off
     plan: Plan
     views: list[PaperView]  # What each channel sees
     columns: list[Columns]  # The same, exposed
@@ -94,20 +96,27 @@ class _Prepared:
 def _prepare(scene: Scene, settings: SimulationSettings, timer: StageTimer) -> _Prepared:
     check_colour(scene)
     check_size(scene.camera)
-    settings = settings.check(NAMES)
+    settings = settings.check((*NAMES, *EFFECTS_OFF))
     leds = [paper_view_of(led_scene(scene, index)) for index in range(3)]
     timer.end_stage("exposure")
     different = list({view.scene: view for view in leds}.values())
-    plan = plan_of_any(different, settings)
+    force = {name: on for name, on in settings.force.items() if name in NAMES}
+    plan = plan_of_any(different, replace(settings, force=force))
     timer.end_stage("plan")
     views = channel_views(scene, leds, plan)
     columns = [expose_columns(view, sensor_plan(plan)) for view in views]
     timer.end_stage("exposure")
     profiles = [each.profile for each in columns]
-    stores = scene.camera.jpeg_quality > 0 and settings.force.get(Jpeg.name, True)
-    decisions = colour_decisions(scene, plan, leds, profiles, stores=stores)
+    plan = plan_with_colour(scene, plan, leds, profiles, settings.force)
     timer.end_stage("plan")
-    return _Prepared(scene, replace(plan, decisions=decisions), views, columns)
+    shown = scene
+    for effect, is_on in settings.force.items():
+        shown = shown if is_on else shown.replace(**EFFECTS_OFF.get(effect, {}))
+    if shown != scene:
+        views = channel_views(shown, leds, plan)
+        columns = [expose_columns(view, sensor_plan(plan)) for view in views]
+        timer.end_stage("exposure")
+    return _Prepared(shown, plan, views, columns)
 
 
 def sensor_plan(plan: Plan) -> Plan:

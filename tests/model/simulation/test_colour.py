@@ -9,6 +9,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.camera.mosaic import demosaic
+from occ_model.scene.colour_scenes import EFFECTS_OFF
 from occ_model.scene.scene import Scene
 
 RAW = {"demosaicing": "none"}
@@ -102,6 +103,23 @@ def test_the_plan_names_the_effects_of_colour_in_the_order_of_light() -> None:
     assert raw.image.ndim == 2
 
 
+@pytest.mark.parametrize("effect", EFFECTS_OFF)
+def test_an_effect_switched_off_leaves_the_picture_of_a_scene_without_it(effect: str) -> None:
+    scene = small(crosstalk=0.2, blue_gain=1.5, jpeg_quality=90)
+    frame = occ.render_colour(scene, force={effect: False})
+    without = occ.render_colour(scene.replace(**EFFECTS_OFF[effect]))
+    assert np.array_equal(frame.image, without.image)
+    usual = occ.render_colour(scene)
+    assert not np.array_equal(frame.image, usual.image)
+    (decision,) = (d for d in frame.plan.decisions if d.effect == effect)
+    assert effect in usual.plan
+    assert effect not in frame.plan
+    assert decision.reason.endswith("levels: switched off by hand")
+    assert frame.plan.error == pytest.approx(np.hypot(usual.plan.error, decision.estimate))
+    with pytest.raises(occ.ParameterError, match="led-edges"):
+        occ.render(scene.colour("red"), force={effect: False})
+
+
 @pytest.mark.parametrize("seed", [11, 12, 13])
 def test_estimates_of_colour_are_the_changes_of_pictures(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -182,6 +200,6 @@ def test_what_is_done_without_a_change_is_not_said_to_change_anything() -> None:
         light="waveform", levels="1 / 1", colour_light="white", illuminance=0.0, jpeg_quality=95
     )
     reasons = {d.effect: d.reason for d in occ.render_colour(lit).plan.decisions}
-    for effect in ("demosaicing", "jpeg"):
+    for effect in ("demosaicing", "jpeg", "chroma"):
         assert reasons[effect].startswith("no change in this scene, ")
         assert reasons[effect].endswith(": included")

@@ -2,7 +2,7 @@
 
 import cv2
 import numpy as np
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
@@ -38,24 +38,13 @@ class ColourStrip(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         if self._pixels is None or not self._pixels.size:
             return
-        size = QSize(max(1, self.width()), self.height()) * self.devicePixelRatio()
-        drawn = np.ascontiguousarray(_resize(self._pixels, size.width(), size.height()))
-        image = QImage(
-            drawn.data, size.width(), size.height(), drawn.strides[0], QImage.Format.Format_RGB888
-        )
+        size = self.size() * self.devicePixelRatio()
+        rows, columns = self._pixels.shape[:2]
+        # The painter repeats pixels, but averages none.
+        smaller = max(1, min(size.width(), columns)), max(1, min(size.height(), rows))
+        drawn = cv2.resize(self._pixels, smaller, interpolation=cv2.INTER_AREA)
+        image = QImage(drawn.data, *smaller, drawn.strides[0], QImage.Format.Format_RGB888)
         QPainter(self).drawImage(self.rect(), image)
-
-
-def _resize(pixels: ByteArray, width: int, height: int) -> ByteArray:
-    """Average pixels along an axis that gets smaller, and repeat them along one that grows.
-
-    OpenCV averages along neither if one of them grows.
-    """
-    rows, columns = pixels.shape[:2]
-    smaller = min(width, columns), min(height, rows)
-    mean = cv2.resize(pixels, smaller, interpolation=cv2.INTER_AREA)
-    grown = cv2.resize(mean, (width, height), interpolation=cv2.INTER_NEAREST)
-    return np.asarray(grown, dtype=np.uint8)
 
 
 class ColourView(QWidget):

@@ -153,6 +153,7 @@ from .transmitter.scheme import (
     scheme_of as scheme_of,
 )
 from .version import __version__ as __version__
+from .video.colour import decode_colour_video as decode_colour_video
 from .video.decode_film import decode_frames as decode_frames, decode_video as decode_video
 from .video.file.write import write_video as write_video
 from .video.load import load_video as load_video

@@ -76,7 +76,7 @@ def checked(function: _Function) -> _Function:
 
 def _takes_colours(module: str) -> bool:
     """Return whether the functions of a module take scenes of three colours, not of one."""
-    return module.endswith(".colour") or module.startswith(
+    return module.endswith((".colour", ".video.render")) or module.startswith(
         ("occ_model.scene.", "occ_model.transmitter.")
     )
 

@@ -35,11 +35,13 @@ from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.colour_scenes import check_monochrome, is_colour
 from occ_model.scene.light_words import describe_light
+from occ_model.scene.parameters.colour import COLOURS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
 from occ_model.transmitter.scheme import check_code
+from occ_model.video.colour import decode_colour_video
 from occ_model.video.decode_film import decode_video
 from occ_model.video.load import load_video
 
@@ -88,7 +90,7 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
-    if is_colour(scene) and not (options.follow or is_film(options.file)):
+    if is_colour(scene):
         return _read_colours(options, scene)
     check_monochrome(scene)
     if options.calibration:
@@ -107,6 +109,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
     """Read the three colours of a picture, and print one line with all of them first."""
+    if options.follow or is_film(options.file):
+        return _read_colour_film(options, scene)
 
     def load(path: Path) -> ColourPhoto:
         return load_colours(path, gamma=scene.camera.gamma, scan_axis=options.scan_axis)
@@ -125,6 +129,32 @@ def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
         if result.failure is not None:
             print(f"{colour}: {result.failure}", file=sys.stderr)
     return 0 if reading.is_read else EXIT_FAILURE
+
+
+def _read_colour_film(options: argparse.Namespace, scene: Scene) -> int:
+    """Read the three colours of a film, and print what is known of each."""
+    if options.calibration or options.offset_to:
+        raise ParameterError(
+            "--calibration is for a picture, and --offset-to for a film of one LED; leave them out."
+        )
+    video = load_video(options.file, options.scan_axis, channel="colours")
+    with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
+
+        def report_progress(colour: str, progress: FilmProgress) -> None:
+            if options.follow:
+                print(f"{colour:7}{_format_progress(progress)}", flush=True)
+            elif colour == COLOURS[-1]:
+                bar.update()
+
+        readings = decode_colour_video(
+            video, scene, options.decoder, progress=report_progress, **tolerances_of(options)
+        )
+    for colour, reading in readings.items():
+        print(f"{colour.capitalize()}:")
+        for line in _film_lines(reading, video):
+            print(line)
+        print_problems(video, reading)
+    return 0 if all(reading.failure is None for reading in readings.values()) else EXIT_FAILURE
 
 
 def _remarks(result: DecodeResult, image: ByteArray, scene: Scene) -> list[str]:

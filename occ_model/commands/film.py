@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from occ_model.commands.options import (
+    EFFECTS,
     Commands,
     add_option,
     add_scene_options,
@@ -33,7 +34,7 @@ _FRAMES = 90  # frames of a film, three seconds at the usual rate
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser("film", help="simulate a film and write it")
     add_scene_options(parser)
-    add_simulation_options(parser)
+    add_simulation_options(parser, EFFECTS)
     add_option(parser, "--frames", _FRAMES, metavar="N")
     for declared in DECLARED:
         default = declared.format(declared.default)
@@ -67,9 +68,9 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    recording = _parse_recording(options)
+    scene, recording = scene_of(options, may_have_colours=True), _parse_recording(options)
     film = render_video(
-        scene_of(options), options.frames, recording, settings=simulation_settings_of(options)
+        scene, options.frames, recording, settings=simulation_settings_of(options, EFFECTS)
     )
     check_film_path(options.out, recording.frame_rate, film.shape)
     with progress_bar(total=options.frames, unit="frame", leave=False) as bar:
@@ -124,9 +125,11 @@ def _parse_waypoint(text: str) -> Waypoint:
 
 def _describe_loss(film: Video, path: Path) -> str:
     """Describe the loss by a codec in the first frame."""
-    decoded = load_video(path, "columns").frame(0).image
-    rows, columns = decoded.shape
-    error = decoded.astype(np.float64) - film.frame(0).image[:rows, :columns]
+    simulated = film.frame(0).image
+    channel = "luma" if simulated.ndim == 2 else "colours"
+    decoded = load_video(path, "columns", channel=channel).frame(0).image
+    rows, columns = decoded.shape[:2]
+    error = decoded.astype(np.float64) - simulated[:rows, :columns]
     pixels = np.sqrt(np.mean(error**2))
     means = np.sqrt(np.mean(np.mean(error, axis=0) ** 2))
     return (

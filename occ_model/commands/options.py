@@ -13,7 +13,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, quote
 from occ_model.program import discard
 from occ_model.receiver.decode import DECODERS, decoders
-from occ_model.scene.colour_scenes import check_monochrome
+from occ_model.scene.colour_scenes import EFFECTS_OFF, check_monochrome
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.parameters.colour import COLOURS
@@ -30,6 +30,9 @@ if TYPE_CHECKING:  # argparse's class cannot be subscripted at run time
 else:
     Commands: TypeAlias = argparse._SubParsersAction
 
+
+EFFECTS = (*NAMES, *EFFECTS_OFF)
+"""Names of effects, with those of a colour camera's pictures and films."""
 
 _MAX_MESSAGE_CHARACTERS = 1000  # all allowed values fit; longer input is cut
 

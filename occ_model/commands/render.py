@@ -5,6 +5,7 @@ from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE
 from occ_model.commands.options import (
+    EFFECTS,
     Commands,
     add_plan_options,
     add_scene_options,
@@ -14,24 +15,21 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.effects.plan import plan_with
-from occ_model.effects.registry import NAMES
 from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
-from occ_model.scene.colour_scenes import EFFECTS_OFF, is_colour
+from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.scene import SimulationSettings
 from occ_model.simulation.colour import plan_colours, render_colour_with
 from occ_model.simulation.render import overexposed_fraction, render_with
 
-_EFFECTS = (*NAMES, *EFFECTS_OFF)
-
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser("render", help="simulate a picture and write it")
     add_scene_options(parser)
-    add_simulation_options(parser, _EFFECTS)
+    add_simulation_options(parser, EFFECTS)
     parser.add_argument(
         "--picture",
         choices=PICTURES,
@@ -54,7 +52,7 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
-    settings = simulation_settings_of(options, _EFFECTS)
+    settings = simulation_settings_of(options, EFFECTS)
     check_image_path(options.out)  # before seconds of work
     if is_colour(scene):
         colours = render_colour_with(scene, settings)
@@ -84,13 +82,13 @@ def _run(options: argparse.Namespace) -> int:
 def _add_plan(commands: Commands) -> None:
     parser = commands.add_parser("plan", help="list the effects that a scene needs, and why")
     add_scene_options(parser)
-    add_plan_options(parser, _EFFECTS)
+    add_plan_options(parser, EFFECTS)
     defaults = SimulationSettings()
     parser.set_defaults(command=_list_effects, seed=defaults.seed)
 
 
 def _list_effects(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
-    settings = simulation_settings_of(options, _EFFECTS)
+    settings = simulation_settings_of(options, EFFECTS)
     print(plan_colours(scene, settings) if is_colour(scene) else plan_with(scene, settings))
     return 0

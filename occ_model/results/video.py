@@ -43,8 +43,9 @@ class VideoFrame:
     time
         When the exposure of its first column started, in seconds by the camera's own clock, from
         the film's first frame; for a file, the time that the container states.
-    image : ndarray of uint8, shape (rows, columns)
-        The camera's picture in grey levels, not enhanced, with columns as the scan axis. A reader
+    image : ndarray of uint8, shape (rows, columns) or (rows, columns, 3)
+        The camera's picture in grey levels, not enhanced, with columns as the scan axis; of a
+        colour camera, or of a film read in colours, red, green and blue. A reader
         of films also takes the other types of pixels that :func:`occ_model.decode` takes; the value
         of white is that of the first frame.
     exposure_time

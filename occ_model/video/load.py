@@ -47,7 +47,8 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
         ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found from the first frames and
         used for all.
     channel
-        ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``. Most files store the luma of each pixel,
+        ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``; or ``"colours"``: images of all three, of
+        shape (rows, columns, 3), unless the film is grey. Most files store the luma of each pixel,
         but the colours of only four pixels together.
 
     Raises
@@ -176,7 +177,7 @@ class VideoFile(Video):
                 )
             return None
         if stored.pixels.shape != self._stored_shape:
-            lines, columns = stored.pixels.shape
+            lines, columns = stored.pixels.shape[:2]
             self._problem = (
                 f"{self._name} ends early: frame {index} has {columns} x {lines} pixels, "
                 "another size than the first."
@@ -241,7 +242,7 @@ class VideoFile(Video):
             raise self._refuse(decoder, error) from None
         if facts.field_axis is not None and bool(facts.field_axis) != self.turned:
             self.line_step = 2
-        lines, columns = first.pixels.shape
+        lines, columns = first.pixels.shape[:2]
         self.shape = (columns, lines) if self.turned else (lines, columns)
         put_back(decoder)
 
@@ -260,8 +261,9 @@ class VideoFile(Video):
         for _ in range(_SCAN_AXIS_FRAMES):
             if stored is None or stored.pixels.shape != first.pixels.shape:
                 break
-            columns += roughness_along(stored.pixels, 0)
-            lines += roughness_along(stored.pixels, 1)
+            pixels = stored.pixels if stored.pixels.ndim == 2 else stored.pixels[..., 1].copy()
+            columns += roughness_along(pixels, 0)
+            lines += roughness_along(pixels, 1)
             try:
                 stored = decoder.read()
             except (VideoError, DecoderStoppedError):

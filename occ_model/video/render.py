@@ -13,6 +13,13 @@ from occ_model.errors import ParameterError
 from occ_model.light.sent import light_period
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_count
+from occ_model.scene.colour_scenes import (
+    EFFECTS_OFF,
+    check_colour,
+    check_monochrome,
+    is_colour,
+    led_scene,
+)
 from occ_model.scene.light_samples import samples_of, text_of_samples
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.recording import Recording
@@ -39,7 +46,8 @@ def render_video(
     Parameters
     ----------
     scene
-        The scene; its start time is that of the first frame.
+        The scene; its start time is that of the first frame. Of a colour camera, the frames' images
+        are those of :func:`occ_model.render_colour`.
     frames
         Number of frames; None for an endless film.
     recording
@@ -62,8 +70,14 @@ def render_video(
     """
     if frames is not None:
         check_count("frames", frames, 1, MOST_FRAMES)
-    check_count("rows_step", rows_step, 1, scene.camera.rows)
-    settings = (settings or SimulationSettings()).check(NAMES)
+    names = NAMES
+    if is_colour(scene):
+        check_colour(scene)
+        names = (*NAMES, *EFFECTS_OFF)
+    else:
+        check_monochrome(scene)
+    check_count("rows_step", rows_step, 1, 1 if is_colour(scene) else scene.camera.rows)
+    settings = (settings or SimulationSettings()).check(names)
     recording = recording or Recording()
     recording.check(scene)
     check_size(scene.camera)
@@ -109,7 +123,12 @@ class SimulatedVideo(Video):
         index = int(index)
         scene = self.scene_of(index)
         settings = replace(self.settings, seed=self.seed_of(index))
-        picture = render_with(scene, settings, self._rows_step).camera_image
+        if is_colour(scene):
+            from occ_model.simulation.colour import render_colour_with  # by colour cameras only
+
+            picture = render_colour_with(scene, settings).image
+        else:
+            picture = render_with(scene, settings, self._rows_step).camera_image
         return VideoFrame(
             index=index,
             time=self.time_of(index),
@@ -143,7 +162,7 @@ class SimulatedVideo(Video):
         """
         drifted_scene, recording = self._drifted_scene, self.recording
         start = self.start_of(index)
-        time_in_period = float(start % light_period(drifted_scene.transmitter))
+        time_in_period = float(start % _light_period(drifted_scene))
         changes = {"start_time": time_in_period, **self._pose_changes(index)}
         if recording.exposure_times:
             exposure = Fraction(recording.exposure_time(drifted_scene, index))
@@ -180,6 +199,12 @@ class SimulatedVideo(Video):
 def _spawn_seed(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
     """Return the seed of one of a frame's own streams of random numbers."""
     return np.random.SeedSequence(seed, spawn_key=(index, purpose))
+
+
+def _light_period(scene: Scene) -> Fraction:
+    """Return the period of a scene's light; a steady LED has any."""
+    leds = [led_scene(scene, index) for index in range(3)] if is_colour(scene) else [scene]
+    return max(light_period(led.transmitter) for led in leds)
 
 
 def _apply_drift(scene: Scene, recording: Recording) -> Scene:

@@ -24,8 +24,8 @@ class Orientation:
         return cls(True, c < 0, b < 0)
 
     def turn(self, pixels: Samples) -> Samples:
-        """Return a picture, shape (lines, columns), upright."""
-        pixels = pixels.T if self.exchanged else pixels
+        """Return a picture, shape (lines, columns) or (lines, columns, 3), upright."""
+        pixels = pixels.swapaxes(0, 1) if self.exchanged else pixels
         pixels = pixels[:, ::-1] if self.from_right else pixels
         return np.ascontiguousarray(pixels[::-1] if self.from_below else pixels)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import Samples
 
-CHANNELS = ("luma", "red", "green", "blue")  # files mostly store colours for 2 x 2 pixels
+CHANNELS = ("luma", "red", "green", "blue", "colours")  # mostly stored for 2 x 2 pixels
 MAX_PIXELS = 36_000_000  # largest frame to be read: 8K, if its codec's memory suffices
 _BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to continue: four coloured frames
 
@@ -17,7 +17,7 @@ _BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to continue: four colour
 @dataclass(frozen=True, eq=False, slots=True)
 class StoredFrame:
     time: float  # In seconds of the recording, as the file states it
-    pixels: Samples  # Shape (lines, columns): one channel, upright, with white as largest number
+    pixels: Samples  # Shape (lines, columns) or (..., 3), upright, with white as largest number
     first_line: float = 0.0  # Where a field's first line lies, in its lines from the film's first
 
 
@@ -63,11 +63,13 @@ def check_memory(pixels: int) -> None:
 
 
 def extract_channel(pixels: Any, channel: str) -> Samples:
-    """Extract one channel of pixels of shape (lines, columns) or (lines, columns, 3) in BGR."""
+    """Extract a channel, or all in RGB, of pixels of shape (lines, columns) or (..., 3) in BGR."""
     if pixels.ndim == 2:
         return np.asarray(pixels)
     if channel == "luma":
         return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY))
+    if channel == "colours":
+        return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB))
     return np.asarray(cv2.extractChannel(pixels, ("blue", "green", "red").index(channel)))
 
 

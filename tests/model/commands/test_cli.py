@@ -288,6 +288,22 @@ def test_a_colour_camera_is_rendered_and_read(
     assert read.out.splitlines()[0] == "colours      red 718, green 345, blue 201"
 
 
+def test_a_film_in_three_colours_is_made_and_read(command: Command, tmp_path: Path) -> None:
+    for ending in (".mkv", ".mp4"):
+        film = tmp_path / f"x{ending}"
+        made = command("film", *COLOUR, "--frames", "2", "-o", film)
+        assert made.code == 0
+        assert ("lossy" in made.out) == (ending == ".mp4")
+    read = command("decode", tmp_path / "x.mkv", *COLOUR)
+    assert read.code == 0
+    stated = [line.split()[-1] for line in read.out.splitlines() if line[:3] in "Red Gre Blu pay"]
+    assert stated == ["Red:", "718", "Green:", "345", "Blue:", "201"]
+    followed = command("decode", tmp_path / "x.mkv", *COLOUR, "--follow")
+    assert [line.split()[0] for line in followed.out.splitlines()[:3]] == ["red", "green", "blue"]
+    refused = command("decode", tmp_path / "x.mkv", *COLOUR, "--offset-to", tmp_path / "x.mkv")
+    assert (refused.code, "one LED" in refused.err) == (2, True)
+
+
 def test_a_calibration_gives_the_matrix_that_the_camera_has(
     command: Command, tmp_path: Path
 ) -> None:

@@ -48,7 +48,7 @@ def test_unused_parameters_of_colour_change_no_monochrome_picture() -> None:
         occ.render, occ.plan, lambda s: occ.decode(np.eye(9), s), occ.column_profile, occ.on_time,
         occ.band_profile, occ.band_depth, lambda s: occ.success_rate(s, images=1),
         lambda s: occ.sweep(s, {"distance": [1.0]}, images=1), occ.limits, occ.accuracy,
-        lambda s: occ.transmitter_sketch(s, "arduino-uno"), occ.render_video,
+        lambda s: occ.transmitter_sketch(s, "arduino-uno"),
     ],
 )  # fmt: skip
 def test_what_is_of_one_colour_refuses_three(call: object) -> None:

@@ -8,11 +8,17 @@ import numpy as np
 from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
-from occ_model.photo.reading.file import open_file
-from occ_model.photo.reading.load import load_photo
+from occ_model.photo.reading.choices import SCAN_AXES
+from occ_model.photo.reading.file import open_file, open_picture
+from occ_model.photo.reading.image_decoding import (
+    DECODED_FRACTION,
+    DecodedPicture,
+    take_channel,
+)
+from occ_model.photo.reading.load import in_grey_levels, turned_upright
 from occ_model.photo.reading.raw import MOSAIC, WHITE_SAMPLE, is_raw, read_mosaic
 from occ_model.photo.reading.watched_file import Reporter
-from occ_model.scene.parameters.colour import COLOURS
+from occ_model.scene.argument_checks import check_choice
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,20 +55,17 @@ def load_colours(path: str | Path, *, gamma: float, scan_axis: str = "auto") -> 
     PhotoError
         As for :func:`occ_model.load_photo`; or a RAW file is of a sensor without colours.
     """
-    file = Path(path)
-    with open_file(file, MAX_PIXELS, Reporter(None)) as opened:
+    check_choice("scan_axis", scan_axis, SCAN_AXES)
+    file, report = Path(path), Reporter(None)
+    with open_file(file, MAX_PIXELS, report) as opened:
         if is_raw(opened):
-            mosaic = read_mosaic(file, opened, MOSAIC, MAX_PIXELS, Reporter(None))
+            mosaic = read_mosaic(file, opened, MOSAIC, MAX_PIXELS, report)
             light, pattern = mosaic.all_photosites(), mosaic.pattern
             if scan_axis != "columns":
                 light, pattern = light.T, pattern[0::2] + pattern[1::2]
             table = WHITE * (np.arange(WHITE_SAMPLE + 1.0) / WHITE_SAMPLE) ** (1.0 / gamma)
             return ColourPhoto(np.rint(table).astype(np.uint8)[light], pattern)
-    axis = "columns" if scan_axis == "auto" else scan_axis
-    channels = []
-    for colour in COLOURS:
-        photo = load_photo(file, axis, channel=colour)
-        if photo.channel == "grey":
-            return ColourPhoto(photo.image, "")
-        channels.append(photo.image)
-    return ColourPhoto(np.dstack(channels), "")
+        decoded = DecodedPicture(open_picture(file, opened, MAX_PIXELS, DECODED_FRACTION))
+        samples, _ = take_channel(decoded, None, report)
+    turned = turned_upright(samples, decoded.orientation, scan_axis == "lines")
+    return ColourPhoto(in_grey_levels(turned), "")

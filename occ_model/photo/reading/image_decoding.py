@@ -108,7 +108,7 @@ class DecodedPicture:
             raise PhotoError(str(error)) from None
 
     def close(self) -> None:
-        """Free the decoded picture, even while this object is referenced."""
+        """Free the decoded picture, even while this object, or an error, is referenced."""
         self.picture.close()
         del self._convert
 
@@ -134,24 +134,33 @@ def _load(picture: "ImageFile") -> None:
         picture.load()
 
 
-def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:
-    """Take one channel of a picture.
+def take_channel(
+    picture: DecodedPicture, channel: str | None, report: Progress
+) -> tuple[Samples, str]:
+    """Take one channel of a picture, or for None all that it has, and free the picture.
 
     If green is nearly as bright as the brightest, green is taken, as a sensor has the most pixels
     of it. The name is ``"grey"`` if the picture has no colours, even if its file has three equal
-    channels.
+    channels; all three of them are ``"colours"``, shape (rows, columns, 3).
     """
-    first = picture.part((0, 0, 1, 1))
-    take: _Take = lambda pixels: pixels  # noqa: E731 - for pictures of a single channel
-    name = "grey"
-    if first.ndim == 3:
-        means, has_colours = _average_colours(picture, lambda fraction: report(0.5 * fraction))
-        take, name = _choose_channel(means, has_colours, channel, _NEAR_TIE * white_of(first) / 255)
-    samples = np.empty(picture.shape, first.dtype)
-    rows = len(samples)
-    for left, top, right, bottom in picture.boxes():
-        samples[top:bottom, left:right] = take(picture.part((left, top, right, bottom)))
-        report(0.5 + 0.5 * bottom / rows)
+    try:
+        first = picture.part((0, 0, 1, 1))
+        take: _Take = lambda pixels: pixels  # noqa: E731 - for what is taken whole
+        name = "grey"
+        if first.ndim == 3:
+            means, has_colours = _average_colours(picture, lambda fraction: report(0.5 * fraction))
+            tie = _NEAR_TIE * white_of(first) / 255
+            if channel is None and has_colours:
+                name = "colours"
+            else:
+                take, name = _choose_channel(means, has_colours, channel or "", tie)
+        samples = np.empty((*picture.shape, *take(first).shape[2:]), first.dtype)
+        rows = len(samples)
+        for left, top, right, bottom in picture.boxes():
+            samples[top:bottom, left:right] = take(picture.part((left, top, right, bottom)))
+            report(0.5 + 0.5 * bottom / rows)
+    finally:
+        picture.close()
     return samples, name
 
 

@@ -149,15 +149,19 @@ def load_photo(
             decoded = DecodedPicture(open_picture(file, opened, largest, DECODED_FRACTION))
             notes, orientation = camera_notes(decoded.picture), decoded.orientation
             is_linear = is_linear_picture(decoded.picture)
-            samples, channel_name = _take_channel(decoded, channel, report)
+            samples, channel_name = take_channel(
+                decoded,
+                channel,
+                lambda fraction: report(DECODED_FRACTION + (1.0 - DECODED_FRACTION) * fraction),
+            )
             turned = _is_turned(samples, orientation, scan_axis)
-    samples = _turn(samples, orientation, turned)
+    samples = turned_upright(samples, orientation, turned)
     white = int(white_of(samples))
     return Photo(
         path=file,
         samples=samples,
         white=white,
-        image=_in_grey_levels(samples),
+        image=in_grey_levels(samples),
         profile=means_along(samples, 0) * (WHITE / white),
         turned=turned,
         channel=channel_name,
@@ -185,7 +189,7 @@ def _is_turned(samples: Samples, orientation: int, scan_axis: str) -> bool:
     return scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, transposed))
 
 
-def _turn(samples: Samples, orientation: int, turned: bool) -> Samples:
+def turned_upright(samples: Samples, orientation: int, turned: bool) -> Samples:
     """Turn samples upright, and then make the scan axis the columns."""
     transpose, mirror_rows, mirror_columns = turns_of(orientation)
     if turned:
@@ -200,19 +204,7 @@ def _turn(samples: Samples, orientation: int, turned: bool) -> Samples:
     return samples
 
 
-def _take_channel(decoded: DecodedPicture, channel: str, report: Reporter) -> tuple[Samples, str]:
-    """Take a channel, and free the picture, also while an error refers to it."""
-    try:
-        return take_channel(
-            decoded,
-            channel,
-            lambda fraction: report(DECODED_FRACTION + (1.0 - DECODED_FRACTION) * fraction),
-        )
-    finally:
-        decoded.close()
-
-
-def _in_grey_levels(samples: Samples) -> ByteArray:
+def in_grey_levels(samples: Samples) -> ByteArray:
     if samples.dtype == np.uint8:
         return np.asarray(samples, dtype=np.uint8)  # the same array
     return np.asarray(cv2.convertScaleAbs(samples, alpha=WHITE / white_of(samples)), np.uint8)

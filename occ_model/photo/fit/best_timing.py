@@ -95,6 +95,8 @@ def explain_from(
     """
     found: list[tuple[float, list[StripeFit], CameraTone]] = []
     for camera in cameras:
+        if found:  # responses differ too little to lead elsewhere
+            starts = [fit.timing for fit in found[0][1]]
         model = StripeModel(stripes.profile, chips, camera.tone, starts[0].step)
         fits = _fits(model, starts, with_gamma)
         ratio = _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0

@@ -16,6 +16,7 @@ from occ_model.photo.fit.seen_stripes import BlurShape
 from occ_model.photo.fit.timing import Timing
 
 _MOST_EXCESS_MISFIT = 60.0  # excess of the misfit above which an exposure is not refined
+_MOST_SHAPED_EXCESS = 20.0  # and above which another shape of the blur makes no model the likeliest
 
 _MOST_EXCESS, _MOST_RATIO = 9.0, 1.3
 """Excess of the misfit (three standard deviations), and its ratio, up to which another exposure is
@@ -33,10 +34,10 @@ _BLUR_FRACTIONS: dict[BlurShape, tuple[float, ...]] = {
 box of blur and an exposure look alike, and each shape has several minima: starts at one half alone
 took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
 
-_HOPELESS_RATIO = 20.0
+_HOPELESS_RATIO = 6.0
 """Ratio of misfits to the least one above which a fit that begins elsewhere is not finished."""
 
-_LAST_ROUNDS = 10
+_ROUNDS, _LAST_ROUNDS = 5, 10  # before the noise is known, and then
 _SHORTEST_EXPOSURE = 0.2  # shortest exposure in columns to start from
 
 _LONGEST_EXPOSURE = 4.2  # longest exposure in chips to start from
@@ -55,12 +56,15 @@ class Possible:
     fit: JointFit
     rounds: int = 1
 
-    def again(self) -> list[JointFit]:
-        """Fit again, the noise having been estimated, also with each shape of the blur.
+    def free(self) -> JointFit:
+        """Fit again, the noise having been estimated."""
+        return self.model.fit(self.fit.values, rounds=self.rounds)
+
+    def of_each_shape(self, free: JointFit) -> list[JointFit]:
+        """Fit also with each shape of the blur, where it may be taken for the exposure.
 
         Each minimum counts once, however many starts end in it.
         """
-        free = self.model.fit(self.fit.values, rounds=self.rounds)
         if free.values[1] >= _MOST_COLUMNS * free.values[0]:
             return [free]
         hopeless = _HOPELESS_RATIO * free.misfit
@@ -114,9 +118,9 @@ def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Poss
             # Each blur starts from what is usual of all else: tone and switching can make up for
             # it. Where gamma is to be fitted, it must not start anew.
             others = [model.with_usual(other) for other in others]
-        best = model.fit(here, rounds=5)
+        best = model.fit(here, rounds=_ROUNDS)
         for start in others:
-            other = model.promising(start, 5, "normal", _HOPELESS_RATIO * best.misfit)
+            other = model.promising(start, _ROUNDS, "normal", _HOPELESS_RATIO * best.misfit)
             best = best if other is None or other.misfit >= best.misfit else other
         found.append(Possible(model, best, _LAST_ROUNDS))
     return found
@@ -161,7 +165,12 @@ def exposure_modes(
     means = []
     for group in groups:
         most = min(one.fit.misfit for one in group) + _MOST_EXCESS_MISFIT
-        fits = [fit for one in group if one.fit.misfit <= most for fit in one.again()]
+        again = [(one, one.free()) for one in group if one.fit.misfit <= most]
+        least = min(fit.misfit for _, fit in again)
+        fits: list[JointFit] = []
+        for one, own in again:
+            is_likely = own.misfit < least + _MOST_SHAPED_EXCESS
+            fits += one.of_each_shape(own) if is_likely else [own]
         means.append(averaged([fit.unbiased for fit in fits]))
     least = min(fit.misfit for fit in means)
     most = _MOST_RATIO * least + _MOST_EXCESS

@@ -70,3 +70,10 @@ def leading_direction(products: FloatArray) -> FloatArray:
         power /= max(float(np.trace(power)), np.finfo(float).tiny)
     longest = power[int(np.diag(power).argmax())]
     return np.asarray(longest / max(math.sqrt(dot(longest, longest)), np.finfo(float).tiny))
+
+
+def quadratic_forms(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Return v' M v of each of some vectors, which are rows, and a symmetric matrix M."""
+    step = max(1, MOST_MULTIPLIED // matrix.size)
+    parts = (vectors[i : i + step] for i in range(0, len(vectors), step))
+    return np.concatenate([np.einsum("ij,ij->i", part @ matrix, part) for part in parts])

@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
+from lit_fractions import light_of
 from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.camera_response import camera_tones
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.least_squares import StripeModel
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.timing import ChipLight, Timing
 from occ_model.transmitter.scheme import sent_chips
 
 CHIPS = sent_chips(occ.Scene().transmitter)
@@ -38,7 +38,7 @@ def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     step, exposure = spread(index, 0.03, 0.4), spread(7 * index, 0.2, 4.0)
     middle = spread(31 * index, 0.0, 24.0)
     true = Timing(step, exposure, middle, 2.22)
-    profile = 40.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), 2000)
+    profile = 40.0 + 150.0 * light_of(CHIPS, true, 2000)
     candidates = Search(profile, CHIPS).candidates(Search(profile, CHIPS).steps(), 2.22)
     model = StripeModel(profile, CHIPS, None, step)
     fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.residual)
@@ -53,7 +53,7 @@ def test_gamma_comes_back_where_it_is_asked_for() -> None:
     scene = occ.Scene().replace(averaging="light", gamma=2.6, illuminance=400.0)
     model_tone = camera_tones(scene, ("light",), 80.0, 220.0)[0].tone
     true = Timing(0.08, 0.7, 5.3, 2.6)
-    tone = model_tone(true.lit_fraction(Waveform(CHIPS), 2500), 2.6)
+    tone = model_tone(light_of(CHIPS, true, 2500), 2.6)
     model = StripeModel(80.0 + 140.0 * tone, CHIPS, model_tone, 0.08)
     fit = model.fit(Timing(0.08, 0.6, 5.35, 2.0), with_gamma=True)
     assert fit.timing.gamma == pytest.approx(2.6, rel=1e-3)
@@ -63,9 +63,9 @@ def test_gamma_comes_back_where_it_is_asked_for() -> None:
 @given(exposure=st.floats(0.05, 0.95), turns=st.integers(1, 3))
 def test_exposures_that_add_up_to_whole_periods_look_alike(exposure: float, turns: int) -> None:
     """The moving average is a trapezoid whose ramps last the exposure modulo the period."""
-    waveform = Waveform(np.array([1, 0], dtype=np.uint8))
-    one = Timing(0.07, exposure, 0.3, 2.22).lit_fraction(waveform, 500)
-    other = Timing(0.07, 2.0 * turns - exposure, 0.3, 2.22).lit_fraction(waveform, 500)
+    light = ChipLight(np.array([1, 0], dtype=np.uint8), 500)
+    one = light.exposed(Timing(0.07, exposure, 0.3, 2.22)).lit
+    other = light.exposed(Timing(0.07, 2.0 * turns - exposure, 0.3, 2.22)).lit
     swing = np.ptp(other) / np.ptp(one)
     turned = np.abs(np.corrcoef(one, other)[0, 1])
     assert turned == pytest.approx(1.0, abs=1e-9)
@@ -97,7 +97,7 @@ def test_a_code_of_few_chips_is_read_under_a_hot_spot(seed: int) -> None:
     place = np.linspace(-1.0, 1.0, columns)
     middle, size, height = (random.uniform(*ends) for ends in ((-0.4, 0.4), (0.25, 0.5), (1, 5)))
     hot = 1.0 + height * np.exp(-0.5 * ((place - middle) / size) ** 2)
-    light = 0.002 + 0.9 * timing.lit_fraction(Waveform(chips), columns) * hot / hot.max()
+    light = 0.002 + 0.9 * light_of(chips, timing, columns) * hot / hot.max()
     levels = 255.0 * light ** (1.0 / 2.2) + random.normal(0.0, 2.0, (60, columns))
     photo = photo_of(np.clip(np.rint(levels), 0.0, 255.0).astype(np.uint8))
     scene = occ.load_preset("phone-68us").replace(pattern=pattern, switching_frequency=1e4)

@@ -4,7 +4,8 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.hypothesis import Hypothesis
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.timing import ChipLight
+from occ_model.products import dot, quadratic_forms, row_products
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.scheme import packet_length, packets_of_codes, sends_paper_code
 
@@ -31,13 +32,13 @@ def nearest_other(
         return None
     swing = found.fit.swing
     light = (profile - found.fit.low) / swing
-    responses = _responses(found.fit.timing, len(chips), len(profile))
+    alone = (ChipLight(one, len(profile)) for one in np.eye(len(chips), dtype=np.uint8))
+    responses = np.stack([one.exposed(found.fit.timing).lit for one in alone])
     weight = swing**2 / float((swing**2).sum())
-    responses = responses - weight @ responses
-    light = light - float(weight @ light)
-    towards = others @ (responses.T @ (weight * light))
-    products = responses.T @ (weight[:, None] * responses)
-    energy = np.einsum("ij,ij->i", others @ products, others)
+    responses -= row_products(weight, responses)[:, None]
+    light = light - dot(weight, light)
+    towards = row_products(row_products(weight * light, responses), others)
+    energy = quadratic_forms(others, row_products(weight * responses, responses))
     likeness = towards / np.sqrt(np.maximum(energy, 1e-12))
     own = {np.roll(chips, turn).tobytes() for turn in range(len(chips))}
     ordered = (others[place].astype(np.uint8) for place in np.argsort(-likeness, kind="stable"))
@@ -57,19 +58,3 @@ def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
         others = chips ^ np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
     changes = others.min(axis=1) != others.max(axis=1)
     return np.asarray(others[changes], dtype=np.float64)
-
-
-def _responses(timing: Timing, chips: int, columns: int) -> FloatArray:
-    """Return the lit fraction of each column that each chip alone makes, shape (columns, chips).
-
-    A chip's running integral over time rises by one while it lasts, once a period.
-    """
-    start = timing.start(columns) + timing.step * np.arange(columns, dtype=np.float64)
-    chip = np.arange(chips)
-
-    def until(place: FloatArray) -> FloatArray:
-        turns = np.floor(place / chips)
-        within = np.clip((place - turns * chips)[:, None] - chip, 0.0, 1.0)
-        return np.asarray(within + turns[:, None])
-
-    return np.asarray((until(start + timing.exposure) - until(start)) / timing.exposure)

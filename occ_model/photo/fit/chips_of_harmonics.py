@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.stripes.envelope import MEAN_SHAPES, smooth_shapes
+from occ_model.photo.stripes.envelope import MEAN_SHAPES
+from occ_model.photo.stripes.period import Harmonics, repeated_wave
 from occ_model.products import row_products
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
@@ -22,13 +23,9 @@ _LEAST_WEIGHT = 0.01  # weight relative to the largest one below which a harmoni
 
 _MOST_HARMONICS = 160
 
-_REGULARIZATION = 1e-6  # regularization of the normal equations relative to a harmonic's energy
-
 _MOST_EVALUATIONS = 120
 
 _MOST_WIDENING = 0.5  # maximum change, in chips, of bright runs by gamma and saturation
-
-Harmonics = NDArray[np.complex128]
 
 _DENSE_EXPOSURES = (0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.0, 2.15, 2.3, 2.5, 2.7, 2.85, 3.0, 3.15)
 _DENSE_PHASES = np.arange(16) / 16.0
@@ -56,13 +53,7 @@ def harmonics_of(even: FloatArray, period: float) -> Harmonics:
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
     count = min(count, max(2, (columns - MEAN_SHAPES) // 3))
-    turn = 2.0 * np.pi / period * np.outer(np.arange(1, count + 1), np.arange(columns))
-    parts = np.vstack([np.cos(turn), np.sin(turn), smooth_shapes(columns, MEAN_SHAPES).T])
-    products = row_products(parts, parts)
-    # At half the column rate a sine has no energy of its own.
-    products[np.diag_indices_from(products)] += _REGULARIZATION * columns
-    weights = np.linalg.solve(products, row_products(even, parts))
-    return np.asarray(0.5 * (weights[:count] - 1j * weights[count : 2 * count]))
+    return repeated_wave(even, period, count, MEAN_SHAPES)[0]
 
 
 def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
@@ -194,8 +185,9 @@ def chips_by_descent(
     ):
         check()
         responses = box * of_chips
-        towards = (np.conj(responses) * lines).real.sum(axis=1) / length
-        chips, alike = _ascended(first, towards, (responses @ np.conj(responses).T).real)
+        parts = np.hstack([responses.real, responses.imag])
+        towards = row_products(np.concatenate([lines.real, lines.imag]), parts) / length
+        chips, alike = _ascended(first, towards, row_products(parts, parts))
         key = min(np.roll(chips, turn).tobytes() for turn in range(count))
         if chips.min() < chips.max() and (key not in found or found[key].explained < alike):
             found[key] = ReadPattern(chips, alike, exposure, phase)
@@ -205,21 +197,30 @@ def chips_by_descent(
 def _ascended(
     first: ByteArray, towards: FloatArray, products: FloatArray
 ) -> tuple[ByteArray, float]:
-    """Change one chip, or two neighbours, while the likeness c'a / sqrt(c'Qc) rises."""
-    one = np.eye(len(first), dtype=np.uint8)
-    changes = np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
-    chips, best = first, float(_chip_likeness(first[None], towards, products)[0])
+    """Change one chip, or two neighbours, while the likeness c'a / sqrt(c'Qc) rises.
+
+    -1 is the likeness of constant chips.
+    """
+    count = len(first)
+    chips = first.astype(np.float64)
+    own, beside = np.diag(products), products[np.arange(count), np.arange(count) - 1]
+    # Where no chip, one, or one and that before it changes: its likeness follows from what is new.
     while True:
-        others = chips ^ changes
-        alike = _chip_likeness(others, towards, products)
+        signs = 1.0 - 2.0 * chips
+        pull = products @ chips
+        on, along, energy = (
+            np.concatenate([[0.0], one, one + np.roll(one, 1) + both])
+            for one, both in (
+                (signs, 0.0),
+                (signs * towards, 0.0),
+                (2.0 * signs * pull + own, 2.0 * signs * np.roll(signs, 1) * beside),
+            )
+        )
+        on, along, energy = on + chips.sum(), along + chips @ towards, energy + chips @ pull
+        varies = (on > 0.5) & (on < count - 0.5)
+        alike = np.where(varies, along / np.sqrt(np.maximum(energy, 1e-300)), -1.0)
         most = int(alike.argmax())
-        if alike[most] <= best + _LEAST_GAIN:
-            return chips, best
-        chips, best = others[most], float(alike[most])
-
-
-def _chip_likeness(chips: ByteArray, towards: FloatArray, products: FloatArray) -> FloatArray:
-    """Return the likeness of each row of chips, -1 for constant chips."""
-    energy = np.einsum("ij,ij->i", chips @ products, chips)
-    varies = chips.min(axis=1) < chips.max(axis=1)
-    return np.where(varies, chips @ towards / np.sqrt(np.maximum(energy, 1e-300)), -1.0)
+        if most == 0 or alike[most] <= alike[0] + _LEAST_GAIN:
+            return chips.astype(np.uint8), float(alike[0])
+        changed = [(most - 1) % count] if most <= count else [most - count - 1, most - count - 2]
+        chips[changed] = 1.0 - chips[changed]

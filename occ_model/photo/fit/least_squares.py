@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
-from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
+from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.products import combined, dot, row_products
@@ -96,7 +95,7 @@ class StripeModel:
         step: float,
     ) -> None:
         self._profile = profile
-        self._chips, self._waveform = chips, Waveform(chips)
+        self._light = ChipLight(chips, len(profile))
         self._tone = tone or Tone()
         self._step = step
         # The same number for both levels, or else the mean would fit better than the swing.
@@ -121,7 +120,7 @@ class StripeModel:
         return low, swing, np.minimum(low + swing * tone, WHITE)
 
     def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        lit = timing.lit_fraction(self._waveform, len(self._profile))
+        lit = self._light.exposed(timing).lit
         tone = self._tone(lit, timing.gamma)
         levels = self._explained(tone, self._kept_profile)
         low, swing = combined(levels.reshape(2, -1), self._shapes)
@@ -141,7 +140,7 @@ class StripeModel:
         What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
         """
         lit, tone, low, swing = self._at(timing)
-        by_timing = timing.lit_slopes(lit, self._chips)
+        by_timing = self._light.exposed(timing).slopes()
         changes = swing * self._tone.slopes(lit, timing.gamma, by_timing)
         levels = self._explained(tone, changes[:, self._kept])
         slopes = LitColumns(self._shapes, tone).light(levels) - changes

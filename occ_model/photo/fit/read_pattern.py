@@ -19,7 +19,6 @@ from occ_model.photo.chips.edges import (
 )
 from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.chips_of_harmonics import (
-    Harmonics,
     ReadPattern,
     best_chips,
     chips_by_descent,
@@ -27,6 +26,7 @@ from occ_model.photo.fit.chips_of_harmonics import (
     refined,
 )
 from occ_model.photo.stripes.envelope import remove_trend
+from occ_model.photo.stripes.period import Harmonics
 
 MOST_CHIPS = 128  # maximum number of chips in a period
 

@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.timing import ChipLight, Timing
 from occ_model.photo.fit.tone_curve import ToneCurve, ToneSlopes, ToneTable
 
 BLUR_REACH = 8  # maximum distance in columns over which blur acts
@@ -31,94 +31,6 @@ GAMMA = 3
 OF_TONE = [GAMMA, 4, 5, 6]
 IN_ORDER = [0, 1, 2, 7, 8, *OF_TONE]
 """Indices of gamma, of the tone curve's parameters, and of all in the order of slopes."""
-
-
-class BlurredLight:
-    """The light of chips that are sent repeatedly, as blurred columns see it.
-
-    ``chips``: shape (chips,), one period, neither all on nor all off.
-    """
-
-    def __init__(self, chips: ByteArray, columns: int) -> None:
-        self._period = len(chips)
-        self._columns = columns
-        change = chips.astype(np.int64) - np.roll(chips, 1)
-        places = np.flatnonzero(change)
-        turns = np.concatenate([places - self._period, places, places + self._period])
-        self._edges = turns.astype(np.float64)
-        self._changes = np.tile(change[places], 3).astype(np.float64)
-        # After each edge; the level before it is that of the edge before.
-        self._levels = np.tile(chips[places], 3).astype(np.float64)
-        self._a_period = len(places)
-        # Slopes are needed where the light has just been computed.
-        self._exposed = lru_cache(maxsize=1)(self._exposed_in)
-
-    def lit_fraction(
-        self,
-        timing: Timing,
-        blur: float,
-        longer: float,
-        shape: BlurShape = "normal",
-    ) -> FloatArray:
-        """Return the fraction of each column's exposure in which the LED is on, shape (columns,).
-
-        ``blur``: its standard deviation in columns. ``longer``: chips by which each time on is
-        longer than the chips say.
-        """
-        return blurred(self.sharp(timing, longer), blur_kernel(blur, shape))
-
-    def sharp(self, timing: Timing, longer: float) -> FloatArray:
-        """Return the fractions without blur, also of neighbouring columns that blur reaches."""
-        return self._exposed(timing, longer).lit
-
-    def slopes(
-        self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
-    ) -> FloatArray:
-        """Return slopes over step, exposure, middle, blur and longer, shape (5, columns)."""
-        slopes = blurred(self.sharp_slopes(timing, longer), blur_kernel(blur, shape))
-        slopes[BLUR] = blurred(self.sharp(timing, longer), kernel_slope(blur, shape))
-        return slopes
-
-    def sharp_slopes(self, timing: Timing, longer: float) -> FloatArray:
-        """Return the slopes of the fractions without blur, of which those over the blur are 0.
-
-        The running integral's slope is the level, and the edges that were passed before are each
-        early by half of what the time on is longer.
-        """
-        seen = self._exposed(timing, longer)
-        slopes = np.empty((5, len(seen.lit)))
-        slopes[:BLUR] = timing.slopes_between(seen.lit, *seen.levels)
-        slopes[BLUR] = 0.0
-        np.multiply(seen.edges, 0.5 / timing.exposure, out=slopes[BLUR + 1])
-        return slopes
-
-    def _exposed_in(self, timing: Timing, longer: float) -> "_Exposed":
-        """Integrate the light over the exposures of all columns that blur reaches."""
-        edges = self._edges - 0.5 * longer * self._changes
-        # The running integral has corners at the edges; it is 0 at the first of them.
-        integral = np.concatenate([[0.0], np.cumsum(self._levels[:-1] * np.diff(edges))])
-        light = integral[self._a_period] - integral[0]
-        column = np.arange(-BLUR_REACH, self._columns + BLUR_REACH)
-        start = timing.start(self._columns) + timing.step * column
-        ends = np.stack([start, start + timing.exposure])
-        turns = np.floor(ends / self._period)
-        ends -= turns * self._period
-        passed = np.searchsorted(edges, ends.ravel()).reshape(ends.shape) - 1
-        level = self._levels.take(passed)
-        until = turns * light + integral.take(passed) + level * (ends - edges.take(passed))
-        number = passed + turns * self._a_period
-        return _Exposed(
-            (until[1] - until[0]) / timing.exposure, (level[0], level[1]), number[1] - number[0]
-        )
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _Exposed:
-    """What the columns' exposures contain, each of shape (columns and those beside,)."""
-
-    lit: FloatArray  # The fraction of the time in which the LED is on
-    levels: tuple[FloatArray, FloatArray]  # Whether it is on where an exposure starts and ends
-    edges: FloatArray  # How often it turns on or off meanwhile
 
 
 def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
@@ -179,10 +91,12 @@ class SeenSlopes:
 
 
 class SeenStripes:
+    """What columns see of chips that are sent repeatedly, neither all on nor all off."""
+
     def __init__(
         self, chips: ByteArray, columns: int, gamma: float, *, values_blurred: bool
     ) -> None:
-        self._light = BlurredLight(chips, columns)
+        self._light = ChipLight(chips, columns, BLUR_REACH)
         self._gamma, self._values_blurred = gamma, values_blurred
         # Slopes are needed where the residual has just been computed.
         self._last = lru_cache(maxsize=1)(self._by)
@@ -194,13 +108,17 @@ class SeenStripes:
     def slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> SeenSlopes:
         """Return the slopes of what is seen, those of the tone over gamma itself, or none."""
         timing, curve, blur, longer = self._parts(values.tolist())
-        table = self.by(values, shape).table
-        if self._values_blurred:
-            lit = self._light.sharp_slopes(timing, longer)
-        else:
-            lit = self._light.slopes(timing, blur, longer, shape)
-        tone = curve.slopes(table) if of_tone else ToneSlopes(table)
-        return SeenSlopes(lit, tone, kernel_slope(blur, shape))
+        seen, exposed = self.by(values, shape), self._light.exposed(timing, longer)
+        slope_of_kernel = kernel_slope(blur, shape)
+        lit = np.zeros((5, len(exposed.lit)))
+        lit[:BLUR] = exposed.slopes()
+        # The edges that were passed before are each early by half of what the time on is longer.
+        np.multiply(exposed.edges, 0.5 / timing.exposure, out=lit[BLUR + 1])
+        if not self._values_blurred:
+            lit = blurred(lit, seen.kernel)
+            lit[BLUR] = blurred(exposed.lit, slope_of_kernel)
+        tone = curve.slopes(seen.table) if of_tone else ToneSlopes(seen.table)
+        return SeenSlopes(lit, tone, slope_of_kernel)
 
     def gamma(self, values: FloatArray | Sequence[float]) -> float:
         """Return the gamma, of which the parameters hold the logarithm over the usual one."""
@@ -208,13 +126,9 @@ class SeenStripes:
 
     def _by(self, values: Sequence[float], shape: BlurShape) -> Seen:
         timing, curve, blur, longer = self._parts(values)
-        sharp = self._light.sharp(timing, longer) if self._values_blurred else None
-        return Seen(
-            self._light.lit_fraction(timing, blur, longer, shape),
-            curve.table(),
-            sharp,
-            blur_kernel(blur, shape),
-        )
+        sharp, kernel = self._light.exposed(timing, longer).lit, blur_kernel(blur, shape)
+        shown = sharp if self._values_blurred else None
+        return Seen(blurred(sharp, kernel), curve.table(), shown, kernel)
 
     def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:
         step, exposure, middle, _, offset, shoulder, contrast, blur, longer = values

@@ -1,6 +1,7 @@
 """Find the period of stripes in columns, with its uncertainty."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
@@ -12,6 +13,9 @@ _TOLERANCE = 0.06  # maximum difference of the shortest period's autocorrelation
 _LONGEST_FRACTION = 0.67  # longest period relative to the width, so that part of it appears twice
 _MOST_HARMONICS = 24  # maximum number of harmonics
 _MOST_ITERATIONS = 8  # maximum number of Gauss-Newton iterations
+_REGULARIZATION = 1e-6  # of the normal equations, relative to a harmonic's energy
+
+Harmonics = NDArray[np.complex128]
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
@@ -110,14 +114,39 @@ def harmonics_within(columns: int, period: float) -> int:
 
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
-    count = len(flattened)
-    turn = 2.0 * np.pi / period * np.arange(1, harmonics + 1)[:, None] * np.arange(count)
     # The amplitude is constant, as a varying one would compensate for a wrong period.
-    parts = np.vstack([smooth_shapes(count, 2).T, np.cos(turn), np.sin(turn)])
-    products = row_products(parts, parts)
-    products[np.diag_indices_from(products)] *= 1.0 + 1e-10
-    weights = np.linalg.solve(products, row_products(flattened, parts))
-    return np.asarray(flattened - combined(np.asarray(weights, dtype=np.float64), parts))
+    return repeated_wave(flattened, period, harmonics, 2)[1]
+
+
+def repeated_wave(
+    values: FloatArray, period: float, harmonics: int, slow: int
+) -> tuple[Harmonics, FloatArray]:
+    """Fit the harmonics of a period, together with some slow polynomials.
+
+    Returned are the strength of each harmonic, from the first, and the residual.
+
+    About the middle column cosines and even polynomials are orthogonal to sines and odd ones; the
+    products of two cosines, or sines, follow from the sums of others.
+    """
+    count = len(values)
+    about, rate = np.arange(count) - 0.5 * (count - 1), 2.0 * np.pi / period
+    order = np.arange(1, harmonics + 1)
+    sums = np.cos(rate * np.outer(np.arange(2 * harmonics + 1), about)).sum(axis=1)
+    apart, together = sums[np.abs(order[:, None] - order)], sums[order[:, None] + order]
+    shapes, turn = smooth_shapes(count, slow).T, rate * np.outer(order, about)
+    left, strengths = values, np.zeros(harmonics, dtype=np.complex128)
+    for wave, first, factor in ((np.cos, 0, 1.0), (np.sin, 1, -1.0)):
+        parts = np.vstack([wave(turn), shapes[first::2]])
+        products = row_products(parts, parts[harmonics:])
+        products = np.hstack([np.zeros((len(parts), harmonics)), products])
+        products[harmonics:, :harmonics] = products[:harmonics, harmonics:].T
+        products[:harmonics, :harmonics] = 0.5 * (apart + factor * together)
+        # At half the column rate a sine has no energy of its own.
+        products[np.diag_indices_from(products)] += _REGULARIZATION * count
+        weights = np.asarray(np.linalg.solve(products, row_products(values, parts)), np.float64)
+        left = left - combined(weights, parts)
+        strengths += 0.5 * weights[:harmonics] * (1.0 if first == 0 else -1j)
+    return strengths * np.exp(0.5j * rate * (1 - count) * order), left
 
 
 def correlated_columns(residual: FloatArray) -> float:

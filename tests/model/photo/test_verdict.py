@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
+from lit_fractions import light_of
 from photo_trials import said_of_negative
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.light.waveform import Waveform
 from occ_model.photo.evidence.doubts import _doubts_by_reading
 from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.initial_search import Search
@@ -98,4 +98,4 @@ def test_what_a_check_raises_ends_the_joint_fit() -> None:
 
 def stripes_of_ones_and_zeros(columns_a_chip: float, columns: int) -> np.ndarray:
     wave = Timing(1 / columns_a_chip, 0.5, 0.0, 2.2)
-    return 20.0 + 100.0 * wave.lit_fraction(Waveform(np.array([1, 0], dtype=np.uint8)), columns)
+    return 20.0 + 100.0 * light_of(np.array([1, 0], dtype=np.uint8), wave, columns)

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from amount import amount
+from lit_fractions import light_of
 from photo_world.messages import message
 from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
-from occ_model.light.waveform import Waveform
 from occ_model.photo.chips.edges import (
     Edges,
     chips_between,
@@ -28,7 +28,7 @@ def random_chips(seed: int, count: int = 60) -> ByteArray:
 def picture(chips: ByteArray, columns: float, exposure: float) -> ByteArray:
     """Photograph chips once, with noise."""
     timing = Timing(1.0 / columns, exposure, 0.5 * len(chips), 1.0)
-    lit = timing.lit_fraction(Waveform(chips), int(0.95 * len(chips) * columns))
+    lit = light_of(chips, timing, int(0.95 * len(chips) * columns))
     noise = np.random.default_rng(1).standard_normal((40, len(lit)))
     return np.clip(np.rint(20.0 + 200.0 * lit + 2.0 * noise), 0, 255).astype(np.uint8)
 

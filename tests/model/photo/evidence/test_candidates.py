@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lit_fractions import light_of
 from simulated_photos import take
 
 import occ_model as occ
-from occ_model.light.waveform import Waveform
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
@@ -114,7 +114,7 @@ def hypothesis(chips: np.ndarray) -> Hypothesis:
 def test_chips_that_were_misread_are_set_right(wrong: list[int]) -> None:
     """One of them, or two neighbours that are exchanged."""
     chips = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 0], dtype=np.uint8)
-    profile = 40.0 + 100.0 * TIMING.lit_fraction(Waveform(chips), COLUMNS)
+    profile = 40.0 + 100.0 * light_of(chips, TIMING, COLUMNS)
     read = chips.copy()
     read[wrong] ^= 1
     found = nearest_other(profile, hypothesis(read), occ.Scene().transmitter)
@@ -124,7 +124,7 @@ def test_chips_that_were_misread_are_set_right(wrong: list[int]) -> None:
 def test_of_a_packet_all_codes_are_compared_turned_about() -> None:
     scene = occ.Scene()
     right, wrong = (sent_chips(scene.replace(code=code).transmitter) for code in (345, 718))
-    profile = 40.0 + 100.0 * TIMING.lit_fraction(Waveform(np.roll(right, 5)), COLUMNS)
+    profile = 40.0 + 100.0 * light_of(np.roll(right, 5), TIMING, COLUMNS)
     found = nearest_other(profile, hypothesis(wrong), scene.transmitter)
     assert found.tolist() == np.roll(right, 5).tolist()
 
@@ -132,7 +132,7 @@ def test_of_a_packet_all_codes_are_compared_turned_about() -> None:
 def test_neither_the_same_chips_turned_nor_chips_without_a_change_are_others() -> None:
     chips = np.array([1, 0, 0, 0], dtype=np.uint8)
     turned = np.roll(chips, 1)
-    profile = 40.0 + 100.0 * TIMING.lit_fraction(Waveform(turned), COLUMNS)
+    profile = 40.0 + 100.0 * light_of(turned, TIMING, COLUMNS)
     found = nearest_other(profile, hypothesis(chips), occ.Scene().transmitter)
     assert 0 < found.sum() < 4
     assert sorted(found.tolist()) != sorted(chips.tolist())

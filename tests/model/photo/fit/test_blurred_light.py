@@ -1,13 +1,13 @@
-"""The blurred light of a lamp follows its exact integrals, and its blur has the stated moments."""
+"""The light of columns follows its exact integrals, and its blur has the stated moments."""
 
 import math
 
 import numpy as np
 import pytest
+from lit_fractions import blurred_light, light_of
 
-from occ_model.light.waveform import Waveform
-from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.seen_stripes import BlurShape, blur_kernel
+from occ_model.photo.fit.timing import ChipLight, Timing
 
 CODES = ("10", "0110", "1100", "10011010", "0111011")
 TIMINGS = (Timing(0.13, 0.7, 3.3, 2.2), Timing(0.31, 5.4, 0.2, 2.2), Timing(0.05, 11.5, -7.6, 2.2))
@@ -20,10 +20,10 @@ def chips_of(code: str) -> np.ndarray:
 
 @pytest.mark.parametrize("code", CODES)
 @pytest.mark.parametrize("timing", TIMINGS)
-def test_without_blur_it_is_the_exact_exposure_integral(code: str, timing: Timing) -> None:
+def test_it_is_the_exact_exposure_integral(code: str, timing: Timing) -> None:
     chips = chips_of(code)
-    lit = BlurredLight(chips, COLUMNS).lit_fraction(timing, 0.0, 0.0)
-    assert lit == pytest.approx(timing.lit_fraction(Waveform(chips), COLUMNS), abs=1e-9)
+    lit = ChipLight(chips, COLUMNS).exposed(timing).lit
+    assert lit == pytest.approx(light_of(chips, timing, COLUMNS), abs=1e-9)
 
 
 @pytest.mark.parametrize("longer", [-0.3, 0.25])
@@ -32,14 +32,14 @@ def test_each_time_on_is_longer_by_as_many_chips(code: str, longer: float) -> No
     """An exposure of a whole period sees all of them, wherever it starts."""
     chips = chips_of(code)
     whole = Timing(0.17, float(len(chips)), 1.3, 2.2)
-    lit = BlurredLight(chips, COLUMNS).lit_fraction(whole, 0.0, longer)
+    lit = ChipLight(chips, COLUMNS).exposed(whole, longer).lit
     pulses = np.count_nonzero(chips > np.roll(chips, 1))
     assert lit == pytest.approx((chips.sum() + pulses * longer) / len(chips), abs=1e-9)
 
 
 def test_a_time_on_begins_earlier_and_ends_later_by_the_same() -> None:
     instant = Timing(0.01, 1e-6, 2.0, 2.2)
-    lit = BlurredLight(chips_of("0110"), 401).lit_fraction(instant, 0.0, 0.3)
+    lit = ChipLight(chips_of("0110"), 401).exposed(instant, 0.3).lit
     on = instant.middle + 0.01 * (np.flatnonzero(lit > 0.5) - 200)
     assert (on.min(), on.max()) == pytest.approx((0.85, 3.15), abs=0.011)
     assert np.ptp(np.flatnonzero(lit > 0.5)) == len(on) - 1
@@ -47,10 +47,10 @@ def test_a_time_on_begins_earlier_and_ends_later_by_the_same() -> None:
 
 @pytest.mark.parametrize("shape", ["normal", "box", "exponential"])
 def test_blur_is_the_mean_over_neighbouring_columns_beyond_the_ends_too(shape: BlurShape) -> None:
-    light, wide = (BlurredLight(chips_of("10011010"), COLUMNS + more) for more in (0, 16))
-    timing, kernel = TIMINGS[0], blur_kernel(1.3, shape)
-    expected = np.convolve(wide.lit_fraction(timing, 0.0, 0.1), kernel, "valid")
-    found = light.lit_fraction(timing, 1.3, 0.1, shape)
+    chips, timing = chips_of("10011010"), TIMINGS[0]
+    wide = ChipLight(chips, COLUMNS + 16).exposed(timing, 0.1).lit
+    expected = np.convolve(wide, blur_kernel(1.3, shape), "valid")
+    found = blurred_light(chips, COLUMNS, timing, 1.3, 0.1, shape)
     assert found == pytest.approx(expected, abs=1e-9)
 
 

@@ -4,8 +4,8 @@ import itertools
 
 import numpy as np
 import pytest
+from lit_fractions import blurred_light, light_of
 
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.chips_of_harmonics import (
     ReadPattern,
     best_chips,
@@ -15,7 +15,6 @@ from occ_model.photo.fit.chips_of_harmonics import (
     refined,
     rounded_chips,
 )
-from occ_model.photo.fit.seen_stripes import BlurredLight
 from occ_model.photo.fit.timing import Timing
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 0], dtype=np.uint8)
@@ -26,7 +25,7 @@ STEP = len(CHIPS) / PERIOD
 def lines_of(exposure: float, longer: float = 0.0) -> np.ndarray:
     """Return the harmonics of exact stripes whose first column sees the first chip's begin."""
     timing = Timing(STEP, exposure, 0.5 * exposure + 0.5 * STEP * (COLUMNS - 1), 1.0)
-    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, 0.0, longer)
+    lit = blurred_light(CHIPS, COLUMNS, timing, 0.0, longer)
     return harmonics_of(lit - lit.mean(), PERIOD)
 
 
@@ -107,7 +106,7 @@ def test_bright_runs_are_no_longer_than_the_ramps_of_edges() -> None:
 def test_chips_of_a_long_exposure_come_back_by_descent_from_noisy_harmonics(
     exposure: float,
 ) -> None:
-    lit = Timing(STEP, exposure, 3.3, 1.0).lit_fraction(Waveform(CHIPS), COLUMNS)
+    lit = light_of(CHIPS, Timing(STEP, exposure, 3.3, 1.0), COLUMNS)
     noise = 0.02 * np.random.default_rng(8).normal(size=COLUMNS)
     found = chips_by_descent(harmonics_of(lit - lit.mean() + noise, PERIOD), len(CHIPS))
     turned = [np.roll(found[0].chips, k) for k in range(len(CHIPS))]

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lit_fractions import light_of
 
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit import joint_estimate
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.camera_response import CameraTone
@@ -183,7 +183,7 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(
     """The first fits then stay, with their step."""
     chips = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
     first = Timing(0.09, 0.6, 20.7, 2.2)
-    profile = 40.0 + 150.0 * first.lit_fraction(Waveform(chips), COLUMNS)
+    profile = 40.0 + 150.0 * light_of(chips, first, COLUMNS)
     tone = CameraTone("light", "none", Tone())
     model = StripeModel(profile, chips, tone.tone, first.step)
     explanation = Explanation(chips, (model.described(first, np.eye(4) * 1e-8),), tone)

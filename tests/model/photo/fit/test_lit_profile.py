@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from lit_fractions import blurred_light
 
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
-from occ_model.photo.fit.seen_stripes import BLUR_REACH, BlurredLight, Seen, blur_kernel, blurred
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.seen_stripes import BLUR_REACH, Seen, blur_kernel, blurred
+from occ_model.photo.fit.timing import ChipLight, Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
@@ -14,8 +15,8 @@ COLUMNS, FREEDOM = 240, 3
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
 TIMING = Timing(0.09, 0.6, 2.7, 2.2)
 TABLE = ToneCurve(2.2, 0.03, 0.1, -0.1).table()
-LIT = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 0.8, 0.02)
-SHARP = BlurredLight(CHIPS, COLUMNS).sharp(TIMING, 0.02)
+LIT = blurred_light(CHIPS, COLUMNS, TIMING, 0.8, 0.02)
+SHARP = ChipLight(CHIPS, COLUMNS, BLUR_REACH).exposed(TIMING, 0.02).lit
 SHAPES = smooth_shapes(COLUMNS, FREEDOM)
 DARK = SHAPES @ [0.05, 0.01, -0.005]
 SWING = SHAPES @ [0.5, 0.08, -0.04]
@@ -53,7 +54,7 @@ def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
     kernel = blur_kernel(1.5)
     dark, swing = (np.pad(levels, BLUR_REACH, mode="edge") for levels in (DARK, SWING))
     values = blurred(TABLE.value_of(dark + swing * SHARP), kernel)
-    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
+    lit = blurred_light(CHIPS, COLUMNS, TIMING, 1.5, 0.02)
     part = profile_of(values)
     as_values = part.residual(Seen(lit, TABLE, SHARP, kernel))
     as_light = part.residual(Seen(lit, TABLE, None, kernel))
@@ -67,7 +68,7 @@ def test_dark_columns_beside_bright_ones_are_followed_where_grey_levels_are_blur
     dark, swing = np.full(COLUMNS + 2 * BLUR_REACH, 0.001), np.pad(SWING, BLUR_REACH, mode="edge")
     table = ToneCurve(2.2).table()
     values = blurred(table.value_of(dark + swing * SHARP), kernel)
-    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
+    lit = blurred_light(CHIPS, COLUMNS, TIMING, 1.5, 0.02)
     residual = profile_of(values).residual(Seen(lit, table, SHARP, kernel))
     assert residual == pytest.approx(np.zeros(COLUMNS), abs=0.02)
 

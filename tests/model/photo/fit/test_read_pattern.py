@@ -5,9 +5,9 @@ from itertools import groupby
 import numpy as np
 import pytest
 from hypothesis import assume, example, given, strategies as st
+from lit_fractions import light_of
 
 from occ_model.arrays import ByteArray
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.read_pattern import read_otherwise, read_patterns
@@ -21,7 +21,7 @@ PATTERNS = st.lists(st.integers(0, 1), min_size=2, max_size=26).map(
 def stripes_of(chips: ByteArray, exposure: float, chip: float, phase: float) -> np.ndarray:
     """Lit fractions over four periods."""
     timing = Timing(1.0 / chip, exposure, phase, 2.22)
-    return timing.lit_fraction(Waveform(chips), int(4.0 * len(chips) * chip))
+    return light_of(chips, timing, int(4.0 * len(chips) * chip))
 
 
 def is_unambiguous(chips: str) -> bool:

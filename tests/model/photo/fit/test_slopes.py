@@ -9,9 +9,10 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 import pytest
+from lit_fractions import blurred_light
 
 from occ_model.photo.fit.joint_model import JointModel
-from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel, kernel_slope
+from occ_model.photo.fit.seen_stripes import BlurShape, blur_kernel, kernel_slope
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import EvenProfile
@@ -105,9 +106,8 @@ def model_of(
     """Return the model of two profiles under uneven light, one of them half as bright."""
     step, exposure, middle, *bends, blur, longer = values.tolist()
     table = ToneCurve(2.2 * np.exp(bends[0]), *bends[1:]).table()
-    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(
-        Timing(step, exposure, middle, 2.2), 0.0 if values_blurred else blur, longer
-    )
+    timing, sharp = Timing(step, exposure, middle, 2.2), values_blurred
+    lit = blurred_light(CHIPS, COLUMNS, timing, 0.0 if sharp else blur, longer)
     random, profiles = np.random.default_rng(5), []
     for bright in (brightest, 0.5 * brightest):
         grey = table.value_of(0.05 + bright * np.linspace(1.0, 0.7, COLUMNS) * lit)

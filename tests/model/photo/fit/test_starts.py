@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lit_fractions import light_of
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit import best_timing
 from occ_model.photo.fit.camera_response import CameraTone, camera_tones
 from occ_model.photo.fit.exposure_modes import scanned_starts
@@ -56,7 +56,7 @@ def test_the_best_other_exposures_are_scanned_for_each_once(
 
 def test_the_correlation_of_a_start_is_that_of_its_own_profile() -> None:
     true = Timing(0.083, 1.3, 4.2, 2.2)
-    profile = true.lit_fraction(Waveform(CHIPS), 600)
+    profile = light_of(CHIPS, true, 600)
     search = Search(profile, CHIPS)
     found = search.candidates(search.steps(), 2.2)
     assert [one.correlation for one in found] == sorted(
@@ -67,7 +67,7 @@ def test_the_correlation_of_a_start_is_that_of_its_own_profile() -> None:
     assert best.exposure == 1.3
     assert (best.middle - true.middle + 5.0) % 10.0 - 5.0 == pytest.approx(0.0, abs=0.1)
     for one in found[:6]:
-        lit = one.timing.lit_fraction(Waveform(CHIPS), 600)
+        lit = light_of(CHIPS, one.timing, 600)
         assert one.correlation == pytest.approx(np.corrcoef(lit, profile)[0, 1], abs=0.05)
 
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lit_fractions import light_of
 
-from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.least_squares import StripeModel, Tone, level_freedom
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
@@ -14,7 +14,7 @@ from occ_model.photo.stripes.envelope import smooth_shapes
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
 COLUMNS = 300
 TRUE = Timing(0.09, 0.6, 2.7, 1.0)
-LIT = TRUE.lit_fraction(Waveform(CHIPS), COLUMNS)
+LIT = light_of(CHIPS, TRUE, COLUMNS)
 SHAPES = smooth_shapes(COLUMNS, 4)
 LOW, SWING = SHAPES @ [30.0, 4.0, -2.0, 1.0], SHAPES @ [120.0, -15.0, 8.0, 0.0]
 PROFILE = LOW + SWING * LIT
@@ -84,7 +84,7 @@ def test_the_dark_may_be_a_little_below_black_by_noise() -> None:
 def test_blur_may_have_lengthened_an_exposure(exposure: float) -> None:
     """By what keeps an edge's variance t^2/12 + b^2 to second order, and by its width at most."""
     true = replace(TRUE, exposure=exposure)
-    profile = 20.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), COLUMNS)
+    profile = 20.0 + 150.0 * light_of(CHIPS, true, COLUMNS)
     fit = model_of(profile).fit(true)
     blur = 0.4 * TRUE.step
     expected = min(6.0 * blur**2 / exposure, math.sqrt(12.0) * blur)

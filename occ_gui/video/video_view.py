@@ -67,7 +67,7 @@ class FilmBar(QWidget):
             dict(zip(AXES, ("line by line", "column by column"), strict=True)),
             is_fixed=True,
         )
-        self.lock = check_box("Hold exposure", "Keep the camera's exposure as it is now.")
+        self.lock = check_box("Lock exposure", "Keep the camera's exposure as it is now.")
         self.read = push_button("", do=self.read_asked)
         self.title = name_widget(ElidedLabel(), "Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -165,7 +165,7 @@ _LEAST_HEIGHT = 40
 
 _LARGE_PICTURE_PERCENT = 80  # height of large pictures, in percent of the pane
 
-_LEAST_FORM = QSize(240, 80)
+_LEAST_PAGE = QSize(240, 80)
 
 
 class DataView(QWidget):
@@ -248,18 +248,14 @@ class VideoView(QWidget):
         self.message = paragraph(name="What is wrong with the film")
         self.message.hide()
         self.pages = QTabWidget(documentMode=True)
-        self._pages = (self.data, self.rows, ScrollPane(self.form, _LEAST_FORM))
-        for page, title in zip(
-            self._pages, ("What is read", "This frame", "Recording"), strict=True
-        ):
-            self.pages.addTab(page, title)
-        self.pages.currentChanged.connect(self._size_by_page)
-        self._size_by_page()
+        self.pages.addTab(self.data, "What is read")
+        # They scroll in a low pane, so that every page leaves the pictures the same height.
+        for page, title in ((self.rows, "This frame"), (self.form, "Recording")):
+            self.pages.addTab(ScrollPane(page, _LEAST_PAGE), title)
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.split.addWidget(self.pictures)
         self.split.addWidget(self.pages)
-        self.split.setStretchFactor(0, 5)
-        self.split.setStretchFactor(1, 4)
+        self.split.setSizes([200, 300])  # in this proportion
         line = fill(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
         fill(
             QVBoxLayout(self), self.bar, self.message, (self.split, 1), line, self.timeline,
@@ -267,13 +263,6 @@ class VideoView(QWidget):
         )  # fmt: skip
         self.rows.picture_asked.connect(self.show_large)
         self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
-
-    def _size_by_page(self) -> None:
-        """Let only the visible page take height, so that the pictures get the rest."""
-        kinds = QSizePolicy.Policy
-        for page in self._pages:
-            is_shown = page is self.pages.currentWidget()
-            page.setSizePolicy(kinds.Preferred, kinds.Expanding if is_shown else kinds.Ignored)
 
     def show_message(self, sentence: str) -> None:
         """Show an error of the film or the camera; empty for none."""

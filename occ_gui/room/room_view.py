@@ -32,8 +32,8 @@ _HEIGHT = "Camera's height"
 
 _LEGEND = (
     "Drag the ring (the camera) or the triangle (where it looks). Dashed: what it sees at the "
-    "lamps' height. Cross and ellipse: the place found from the picture, and two standard "
-    "deviations."
+    "lamps' height. Cross and ellipse: the place found, and two standard "
+    "deviations"
 )
 
 
@@ -94,7 +94,7 @@ class RoomView(QWidget):
             "locate it.",
             self.map_asked,
         )
-        self.answer, self.floor = Answer(), paragraph()
+        self.answer, self.legend, self.floor = Answer(), paragraph(f"{_LEGEND}."), paragraph()
         self.plan, self.picture = PlanPlot(), PicturePlot()
         for plot in (self.plan, self.picture):
             plot.setMinimumHeight(_LEAST_HEIGHT)
@@ -104,7 +104,7 @@ class RoomView(QWidget):
         )  # fmt: skip
         row = fill(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
         fill(
-            QVBoxLayout(self), buttons, self.answer, (row, 1), paragraph(_LEGEND), self.floor,
+            QVBoxLayout(self), buttons, self.answer, (row, 1), self.legend, self.floor,
         )  # fmt: skip
 
     def show_name(self, name: str) -> None:
@@ -124,7 +124,9 @@ class RoomView(QWidget):
         if picture.reading is None or not is_present:
             return
         scale = self.plan.show_place(picture.reading.located, picture.room.camera)
-        details = _describe_reading(picture, picture.reading, scale)
+        enlarged = f", both enlarged {scale:g} times" if scale > 1.0 else ""
+        self.legend.setText(f"{_LEGEND}{enlarged}.")
+        details = _describe_reading(picture, picture.reading)
         reasons = " ".join(picture.reading.reasons)
         self.answer.show_answer(_make_headline(picture.reading), details, reasons)
 
@@ -155,7 +157,7 @@ def _make_headline(reading: RoomReading) -> str:
     return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"
 
 
-def _describe_reading(picture: RoomPicture, reading: RoomReading, scale: float) -> list[str]:
+def _describe_reading(picture: RoomPicture, reading: RoomReading) -> list[str]:
     names = [
         lamp.name + (f" ({lamp.light_words})" if lamp.code is None else "")
         for lamp in reading.lamps if lamp.name
@@ -165,7 +167,6 @@ def _describe_reading(picture: RoomPicture, reading: RoomReading, scale: float) 
         place, true = reading.located.place, picture.room.camera
         distance = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
         parts = [] if picture.source.photo else [f"{METRE.format(distance, 2)} from the true place"]
-        parts += [f"drawn {scale:g} times larger"] if scale > 1.0 else []
         angles = format_place(place, reading.located, ANGLES)
         lines.append("; ".join([*parts, f"the camera is turned by {angles}"]).capitalize() + ".")
     if picture.assumptions:

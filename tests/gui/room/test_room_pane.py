@@ -209,13 +209,12 @@ def test_the_place_is_shown_with_its_errors_and_the_lamps_with_their_names(
 ) -> None:
     assert re.match(r"I am here: x 0\.\d+ ± 0\.0\d+ m, y ", pane.view.answer.line.text())
     assert "4 of 4 lamps named" in pane.view.answer.details.text()
-    assert "times larger" in pane.view.answer.details.text()
     shown = wait_until_read(qtbot, pane)
     assert shown.reading is not None
     located = not_none(shown.reading.located)
     # The ellipse is the covariance's, enlarged by the stated factor, around the place found.
     x, _ = pane.view.plan.ellipse.getData()
-    enlarged = float(pane.view.answer.details.text().split("drawn ")[1].split(" times")[0])
+    enlarged = float(pane.view.legend.text().split("enlarged ")[1].split(" times")[0])
     assert np.ptp(x) == pytest.approx(4.0 * enlarged * located.errors[0], rel=0.02)
     middle = pane.room.camera.x + enlarged * (located.place.x - pane.room.camera.x)
     assert (x.min() + x.max()) / 2.0 == pytest.approx(middle, abs=1e-9)

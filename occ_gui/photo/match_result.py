@@ -1,10 +1,9 @@
-"""Result of a match: the verdict first, then the figures, and buttons that use them."""
+"""Result of a match: the cure of its bars, buttons that use it, and the figures under More."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
-from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QPalette
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.photo.match_figures import (
@@ -17,11 +16,10 @@ from occ_gui.photo.match_figures import (
 from occ_gui.widgets.answer import MoreButton
 from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
-from occ_gui.widgets.state_look import State, colours_of
+from occ_gui.widgets.state_look import State
 from occ_model.photo.many.other_programs import lines_of_match
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
-from occ_model.results.match_sentence import state_verdict
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
@@ -31,52 +29,6 @@ SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 
 STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
 """The state that gives each verdict its colours, here and in the bar at the top."""
-
-_MARGIN = 4
-
-
-class MatchVerdictView(QWidget):
-    """The verdict on a match as a word on a coloured background.
-
-    Its reasons are a label of their own, to be put elsewhere.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.word = paragraph(name="Verdict on the match", is_selectable=True)
-        font = self.word.font()
-        font.setBold(True)
-        self.word.setFont(font)
-        self.word.setContentsMargins(_MARGIN, 0, _MARGIN, 0)
-        self.reasons = paragraph(name="Reasons of the verdict", is_selectable=True)
-        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self._verdict, self._words, self._is_outdated = "", "", False
-        fill(QVBoxLayout(self), self.word, margins=0)
-
-    def show_verdict(self, verdict: str, words: str, reasons: Sequence[str]) -> None:
-        """Show a verdict, SURE or DOUBTFUL, in some words, with a sentence for each reason."""
-        self._verdict, self._words = verdict, words
-        self.reasons.setText("\n".join(f"• {reason}" for reason in reasons))
-        self.reasons.setVisible(bool(reasons))
-        self.show_outdated(False)
-
-    def show_outdated(self, outdated: bool) -> None:
-        self._is_outdated = outdated
-        sign = "Earlier:" if outdated else SIGNS[self._verdict]
-        self.word.setText(f"{sign} {self._words}")
-        self.word.setAutoFillBackground(not outdated)
-        palette = QPalette()
-        if not outdated:
-            colours = colours_of(STATES[self._verdict], self.palette())
-            palette.setColor(QPalette.ColorRole.Window, colours.paper)
-            palette.setColor(QPalette.ColorRole.WindowText, colours.ink)
-        self.word.setPalette(palette)
-        self.reasons.setEnabled(not outdated)
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and self._verdict:
-            self.show_outdated(self._is_outdated)
 
 
 class MatchResult(QWidget):
@@ -93,8 +45,10 @@ class MatchResult(QWidget):
         self._known_at_match = ("", math.nan)
         self._certain: Mapping[str, float] = {}
         self._turned = False
-        self.verdict, self.figures, self.paste = MatchVerdictView(), MatchValues(), PasteLines()
+        self.figures, self.paste = MatchValues(), PasteLines()
         self.mark = OutdatedMark(self.figures)
+        self.reasons = paragraph(name="Reasons of the verdict", is_selectable=True)
+        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.condition = paragraph(name="What the values assume")
         self.warning = paragraph(name="Whether the match still belongs to the known value")
         self.warning.hide()
@@ -105,13 +59,13 @@ class MatchResult(QWidget):
         self.more.toggled.connect(self.details.setVisible)
         fill(
             QVBoxLayout(self.details),
-            self.verdict.reasons, self.condition, self.figures, self.paste,
+            self.reasons, self.condition, self.figures, self.paste,
             margins=0, spacing=4,
         )  # fmt: skip
         fill(
             QVBoxLayout(self),
             # Most photographers look for the cure, so it is visible without scrolling.
-            self.verdict, self.warning, self.cure,
+            self.warning, self.cure,
             (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft),
             fill(QHBoxLayout(), self.apply, self.save, None), self.more, self.details, None,
             margins=0, spacing=4,
@@ -155,7 +109,8 @@ class MatchResult(QWidget):
         self._match, self._recorded_exposure, self._turned = match, recorded_exposure, turned
         self._cure, self._known_at_match = cure, known_at_match
         self._warn_if_stale()
-        self._show_verdict(match)
+        self.reasons.setText("\n".join(f"• {reason}" for reason in match.all_reasons))
+        self.reasons.setVisible(bool(match.all_reasons))
         self._show_figures(match)
         self.show_outdated("", usable=True)
 
@@ -187,12 +142,7 @@ class MatchResult(QWidget):
         self._certain = certain
         self._warn_if_stale()
         if self._match is not None:
-            self._show_verdict(self._match)
             self._show_figures(self._match)
-
-    def _show_verdict(self, match: Match) -> None:
-        words = state_verdict(match, condition_of(match, self._certain))
-        self.verdict.show_verdict(match.verdict, words, match.all_reasons)
 
     def _show_figures(self, match: Match) -> None:
         for part in (self.cure, self.without_bars):
@@ -209,7 +159,7 @@ class MatchResult(QWidget):
         """Show why the match is outdated, empty if it is not, and whether it can be used."""
         if self._match is None:
             return
-        self.verdict.show_outdated(bool(why))
+        self.reasons.setEnabled(not why)
         self.mark.show_age(DELAY if why else 0.0, why)  # at once
         self.paste.setEnabled(usable and not why)
         for button in (self.apply, self.save, self.without_bars):

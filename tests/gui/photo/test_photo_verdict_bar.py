@@ -75,7 +75,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
     for told in (bar.accessibleDescription(), bar.caption()):
         assert "exposed for 62.50 ± 0.21 µs (doubtful); sure otherwise." in told
     why = f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}"
-    assert why in view.result.verdict.reasons.text()
+    assert why in view.result.reasons.text()
 
 
 def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(

@@ -22,6 +22,7 @@ from occ_model.results.limits import (
 from occ_model.scene.parameters import quantity
 
 _HIGHEST = "highest frequency"
+_LEAST = ("lowest frequency", "shortest exposure")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,8 +41,8 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
     if advice.cause:
         lines.append(AdviceLine(f"It does not read the scene as it is. {advice.cause}"))
     for values, theory, low_name, high_name in (
-        (advice.limits.frequency, advice.frequency, "lowest frequency", _HIGHEST),
-        (advice.limits.exposure, advice.exposure, "shortest exposure", "longest exposure"),
+        (advice.limits.frequency, advice.frequency, _LEAST[0], _HIGHEST),
+        (advice.limits.exposure, advice.exposure, _LEAST[1], "longest exposure"),
     ):
         parameter, lowest, highest = values.parameter, values.lowest, values.highest
         if lowest is None or highest is None:
@@ -113,5 +114,6 @@ def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
     if end.inside is None:
         text = f"The {limit} that it reads is about {place}; no value within is sure to be read."
         return AdviceLine(text, detail=detail)
-    text = f"The {limit} that it reads is {place}."
+    bound = "at most " if limit in _LEAST else "at least "
+    text = f"The {limit} that it reads is {bound if end.fails is None else ''}{place}."
     return AdviceLine(text, (parameter, end.stated, place), detail=detail)

@@ -121,9 +121,9 @@ class SpectrumView(QWidget):
         )
         if histogram.is_saturated:
             text = (
-                f"⚠ {100.0 * histogram.white:.0f} % of the panel's pixels are white: brighter "
-                "light does not change them."
+                f"⚠ {100.0 * histogram.white:.0f} % of the panel's pixels are saturated: "
+                "brighter light does not change them."
             )
         else:
-            text = f"The panel's pixels: {100.0 * histogram.white:.1f} % are white."
+            text = f"The panel's pixels: {100.0 * histogram.white:.1f} % are saturated."
         self.sentence.setText(text)

@@ -188,4 +188,4 @@ def symptom(failure: str) -> str:
 
 def overexposed_text(fraction: float) -> str:
     """Return the sentence on the fraction of the panel's columns that are overexposed."""
-    return f"Overexposed: {PERCENT.format(fraction, 2)} of the panel's columns are white, or full."
+    return f"Overexposed: {PERCENT.format(fraction, 2)} of the panel's columns are saturated."

@@ -198,8 +198,8 @@ def present_rate_text(limits: Limits, frames_a_second: float = FRAMES_A_SECOND) 
     return (
         f"At {format_value(limits.frequency.parameter, trial.value)} it read {trial.whole} of "
         f"{trial.images} pictures of {sent_text(limits.scene)}, {trial.rate:.3g} % of the bits "
-        f"({trial.low:.1f} to {trial.high:.1f} %): {bits:.4g} bits a second, if others are read "
-        "as well."
+        f"({trial.low:.1f} to {trial.high:.1f} %): {bits:.4g} bits a second, if other codes are "
+        "read as well."
     )
 
 
@@ -291,7 +291,7 @@ def theory_text(parameter: str, theory: TheoryLimits) -> str:
     if math.isinf(theory.saturation):
         return f"{text}; without light nothing saturates."
     white_exposure = SECOND.format(theory.saturation, _DIGITS)
-    return f"{text}; above {white_exposure}, completely lit columns are white."
+    return f"{text}; above {white_exposure}, completely lit columns are saturated."
 
 
 def two_packets_text(frequency: float) -> str:

@@ -124,7 +124,7 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
         )  # fmt: skip
         message = f"{value:.1f} grey levels"
         if value > WHITE:
-            message += ", brighter than white"
+            message += ", saturated"
         pixel_equations.append(Equation(name, source, meaning, symbols, numbers, message))
     return pixel_equations[0], pixel_equations[1]
 

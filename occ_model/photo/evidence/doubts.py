@@ -46,8 +46,8 @@ def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
 def _too_white(saturated: float, most: float) -> str:
     shown, limit = distinct_texts(100.0 * saturated, 100.0 * most)
     return (
-        f"{shown} % of the pixels are white, which hides how bright they were; at most {limit} % "
-        "are allowed."
+        f"{shown} % of the pixels are saturated, which hides how bright they were; at most "
+        f"{limit} % are allowed."
     )
 
 
@@ -110,8 +110,8 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     count, (together, longer) = len(found.chips), chips_if_longer(found.chips)
     if together > 1 and stripes.saturated > CLIPPED_FRACTION:
         reasons.append(
-            f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
-            f"pulses: if each is longer by {longer} of the {count} chips that were read, "
+            f"{100.0 * stripes.saturated:.0f} % of the pixels are saturated, which lengthens "
+            f"bright pulses: if each is longer by {longer} of the {count} chips that were read, "
             f"{count // together} chips that last {together} times as long explain the same edges."
         )
     if stripes.period is None:

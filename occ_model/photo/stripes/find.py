@@ -134,7 +134,7 @@ def _check_white(profile: FloatArray) -> None:
     if white > _MOST_SATURATED:
         percent, limit = distinct_texts(100.0 * white, 100.0 * _MOST_SATURATED, 0)
         raise MatchError(
-            f"No stripes: {percent} % of the panel's columns are white; at most {limit} % are "
+            f"No stripes: {percent} % of the panel's columns are saturated; at most {limit} % are "
             "allowed; expose less, or choose another channel."
         )
 

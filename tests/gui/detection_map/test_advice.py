@@ -110,17 +110,17 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
         "at 14.7 kHz 100 % in 20 images (83.9 to 100.0 %), at 14.73 kHz 0 % in 20 images "
         "(0.0 to 16.1 %). The end is between 14.66 kHz and 14.72 kHz (95 %)."
     )
-    assert lines[5].startswith("The shortest exposure that it reads is 10 µs. ")
+    assert lines[5].startswith("The shortest exposure that it reads is at most 10 µs. ")
     assert "values beyond were not tried" in lines[5]
     assert lines[6].startswith("The longest exposure that it reads is 194 µs. ")
     assert lines[8] == (
         f"At 10 kHz it read 20 of 20 pictures of code {small_scene.transmitter.code}, 100 % of the "
-        f"bits (83.9 to 100.0 %): 300 bits a second, if others are read as well."
+        f"bits (83.9 to 100.0 %): 300 bits a second, if other codes are read as well."
     )
     assert "Below 3.468 kHz a picture does not contain" in lines[3]
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
-    assert "above 1.17 ms, completely lit columns are white" in lines[7]
+    assert "above 1.17 ms, completely lit columns are saturated" in lines[7]
 
 
 def test_an_end_without_a_sure_value_has_no_destination(small_scene: Scene) -> None:

@@ -44,7 +44,7 @@ def test_a_bright_panel_is_said_to_lose_light_and_every_grey_level_is_in_view(
     view: SpectrumView, snapshot_of: SnapshotOf
 ) -> None:
     measured(view, snapshot_of(iso=100.0))
-    assert "0.0 % are white" in view.sentence.text()
+    assert "0.0 % are saturated" in view.sentence.text()
     measured(view, snapshot_of(iso=6400.0, f_number=1.0))
     assert view.sentence.text().startswith("⚠")
     assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)

@@ -213,7 +213,10 @@ def test_the_file_holds_every_row_and_the_scene(table: PhotoTable) -> None:
     comments = [line[2:] for line in text.splitlines() if line.startswith("#")]
     assert "Match of 4 photos: 2 sure, 1 unreadable, 1 refused" in comments
     assert "more" in comments
-    assert occ.Scene.from_toml("\n".join(comments[comments.index("scene at hand:") + 1 :])) == SCENE
+    assert (
+        occ.Scene.from_toml("\n".join(comments[comments.index("scene of this file:") + 1 :]))
+        == SCENE
+    )
     rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
     assert [one["file"] for one in rows] == [str(one.path) for one in table.rows]
     assert [one["in the mean"] for one in rows] == ["yes"] * 2 + ["no"] * 2

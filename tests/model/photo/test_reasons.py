@@ -54,8 +54,11 @@ PHOTOS: dict[str, tuple[ByteArray, str | None]] = {
     "one edge": (picture(STEP), "1 steep edge between bright and dark columns; at least 3 are"),
     "two edges": (picture(FLASH), "2 steep edges between bright and dark columns; at least 3"),
     "three edges": (picture(np.concatenate([STEP, STEP])), None),
-    "white": (picture(WHITE), "83 % of the panel's columns are white; at most 80 % are allowed"),
-    "white all over": (picture(np.full(600, 255.0)), "100 % of the panel's columns are white"),
+    "white": (
+        picture(WHITE),
+        "83 % of the panel's columns are saturated; at most 80 % are allowed",
+    ),
+    "white all over": (picture(np.full(600, 255.0)), "100 % of the panel's columns are saturated"),
     "less white": (picture(np.where(COLUMNS % 60 < 14, 40.0, 255.0)), None),
     "stripes": (picture(SQUARE, noise=20.0), None),
 }
@@ -193,8 +196,8 @@ JUDGED: dict[str, tuple[dict[str, Any], str | None]] = {
         {"blinks": False, "left": SHAPE}, "A wave of another shape that repeats as often"),
     "no other shape": ({"blinks": False}, None),
     "another shape where a lamp blinks": ({"left": SHAPE}, None),
-    "plain stripes": ({"blinks": False, "sent": "1100"}, "state that a lamp is sent"),
-    "plain stripes that are read": ({"sent": "1100"}, "state that a lamp is sent"),
+    "plain stripes": ({"blinks": False, "sent": "1100"}, "choose a lamp as what was sent"),
+    "plain stripes that are read": ({"sent": "1100"}, "choose a lamp as what was sent"),
 }  # fmt: skip
 
 

@@ -462,7 +462,7 @@ def test_the_command_answers_with_one_table_of_all_decoders(
         "headers that this decoder needs."
     )
     assert place < lines.index("The matched decoder, switching frequency:")
-    assert lines[-1].endswith("; above 1.17 ms, completely lit columns are white.")
+    assert lines[-1].endswith("; above 1.17 ms, completely lit columns are saturated.")
 
 
 def test_the_commands_table_and_sentences_state_the_same_ends(
@@ -517,7 +517,7 @@ def test_the_rate_at_the_scenes_own_values_is_that_of_its_own_code(
     assert [cell.strip() for cell in lines[2].split("  ") if cell][3] == "no"
     assert (
         "  At 10 kHz it read 19 of 20 pictures of code 5, 95 % of the bits (76.4 to 99.1 %): "
-        "190 bits a second, if others are read as well."
+        "190 bits a second, if other codes are read as well."
     ) in lines
 
 

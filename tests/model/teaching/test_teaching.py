@@ -65,7 +65,7 @@ def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> No
     low, high = level_values(scene).tolist()
     assert numbers_in(found["lit panel"].result)[0] == pytest.approx(high, abs=0.051)
     assert numbers_in(found["dark panel"].result)[0] == pytest.approx(low, abs=0.051)
-    assert ("brighter than white" in found["lit panel"].result) == (high > WHITE)
+    assert ("saturated" in found["lit panel"].result) == (high > WHITE)
     averages_light = scene.model.averaging == "light"
     assert ("light is averaged, not pixel" in found["a column"].result) == averages_light
     span = numbers_in(found["a column"].result)[:2]

@@ -68,7 +68,9 @@ def test_the_failure_of_an_overexposed_film_states_the_overexposure() -> None:
     dim, bright = read(frames), read([4.0 * frame for frame in frames])
     assert "Overexposed" not in dim.failure
     assert bright.failure.startswith("A lamp is lit once in each period")
-    assert re.search(r" Overexposed: [3-5]\d % of the panel's columns are white", bright.failure)
+    assert re.search(
+        r" Overexposed: [3-5]\d % of the panel's columns are saturated", bright.failure
+    )
 
 
 def test_stripes_in_some_frames_are_bursts() -> None:

@@ -35,7 +35,7 @@ def explained(was_read: bool = False, saturated: float = 0.0, **other: float) ->
         ("information", 40.0, 39.0, "by chance by 39 bits only; at least 40", False),
         ("information", 100.0, 99.0, "by chance by 99 bits only; at least 100", True),
         ("rows_alike", 0.85, 0.84, "only with a correlation of 0.84; at least 0.85", False),
-        ("saturated", 0.5, 0.51, "51.0 % of the pixels are white", True),
+        ("saturated", 0.5, 0.51, "51.0 % of the pixels are saturated", True),
     ],
 )
 def test_each_figure_has_a_limit_from_which_a_match_is_doubtful(

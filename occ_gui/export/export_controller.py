@@ -43,7 +43,7 @@ class FigureRequest:
             return drawing.provenance(self.date)
         from occ_model.figures.drawing import settings_notes
 
-        scenes, settings = {"at hand": self.scene}, self.settings
+        scenes, settings = {"of this file": self.scene}, self.settings
         notes = settings_notes(settings)
         return Provenance(drawing.title, scenes, settings.seed, notes, self.date)
 

@@ -52,7 +52,7 @@ class LampForm(QWidget):
             self.find_asked,
         )
         self.by_hand = push_button(
-            "Re&gion by hand",
+            "Draw a re&gion",
             "Match only a rectangle. Drag its middle to move it and its corners to resize it; "
             "drag elsewhere on the photo to draw another one.",
         )
@@ -119,7 +119,7 @@ class LampForm(QWidget):
         if region is None:
             self.target.setText("The whole photo will be searched for stripes.")
             return
-        subject = "A region by hand" if lamp is None else f"Lamp {lamp + 1}"
+        subject = "A drawn region" if lamp is None else f"Lamp {lamp + 1}"
         hint = " Drag on the photo to draw another one." if lamp is None else ""
         self.target.setText(
             f"{subject} will be matched: columns {region.first_column} to "

@@ -216,7 +216,7 @@ class PinController(QObject):
             forced = (forced_text(pin.settings.force, labels) for pin in (a, b))
             first, second = (text or "none" for text in forced)
             meaning = "Effects that you have switched on or off; the plan decides about the others."
-            rows.append(DifferenceRow("Effects by hand", first, second, meaning))
+            rows.append(DifferenceRow("Effects switched", first, second, meaning))
         return rows
 
     def _compare_outputs(self, a: Pin, b: Pin) -> Iterator[DifferenceRow]:

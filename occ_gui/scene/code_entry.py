@@ -62,10 +62,8 @@ class CodeEntry(QWidget):
 
     def show_scene(self, scene: Scene) -> None:
         transmitter = scene.transmitter
-        for part in (self.title, self):
-            part.setVisible(transmitter.light == "code")
-        # A raw pattern or a payload is sent in place of the code.
-        self.setEnabled(not transmitter.pattern)
+        self.title.setVisible(transmitter.light == "code")
+        self.setVisible(transmitter.light == "code" and not transmitter.pattern)
         self._show_title(scene)
         last_values = (self._bits, self._code, self._payload)
         if (transmitter.bits, transmitter.code, transmitter.payload) == last_values:

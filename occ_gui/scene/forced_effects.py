@@ -1,4 +1,4 @@
-"""Accuracy settings that the user has changed by hand, in words and in a line of the window."""
+"""Accuracy settings that the user has changed, in words and in a line of the window."""
 
 import math
 from collections.abc import Mapping
@@ -12,12 +12,12 @@ from occ_gui.widgets.state_look import Badge, State
 from occ_model.errors import inflect
 from occ_model.scene.scene import SimulationSettings, unit_of
 
-_MOST_NAMED = 1  # effects switched by hand that a badge names
+_MOST_NAMED = 1  # switched effects that a badge names
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
-    """Describe how an effect is switched: on or off by hand, or by the plan (None)."""
-    state = {True: "on by hand", False: "off by hand", None: "as planned"}[included]
+    """Describe how an effect is switched: on, off, or by the plan (None)."""
+    state = {True: "switched on", False: "switched off", None: "as planned"}[included]
     return f"{labels.get(effect, effect)} {state}"
 
 
@@ -45,27 +45,27 @@ def _tolerance_text(settings: SimulationSettings) -> str:
 
 
 def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> Badge | None:
-    """Return the status line's badge; None if nothing is set by hand."""
-    by_hand = describe_accuracy(settings, labels)
-    if not by_hand:
+    """Return the status line's badge; None if nothing is changed."""
+    changes = describe_accuracy(settings, labels)
+    if not changes:
         return None
     count = len(settings.force)
     forced = forced_text(settings.force, labels)
     if count > _MOST_NAMED:
-        forced = f"{inflect(count, 'effect')} by hand"
+        forced = f"{inflect(count, 'effect')} switched"
     text = " · ".join(part for part in (_tolerance_text(settings), forced) if part)
-    meaning = f"{by_hand}.\nThe mode Effects shows what this changes."
+    meaning = f"{changes}.\nThe mode Effects shows what this changes."
     return Badge("accuracy", text, meaning, State.DOUBTFUL)
 
 
 class ForcedEffects(QWidget):
-    """A list of what is set by hand, and a button that resets it; hidden if nothing is."""
+    """A list of what is changed, and a button that resets it; hidden if nothing is."""
 
     released = Signal()  # the user leaves all effects to the plan
 
     def __init__(self) -> None:
         super().__init__()
-        self.text = paragraph(name="Accuracy set by hand")
+        self.text = paragraph(name="Accuracy changed")
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
         self.back = push_button(
             "Back to the plan",

@@ -47,7 +47,7 @@ class BrightnessHold(QObject):
         self._last_change = (time, speed)
         if speed != exact_speed:
             self._limit_message = (
-                f"The brightness cannot be held: it would take ISO {iso.format(exact_speed)}; the "
+                f"The brightness cannot be kept: it would take ISO {iso.format(exact_speed)}; the "
                 f"slider goes from {iso.format(low)} to {iso.format(high)}."
             )
         return {_EXPOSURE: time, _ISO: speed}

@@ -67,8 +67,8 @@ _EDIT = (
     _Entry("copy_figure", "Copy fi&gure", "Ctrl+Shift+C", words="clipboard"),
     _SEPARATOR,
     _Entry(
-        "hold_brightness", "&Hold brightness", "Ctrl+B",
-        "While on, the ISO speed is inverse to the exposure time.", is_checkable=True,
+        "hold_brightness", "&Keep the brightness", "Ctrl+B",
+        "While on, a longer exposure lowers the ISO speed.", is_checkable=True,
     ),
     _Entry("reset_scene", "Reset &scene"),
 )  # fmt: skip
@@ -76,10 +76,10 @@ _PHOTO = (
     _Entry("match", "&Match photo", "Ctrl+M", words="fit measure camera readout"),
     _Entry("match_all", "Ma&tch all photos", words="batch table several"),
     _Entry("find_lamps", "&Find lamps", words="led light"),
-    _Entry("region_by_hand", "&Region by hand", words="crop rectangle"),
+    _Entry("region_by_hand", "D&raw a region", words="crop rectangle"),
     _Entry("whole_photo", "&Whole photo"),
     _Entry("apply_match", "&Apply to the scene", "Ctrl+Shift+M"),
-    _Entry("save_match", "Save match as &preset…"),
+    _Entry("save_match", "Sa&ve match as preset…"),
     _Entry("delete_preset", "D&elete preset…"),
     _Entry("use_settings", "&Use this photo's settings"),
     _Entry(
@@ -282,6 +282,7 @@ class Menus(QObject):
 
     def _make_photo_menu(self) -> None:
         menu = self._add_menu("photo", "&Photo")
+        menu.addAction(self.actions["open_photo"])  # as in the file menu
         self._fill(menu, *_PHOTO)
         self.overlays = self._add_choice(menu, "show", OVERLAYS, _OVERLAYS, "Ctrl+Alt+{}")
         menu.addSeparator()

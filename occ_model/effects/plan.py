@@ -131,7 +131,7 @@ def _decide_without_estimate(effect: Effect, scene: Scene, by_hand: bool | None)
     estimate = math.inf if is_present else 0.0
     why = "not estimated" if is_present else "none in this scene"
     if by_hand is not None:
-        why = f"switched {'on' if included else 'off'} by hand"
+        why = f"switched {'on' if included else 'off'}"
     reason = f"{why}: {'included' if included else 'left out'}"
     return Decision(
         effect.name, effect.label, effect.kind, effect.stage, estimate, estimate, included,
@@ -219,7 +219,7 @@ def _decide(
     verdict = "included" if included else "left out"
     tolerance = settings.tolerance
     if by_hand is not None:
-        why = f"switched {'on' if included else 'off'} by hand"
+        why = f"switched {'on' if included else 'off'}"
         reason = f"{size}: {why}"
     elif not estimate or (estimates.unknown and tolerance != math.inf):
         why = size

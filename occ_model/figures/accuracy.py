@@ -36,7 +36,7 @@ def write_accuracy_figure(
 ) -> None:
     drawing = accuracy_drawing(points)
     notes = settings_notes(settings)
-    provenance = Provenance(drawing.title, {"at hand": scene}, settings.seed, notes)
+    provenance = Provenance(drawing.title, {"of this file": scene}, settings.seed, notes)
     for ending in (".pdf", ".png", ".csv"):
         drawing.write(folder / f"{drawing.name}{ending}", provenance)
 

@@ -88,7 +88,7 @@ def write_animation(  # noqa: PLR0913 - settings, most of them optional
     check_replaceable(path)
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
     frames = _draw_frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)
-    note = Provenance(f"Animation over {name}", {"at hand": scene}).text()
+    note = Provenance(f"Animation over {name}", {"of this file": scene}).text()
     write_frames(path, frames, rate, note)
 
 

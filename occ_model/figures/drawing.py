@@ -142,7 +142,7 @@ def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
     observable = settings.observable
     return (
         f"tolerance {settings.tolerance:g} {unit_of(observable)} of the {observable}",
-        f"by hand: {forced or 'nothing'}",
+        f"effects switched: {forced or 'none'}",
     )
 
 

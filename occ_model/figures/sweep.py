@@ -91,7 +91,7 @@ def _provenance(table: SweepTable, quantity: ShownQuantity) -> Provenance:
         f"{inflect(settings.frames_a_second, 'image')} a second, or as many as can be read out",
         *(f"{name}: {', '.join(map(format_value, values))}" for name, values in table.axes.items()),
     )
-    return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
+    return Provenance(title, {"of this file": table.request.scene}, settings.seed, notes)
 
 
 def _values(table: SweepTable, decoder: str, quantity: ShownQuantity) -> FloatArray:

@@ -40,7 +40,7 @@ def known_value(estimate: str, scene: Scene) -> tuple[str, float]:
 NEVER_CHANGES = "What the scene sends never changes: it makes no stripes."
 
 PLAIN_STRIPES = (  # advice if a repeating pulse is refused as a code
-    "These look like the plain stripes of a lamp; if so, state that a lamp is sent."
+    "These look like the plain stripes of a lamp; if it is one, choose a lamp as what was sent."
 )
 
 

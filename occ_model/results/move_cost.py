@@ -133,7 +133,7 @@ def _state_noise_floor(costs: MeasuredCosts, forecast: Forecast) -> str:
     if any(error < level for error, *_ in _savings(costs, forecast)):
         return ""
     noise = f"{format_levels(level)} {forecast.plan.unit}"
-    return f"No tolerance below the noise, {noise}, saves time beyond the scatter."
+    return f"A tolerance below the noise ({noise}) saves no measurable time."
 
 
 def _error_without(costs: MeasuredCosts, decision: Decision) -> float:

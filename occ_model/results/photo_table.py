@@ -180,7 +180,7 @@ def csv_text(table: PhotoTable, extra_notes: Sequence[str] = (), condition: str 
         *_mean_lines("exposure_time", table.exposure_time, condition),
         *(f"# {printable(note)}" for note in (*table.notes, *extra_notes)),
         "#",
-        "# scene at hand:",
+        "# scene of this file:",
         *(f"# {line}".rstrip() for line in table.scene.to_toml().splitlines()),
     ]
     return "\n".join(lines) + "\n" + csv_row(_COLUMNS) + "".join(_photo_rows(table, condition))

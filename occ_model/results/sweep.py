@@ -214,11 +214,11 @@ def header_text(request: SweepRequest) -> str:
         f"# path {settings.path}",
         f"# images a second {settings.frames_a_second!r}",
         f"# tolerance {settings.tolerance!r} levels of the profile",
-        f"# by hand: {forced or 'nothing'}",
+        f"# effects switched: {forced or 'none'}",
     ]
     for name, values in request.axes.items():
         lines.append(f"# axis {column_title(name)}: {', '.join(map(format_value, values))}")
-    lines += ["#", "# scene at hand:"]
+    lines += ["#", "# scene of this file:"]
     lines += [f"# {line}".rstrip() for line in request.scene.to_toml().splitlines()]
     return "\n".join(lines) + "\n" + csv_row(_columns(request))
 

@@ -104,7 +104,7 @@ def _decide(change: _Change, stretch: float, by_hand: bool | None) -> Decision:
     why = size if rms is None else "takes less time than its estimate"
     reason = f"{size}: left out" if rms is None else f"{size}, {why}: included"
     if by_hand is not None and rms is not None:
-        why = f"switched {'on' if included else 'off'} by hand"
+        why = f"switched {'on' if included else 'off'}"
         reason = f"{size}: {why}"
     return Decision(
         name, label, "image", stage, estimate, estimate, included, by_hand is not None, why, reason

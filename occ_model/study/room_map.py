@@ -179,7 +179,7 @@ class RoomMapText:
             *(f"# {name} (m): {', '.join(map(repr, places))}"
               for name, places in (("x", request.across), ("y", request.along))),
             "#",
-            "# room at hand:",
+            "# room of this file:",
             *(f"# {line}".rstrip() for line in request.room.to_toml().splitlines()),
         ]  # fmt: skip
         columns = (

@@ -141,4 +141,4 @@ def _note(video: Video) -> str:
         return video.title
     recording = () if video.recording is None else tuple(video.recording.lines())
     seed = getattr(getattr(video, "settings", None), "seed", None)
-    return Provenance("Simulated film", {"at hand": video.scene}, seed, recording).text()
+    return Provenance("Simulated film", {"of this file": video.scene}, seed, recording).text()

@@ -90,7 +90,7 @@ def test_effect_and_observable_are_chosen(qtbot: QtBot, bench: Bench) -> None:
         qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Down)
         bench.simulate()
     assert bench.settings.settings.force == {"sensor-noise": False}
-    assert "by hand" in bench.row("sensor-noise").reason
+    assert "switched on" in bench.row("sensor-noise").reason
     qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Home)
     qtbot.keyClick(bench.view.observable, Qt.Key.Key_Down)
     settings = bench.settings.settings

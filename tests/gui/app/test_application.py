@@ -197,7 +197,7 @@ def test_the_next_accepted_change_removes_a_refusal(
     application.editor.brightness.switch(True)
     user.enter("exposure_time", "10 us")
     user.enter("exposure_time", "2 ms")
-    assert user.message.startswith("The brightness cannot be held")
+    assert user.message.startswith("The brightness cannot be kept")
     user.enter("distance", "1.3 m")
     assert user.message == ""
     application.files.open_dropped([damaged])

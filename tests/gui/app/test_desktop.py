@@ -157,7 +157,7 @@ def test_the_sheet_lists_every_entry_with_keys_and_every_pane_has_a_page_of_the_
 ) -> None:
     rows = list(shortcuts_of(application.window.menuBar()))
     assert ("File", "Save scene", "Ctrl+S") in rows
-    assert ("Edit", "Hold brightness", "Ctrl+B") in rows
+    assert ("Edit", "Keep the brightness", "Ctrl+B") in rows
     assert len(rows) > 15
     sheet = ShortcutSheet(rows, application.window)
     assert sheet.table.rowCount() == len(rows)

@@ -247,7 +247,7 @@ def test_effects_forced_by_hand_are_compared_and_returned_to(bench: Bench) -> No
     bench.simulate()
     bench.choose("pin_b")
     forced = inputs(bench.pins.pinned)
-    assert forced == {"Effects by hand": ("JPEG on by hand", "Vignetting off by hand")}
+    assert forced == {"Effects switched": ("JPEG switched on", "Vignetting switched off")}
     bench.choose("go_to_a")
     assert bench.settings.settings.force == {"jpeg": True}
     bench.scenes.undo_stack.undo()

@@ -50,10 +50,10 @@ def by_hand(application: Application, user: User) -> Application:
 def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
     labels = {effect.name: effect.label for effect in EFFECTS}
     assert forced_text({"jpeg": False, "vignetting": True}, labels) == (
-        "Vignetting on by hand, JPEG off by hand"
+        "Vignetting switched on, JPEG switched off"
     )
     everything = forced_text({effect.name: True for effect in reversed(EFFECTS)}, labels)
-    assert everything.split(", ") == [f"{effect.label} on by hand" for effect in EFFECTS]
+    assert everything.split(", ") == [f"{effect.label} switched on" for effect in EFFECTS]
 
 
 @pytest.mark.parametrize(
@@ -65,8 +65,8 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
             {"tolerance": 2.0, "observable": "decision"},
             "tolerance 2 margins of the decision",
         ),
-        ({"force": {"jpeg": False}}, "JPEG off by hand"),
-        ({"force": {"jpeg": False, "flicker": True}}, "2 effects by hand"),
+        ({"force": {"jpeg": False}}, "JPEG switched off"),
+        ({"force": {"jpeg": False, "flicker": True}}, "2 effects switched"),
     ],
 )  # fmt: skip
 def test_what_is_set_by_hand_is_one_badge(settings: dict[str, Any], text: str) -> None:
@@ -95,7 +95,7 @@ def test_the_badge_is_always_whole_on_the_screen(application: Application, user:
             window.readout.set_full_text("Picture: column 1234, row 1200, camera level 123")
             user.wait_until_idle()
             assert badge.isVisible()
-            assert badge.badge.text == "tolerance 10 levels · 3 effects by hand"
+            assert badge.badge.text == "tolerance 10 levels · 3 effects switched"
             assert badge.width() >= badge.sizeHint().width()
             place = QRect(badge.mapTo(window, badge.rect().topLeft()), badge.size())
             assert window.rect().contains(place)
@@ -133,7 +133,7 @@ def test_a_click_a_preset_or_a_reset_ends_listed_forced_effects_in_one_step(
     make_presets_small(monkeypatch)
     line = by_hand.controls.forced
     assert line.isVisible()
-    assert line.text.text() == "Vignetting on by hand, JPEG off by hand"
+    assert line.text.text() == "Vignetting switched on, JPEG switched off"
     line.back.click()
     user.wait_until_idle()
     assert forced_effects(by_hand) == {}

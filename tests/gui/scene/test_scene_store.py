@@ -171,7 +171,7 @@ def test_effects_forced_by_hand_are_undone_and_redone(
     ]  # fmt: skip
     store.undo_stack.redo()
     assert store.settings.settings.force == {"jpeg": False}
-    assert "JPEG off by hand" in store.undo_stack.undoText()
+    assert "JPEG switched off" in store.undo_stack.undoText()
     assert (scenes, store.scene) == ([], small_scene)
 
 

@@ -344,4 +344,4 @@ def test_commands_of_one_colour_ask_which(command: Command) -> None:
     assert "Crosstalk" not in answer.out
     assert "Crosstalk" in command("plan", *COLOUR).out
     crosstalk = ("--set", "crosstalk=10%", "--off", "mixing")
-    assert "levels: switched off by hand" in command("plan", *COLOUR, *crosstalk).out
+    assert "levels: switched off" in command("plan", *COLOUR, *crosstalk).out

@@ -126,7 +126,7 @@ def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str])
     lines = capsys.readouterr().out.splitlines()
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     assert [row["distance (m)"] for row in rows] == ["1.0", "1.5"]
-    assert "# by hand: jpeg off" in lines
+    assert "# effects switched: jpeg off" in lines
 
 
 @pytest.mark.whole

@@ -26,7 +26,7 @@ def draw():
         figure = Figure()  # without axes, which take as long to place as all else does
         figure.text(0.5, 0.5, "Grey level")
         figure.add_artist(Line2D([0.0, 1.0], [0.0, 1.0]))
-        provenance = Provenance("A line", {"at hand": Scene()}, 1, (), "2026-01-01")
+        provenance = Provenance("A line", {"of this file": Scene()}, 1, (), "2026-01-01")
         return sha256(figure_bytes(figure, "svg", provenance)).hexdigest()
 
 if __name__ == "__main__":

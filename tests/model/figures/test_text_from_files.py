@@ -107,12 +107,12 @@ def test_what_was_read_is_text_in_its_figure(
     tmp_path: Path, drawings: list[Drawing], ending: str, number: int
 ) -> None:
     path = tmp_path / f"drawing.{ending}"
-    drawings[number].write(path, Provenance(drawings[number].title, {"at hand": SCENE}))
+    drawings[number].write(path, Provenance(drawings[number].title, {"of this file": SCENE}))
     check_drawing(path)
 
 
 def test_the_provenance_of_a_figure_has_only_the_scenes_that_it_was_given() -> None:
-    about = Provenance(FORGED, {"at hand": SCENE}, notes=(FORGED,), date=FORGED)
+    about = Provenance(FORGED, {"of this file": SCENE}, notes=(FORGED,), date=FORGED)
     assert about.text().count("\nscene ") == 1
     assert first_scene_in(about.text()) == SCENE
 

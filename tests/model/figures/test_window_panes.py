@@ -33,7 +33,7 @@ def drawings() -> list[Drawing]:
 
 
 def provenance(drawing: Drawing) -> Provenance:
-    return Provenance(drawing.title, {"at hand": SCENE}, 1, date="2026-11-21")
+    return Provenance(drawing.title, {"of this file": SCENE}, 1, date="2026-11-21")
 
 
 def rows(path: Path) -> list[dict[str, str]]:

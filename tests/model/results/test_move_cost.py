@@ -154,7 +154,7 @@ def test_it_is_stated_that_no_tolerance_below_the_noise_saves_time(scene: Scene)
     costs = MeasuredCosts(runs(300, 320, 330))
     bare, no_edges = (2 * noise, 30.0, ""), (noise / 2, 315.0, NOISE)
     exact = (0.0, 320.0, f"{NOISE} {EDGES}")
-    floor = "No tolerance below the noise, "
+    floor = "A tolerance below the noise "
     sentence = state_saving(costs, forecast_of(plan, 0.0, bare, no_edges, exact))
     assert floor in sentence
     assert "on, the picture takes about 30.0 ms, without: LED rise and fall, Shot" in sentence

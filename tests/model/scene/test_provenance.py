@@ -24,7 +24,11 @@ SCENE = occ.load_preset("tablet-122us-real").replace(pattern="10110", start_time
 OTHER = occ.load_preset("phone-68us")
 # Characters that are special in some of the formats.
 PROVENANCE = Provenance(
-    "Title (of it) \\ with µs & <b>", {"at hand": SCENE, "other": OTHER}, 7, ("π)", "(("), "2026"
+    "Title (of it) \\ with µs & <b>",
+    {"of this file": SCENE, "other": OTHER},
+    7,
+    ("π)", "(("),
+    "2026",
 )
 
 

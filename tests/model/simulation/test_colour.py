@@ -114,7 +114,7 @@ def test_an_effect_switched_off_leaves_the_picture_of_a_scene_without_it(effect:
     (decision,) = (d for d in frame.plan.decisions if d.effect == effect)
     assert effect in usual.plan
     assert effect not in frame.plan
-    assert decision.reason.endswith("levels: switched off by hand")
+    assert decision.reason.endswith("levels: switched off")
     assert frame.plan.error == pytest.approx(np.hypot(usual.plan.error, decision.estimate))
     with pytest.raises(occ.ParameterError, match="led-edges"):
         occ.render(scene.colour("red"), force={effect: False})

@@ -132,4 +132,4 @@ def test_the_plan_is_printed_in_words(capsys: pytest.CaptureFixture[str]) -> Non
     assert main(["plan", "--off", "sensor-noise", "--tolerance", "0.1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 10
-    assert any(line.startswith("Shot and read noise: ") and "by hand" in line for line in lines)
+    assert any(line.startswith("Shot and read noise: ") and "switched" in line for line in lines)

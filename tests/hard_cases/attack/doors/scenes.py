@@ -118,7 +118,7 @@ def exported() -> dict[str, bytes]:
 
     from occ_model.figures.drawing import figure_bytes, table_text
 
-    scenes = {"at hand": occ.Scene(), "é (x) \\": occ.Scene().replace(pattern="10")}
+    scenes = {"of this file": occ.Scene(), "é (x) \\": occ.Scene().replace(pattern="10")}
     provenance = Provenance("A title & more", scenes, seed=1, notes=("a (note) \\",))
     files = {kind: figure_bytes(Figure((1, 1)), kind, provenance) for kind in ("svg", "pdf", "png")}
     files["csv"] = table_text(("a", "b"), [(1, 2)], provenance).encode()
@@ -146,7 +146,7 @@ def _carrier(chance: Random, folder: Path) -> list[str]:
 
 
 def _provenance_text() -> str:
-    return Provenance("A title", {"at hand": occ.Scene()}, seed=1).text()
+    return Provenance("A title", {"of this file": occ.Scene()}, seed=1).text()
 
 
 def _png_with(chance: Random, text: str) -> bytes:

@@ -147,7 +147,7 @@ def test_a_file_with_rows_in_any_order_is_continued_and_sorted(
         ({"axes": {**AXES, "distance": [0.1, 1.0]}}, "axis distance"),
         ({"axes": dict(reversed(AXES.items()))}, "Success rate over distance"),
         ({"tolerance": 0.25}, "tolerance 0.5"),
-        ({"force": {"jpeg": False}}, "by hand: nothing"),
+        ({"force": {"jpeg": False}}, "effects switched: none"),
         ({"path": "image"}, "path auto"),
     ],
 )

@@ -83,9 +83,8 @@ class EffectModel(QAbstractTableModel):
             TIME: (
                 "Time (ms)",
                 (
-                    "Its computing time in this picture, the shortest of some runs; in brackets, "
-                    "the time that it would add.\nEffects whose times differ by less than "
-                    "their scatter keep their order when sorted."
+                    "Its shortest time in pictures of this scene; in brackets, what it would add.\n"
+                    "When sorted, effects whose times hardly differ keep their order."
                 ),
             ),
             SWITCH: ("Switch", "Automatic (plan), always on, or always off."),

@@ -30,7 +30,6 @@ from occ_model.results.limits import (
 from occ_model.scene.units import HERTZ
 
 _PARAMETER = "switching_frequency"
-_WAITING = "waits for its turn"
 _LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
 REST_MS = 800  # milliseconds without a change before the limits of a scene are searched for
@@ -197,8 +196,7 @@ class LimitCard(QFrame):
 
     def show_searching(self) -> None:
         self._is_searching = True
-        self._show("waiting", _WAITING, None)
-        self.range.set_full_text(_WAITING)
+        self._show("waiting", "Other decoders are searched first.", None)
         self.set_outdated(False)
 
     def show_progress(self, pictures: int | None) -> None:
@@ -287,9 +285,9 @@ class MostBitsCard(QFrame):
         self._show()
 
     def show_progress(self, decoder: str, pictures: int | None) -> None:
-        self._state = f"searching with {decoder}: {_WAITING}"
+        self._state = f"searching with {decoder}"
         if pictures is not None:
-            self._state = f"searching with {decoder}, {inflect(pictures, 'picture')} tried"
+            self._state += f", {inflect(pictures, 'picture')} tried"
         self._show()
 
     def show_result(self, result: MostBits) -> None:

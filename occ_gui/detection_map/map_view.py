@@ -13,6 +13,7 @@ from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
 from occ_gui.widgets.outdated_mark import OutdatedMark
+from occ_model.errors import inflect
 from occ_model.results.sweep_request import ShownQuantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
@@ -147,10 +148,7 @@ class MapView(QWidget):
         """Show the number of known points, and the least number of images of a point."""
         self._progress = f"{known} of {total} points measured"
         if known >= total:
-            self._progress = (
-                f"{total} points, each in the middle of its cell; images a point: {images} or "
-                "more; colour: {quantity}"
-            )
+            self._progress = f"{total} points of at least {inflect(images, 'picture')} each"
         self._show_status()
 
     def show_failure(self, sentence: str) -> None:
@@ -182,8 +180,7 @@ class MapView(QWidget):
     def _show_status(self) -> None:
         facts = self._facts
         if facts is None:
-            progress = self._progress.replace("{quantity}", self.quantity.currentText())
-            text = self._failure or self._refusal or progress
+            text = self._failure or self._refusal or self._progress
         else:
             counts = self._describe_counts(facts) if facts.sent else ""
             description = "; ".join(text for text in (counts, facts.note) if text)

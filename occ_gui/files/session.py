@@ -231,8 +231,8 @@ class Session(QObject):
         messages = [file.invalid_file_message] if file.invalid_file_message else []
         if file.crashed is not None:
             messages.append(self._restore_crashed(file.crashed, names_scene=names_scene))
-        if messages:
-            self.status_message.emit(" ".join(messages))
+        if message := " ".join(filter(None, messages)):
+            self.status_message.emit(message)
         self._store.select(lambda workspace: workspace).changed.connect(self._start_timer)
         self._start_timer()
 
@@ -246,6 +246,8 @@ class Session(QObject):
         if names_scene and crashed != requested:
             store.put(requested.put_into(store.workspace), "opening of the requested scene")
             return "The last session ended unexpectedly; Undo brings its scene back."
+        if names_scene:
+            return ""  # the requested scene is that of the last session
         return "The last session ended unexpectedly: its scene is restored."
 
     @property

@@ -37,8 +37,6 @@ def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
         text = f"overexposed: {PERCENT.format(reading.overexposed, 2)}"
         yield Badge("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
     yield _make_ratio_badge(reading)
-    if reading.band_undefined and reading.scene.transmitter.light != "mains":
-        yield Badge("band", "no band model here", reading.band_undefined)
     if reading.scene.transmitter.light != "code":  # nothing is read
         return
     yield from _list_other_decoders(reading, decoder)

@@ -60,7 +60,7 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
         words = name.split(" ")
         for first in range(len(words) + 1):
             shown = name if first == 0 else " ".join(["…", *words[first:]])
-            label.setHtml(whole.replace(name, shown, 1))
+            label.setHtml(whole.replace(name, shown if words[first:] else "", 1))
             label.setToolTip(name if first else "")
             if label.boundingRect().width() <= room or room <= 0.0:
                 return

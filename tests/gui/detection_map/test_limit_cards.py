@@ -107,7 +107,7 @@ def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
     assert not cards.rest_timer.isActive()
     card = cards.cards["threshold"]
     cards.show_begun()
-    assert (card.value.text(), card.range.toolTip()) == ("waiting", "waits for its turn")
+    assert (card.value.text(), card.range.toolTip()) == ("waiting", "")
     cards.show_progress({"threshold": None})
     assert card.value.text() == "waiting"
     cards.show_progress({"threshold": 12, "a plug-in's": 3})

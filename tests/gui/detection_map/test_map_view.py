@@ -261,10 +261,7 @@ def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
 
 
 def test_a_map_of_an_earlier_scene_is_marked_at_once_and_dimmed_later(view: MapView) -> None:
-    text = (
-        "91 points, each in the middle of its cell; images a point: 20 or more; "
-        "colour: success rate"
-    )
+    text = "91 points of at least 20 pictures each"
     view.show_map(whole((5, 10)))
     view.show_progress(91, 91, 20)
     view.show_age(0.01)

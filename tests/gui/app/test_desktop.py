@@ -278,7 +278,7 @@ def test_held_brightness_sets_the_iso_speed_in_the_same_step_and_reports_its_lim
     assert messages == []
     light = product(store)
     editor.edit("exposure_time", 1e-9, new_gesture())
-    assert "cannot be held" in messages[-1]
+    assert "cannot be kept" in messages[-1]
     assert product(store) < light
     editor.edit("exposure_time", 100e-6, new_gesture())
     assert product(store) == pytest.approx(light, rel=1e-12)

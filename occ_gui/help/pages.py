@@ -15,9 +15,7 @@ _CONTENTS_ENTRY = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 
 
 def docs_folder() -> Path:
-    """Return the folder of the pages; raises OSError if the program is installed without them."""
-    # If the program runs from an archive, this extracts the pictures as well.
-    resource_path("pictures")
+    """Return the folder of the pages."""
     return resource_path("docs")
 
 

@@ -1,7 +1,6 @@
 """Write files completely or not at all, lock them, and encode images by the file's ending."""
 
 import os
-import re
 import stat
 import sys
 from collections.abc import Iterator
@@ -11,13 +10,10 @@ from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
 from typing import Any, BinaryIO
-from weakref import WeakSet
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
 from occ_model.files.reading import reason_of
-
-_locked_files: "WeakSet[BinaryIO]" = WeakSet()
 
 if sys.platform == "win32":
     import msvcrt
@@ -49,18 +45,7 @@ def lock(file: BinaryIO) -> bool | None:
         take_lock(file)
     except OSError as error:
         return False if error.errno in (EACCES, EAGAIN) else None
-    _locked_files.add(file)
     return True
-
-
-def _close_in_child() -> None:
-    """Close the parent's locked files, so that a forked worker that outlives it holds no lock."""
-    for file in list(_locked_files):
-        os.close(file.fileno())
-
-
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_close_in_child)
 
 
 _FORMATS = {  # formats that can contain any grey picture, by the file's ending
@@ -157,59 +142,25 @@ def write_atomically(path: Path, *, is_private: bool = False) -> Iterator[Path]:
     ``is_private``: nobody else may read it, whatever the permissions of an existing file.
     """
     permissions = check_replaceable(path)
+    target = path.resolve()
+    temporary = target.with_name(f".occ-{token_hex(8)}{path.suffix}")
     try:
-        with _open_replacement(
-            path.resolve(), _PRIVATE if is_private else permissions
-        ) as temporary:
-            yield temporary
-    except OSError as error:
-        raise _refuse(path, error) from None
-
-
-@contextmanager
-def _open_replacement(path: Path, permissions: int | None) -> Iterator[Path]:
-    _remove_leftovers(path.parent)
-    temporary, file = _create_temporary(path, 0o666 if permissions is None else _PRIVATE)
-    with file:
+        temporary.touch(exist_ok=False)
         try:
-            if permissions is None:  # use those of a new file, which follow the process's umask
-                permissions = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
+            if is_private:
+                permissions = _PRIVATE
+            elif permissions is None:  # those of a new file, which follow the process's umask
+                permissions = stat.S_IMODE(temporary.stat().st_mode)
             # Nobody else can read it before it is complete, even if the program is killed.
             make_private(temporary)
             yield temporary
             temporary.chmod(permissions)
-            if sys.platform == "win32":  # Windows cannot move or remove an open file
-                file.close()
-            temporary.replace(path)
+            temporary.replace(target)
         except BaseException:  # leave no half-written file, whatever happens
-            file.close()
             temporary.unlink(missing_ok=True)
             raise
-
-
-_TEMPORARY = re.compile(r"\.occ-[0-9a-f]{16}(\..*)?", re.DOTALL)
-"""Names of temporary files, which have the ending of the final file."""
-
-
-def _create_temporary(path: Path, mode: int) -> tuple[Path, BinaryIO]:
-    """Create a temporary file that is locked while it is being written."""
-    while True:
-        temporary = path.with_name(f".occ-{token_hex(8)}{path.suffix}")
-        descriptor = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, mode)
-        file = os.fdopen(descriptor, "r+b", buffering=0)
-        if lock(file) is not False and temporary.exists():
-            return temporary, file
-        file.close()  # another writer removed it as a leftover before it was locked
-
-
-def _remove_leftovers(folder: Path) -> None:
-    """Remove the temporary files of killed writers, which are no longer locked."""
-    with suppress(OSError), os.scandir(folder) as entries:
-        for entry in entries:
-            if _TEMPORARY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False):
-                with suppress(OSError), Path(entry).open("r+b", buffering=0) as file:
-                    if lock(file):
-                        Path(entry).unlink()
+    except OSError as error:
+        raise _refuse(path, error) from None
 
 
 def _encode(path: Path, image: ByteArray, description: str) -> bytes:

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -188,24 +187,6 @@ def test_a_missing_manual_is_answered_with_a_sentence(
     bench.add(declaration(bench.window, bench.shell, str)).show_page()
     assert bench.said == ["The manual cannot be read: No such file or directory."]
     assert not (tmp_path / CONTENTS).exists()
-
-
-def test_pages_and_pictures_come_out_of_an_archive(tmp_path: Path) -> None:
-    archive = tmp_path / "occ.zip"
-    with zipfile.ZipFile(archive, "w") as packed:
-        for pattern in ("occ_model/**/*.py", "occ_model/*.pyi", "occ_gui/**/*.py"):
-            for file in ROOT.glob(pattern):
-                packed.write(file, file.relative_to(ROOT))
-        for folder in ("docs", "pictures"):
-            for file in (ROOT / "resources" / folder).iterdir():
-                packed.write(file, Path("occ_model", file.relative_to(ROOT)))
-    program = (
-        f"import sys; sys.path.insert(0, {str(archive)!r})\n"
-        "from occ_gui.help.pages import docs_folder, pages\n"
-        "folder = docs_folder()\n"
-        "print(len(pages(folder)), (folder / '../pictures/window.png').is_file())\n"
-    )
-    assert run(program, tmp_path).split() == [str(len(pages(docs_folder()))), "True"]
 
 
 def run(program: str, folder: Path) -> str:

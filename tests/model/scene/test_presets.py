@@ -127,7 +127,7 @@ def test_a_value_and_its_source_are_apart(capsys: pytest.CaptureFixture[str]) ->
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder in place of the package's; use names found nowhere else, since presets are
     cached."""
-    monkeypatch.setattr(resources, "find_resource", tmp_path.joinpath)
+    monkeypatch.setattr(resources, "resource_path", tmp_path.joinpath)
     (tmp_path / "presets").mkdir()
     return tmp_path / "presets"
 

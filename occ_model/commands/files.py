@@ -115,7 +115,7 @@ def _outputs_of(options: argparse.Namespace, option: str) -> OutputFiles:
 
 
 def is_same_file(path: Path, other: Path) -> bool:
-    """Return whether two paths are, or would be, the same file, despite links and letter case."""
+    """Return whether two paths are, or would be, the same file, despite links."""
     try:
         return path.samefile(other)
     except (OSError, ValueError):  # one of them does not exist yet
@@ -124,33 +124,4 @@ def is_same_file(path: Path, other: Path) -> bool:
         path, other = path.resolve(), other.resolve()
     except (OSError, ValueError, RuntimeError):  # a link to itself, before Python 3.13
         return False
-    if path == other:
-        return True
-    is_same_name = path.name.casefold() == other.name.casefold()
-    return (
-        is_same_name
-        and _is_same_folder(path.parent, other.parent)
-        and (path.name == other.name or ignores_case(path.parent))
-    )
-
-
-def _is_same_folder(folder: Path, other: Path) -> bool:
-    try:
-        return folder.samefile(other)
-    except (OSError, ValueError):
-        return folder == other
-
-
-def ignores_case(folder: Path) -> bool:
-    """Find out whether names in a folder that differ only in case are the same file."""
-    try:
-        cased_paths = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]
-    except OSError:
-        cased_paths = []
-    for path in (*cased_paths, folder, *folder.parents):
-        if path.name != path.name.swapcase():
-            try:
-                return path.samefile(path.with_name(path.name.swapcase()))
-            except OSError:
-                return False
-    return False
+    return path == other

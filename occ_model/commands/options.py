@@ -1,17 +1,13 @@
 """Common options of commands (scene, simulated effects, noise), their parser, and their bars."""
 
 import argparse
-import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from functools import lru_cache
+from collections.abc import Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, quote
-from occ_model.program import discard
 from occ_model.receiver.decode import DECODERS, decoders
 from occ_model.scene.colour_scenes import EFFECTS_OFF, check_monochrome
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
@@ -200,59 +196,15 @@ def is_stated(name: str, options: argparse.Namespace) -> bool:
     return name in names or (name == "lamp_frequency" and options.led_frequency is not None)
 
 
-_SETTINGS = "TQDM_"  # prefix of the environment variables that change tqdm's bars
-
-
 def progress_bar(**options: Any) -> Any:
-    """Return a tqdm bar, shown on a terminal regardless of the user's environment."""
-    return _bar_class()(file=sys.stderr, **{"disable": None, **options})
+    """Return a tqdm bar, shown on a terminal."""
+    from tqdm import tqdm  # slow to import, and needed only by long commands
+
+    return tqdm(file=sys.stderr, **{"disable": None, **options})
 
 
 def print_above_bar(sentence: str) -> None:
     """Print a line on standard error, above the bar if one is shown."""
-    with _ignore_full_disk():
-        _bar_class().write(sentence, file=sys.stderr)
+    from tqdm import tqdm
 
-
-@lru_cache(maxsize=1)
-def _bar_class() -> Any:
-    with _hide_settings():
-        # Slow to import, and needed only by long commands. It reads its settings at import.
-        from tqdm import tqdm
-
-    class Bar(tqdm):  # type: ignore[misc]  # tqdm has no types
-        """A bar that is abandoned if it cannot be written, as only the result matters."""
-
-        def display(self, *arguments: Any, **options: Any) -> None:
-            with _ignore_full_disk():
-                super().display(*arguments, **options)
-
-        def clear(self, *arguments: Any, **options: Any) -> None:
-            with _ignore_full_disk():
-                super().clear(*arguments, **options)
-
-        def close(self) -> None:
-            with _ignore_full_disk():
-                super().close()
-
-    return Bar
-
-
-@contextmanager
-def _hide_settings() -> Iterator[None]:
-    variables = {
-        name: os.environ.pop(name) for name in list(os.environ) if name.startswith(_SETTINGS)
-    }
-    try:
-        yield
-    finally:
-        os.environ.update(variables)
-
-
-@contextmanager
-def _ignore_full_disk() -> Iterator[None]:
-    """Discard standard error after the first write that fails."""
-    try:
-        yield
-    except OSError:
-        discard(sys.stderr)
+    tqdm.write(sentence, file=sys.stderr)

@@ -11,7 +11,7 @@ from matches import match_with
 
 from occ_gui.app.command_line import read_command_line as read_window_command_line
 from occ_model.cli import main
-from occ_model.commands import files, match
+from occ_model.commands import match
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
 
@@ -45,25 +45,10 @@ def test_every_option_that_names_a_file_is_known() -> None:
     assert seen == known
 
 
-@pytest.mark.parametrize("ignores", [True, False])
-def test_names_that_differ_in_case_are_one_file_if_the_file_system_says_so(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ignores: bool
-) -> None:
-    monkeypatch.setattr(files, "ignores_case", lambda _folder: ignores)
-    assert is_same_file(tmp_path / "Q.png", tmp_path / "q.PNG") is ignores
+def test_paths_are_one_file_whatever_way_they_take(tmp_path: Path) -> None:
     assert not is_same_file(tmp_path / "q.png", tmp_path / "p.png")
     assert not is_same_file(tmp_path / "a" / "q.png", tmp_path / "b" / "q.png")
     assert is_same_file(tmp_path / "a" / "q.png", tmp_path / "a" / "." / "q.png")
-
-
-@pytest.mark.parametrize("filled", [True, False])
-def test_a_file_system_is_asked_whether_it_distinguishes_case(tmp_path: Path, filled: bool) -> None:
-    folder = tmp_path / "folder"
-    folder.mkdir()
-    if filled:
-        (folder / "name").touch()
-    (tmp_path / "probe").touch()
-    assert files.ignores_case(folder) is (tmp_path / "PROBE").exists()
 
 
 def test_names_that_are_not_utf_8_are_read_written_and_shown(

@@ -89,21 +89,3 @@ class CameraMeasurement(LineReadout):
             text = f"at most {SECOND.format(self.longest_exposure, 3)}"
             rows.append(Fact("exposure_time", "Exposure time", text))
         return tuple(rows)
-
-    def to_dict(self) -> dict[str, object]:
-        """Return the result as numbers and texts in SI units, such as JSON takes."""
-        return {
-            "verdict": self.verdict,
-            "reasons": list(self.reasons),
-            "mains_frequency": self.mains_frequency,
-            "bars": self.bars,
-            "readout_time": self.readout_time,
-            "frame_readout_time": self.frame_readout_time,
-            "uncertainties": dict(self.uncertainties),
-            "scan_axis": self.scan_axis,
-            "lines": self.lines,
-            "pictures": self.pictures,
-            "depth": self.depth,
-            "longest_exposure": self.longest_exposure,
-            "other_bars": self.other_bars,
-        }

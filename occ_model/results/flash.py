@@ -66,20 +66,3 @@ class FlashMeasurement(LineReadout):
             Fact("band", "Band at half height", lines.format(self.band, 4)),
             Fact("edge", "Each of its slopes", lines.format(self.edge, 3)),
         )
-
-    def to_dict(self) -> dict[str, object]:
-        """Return the result as numbers and texts in SI units, such as JSON takes."""
-        return {
-            "verdict": self.verdict,
-            "reasons": list(self.reasons),
-            "flash": self.flash,
-            "readout_time": self.readout_time,
-            "frame_readout_time": self.frame_readout_time,
-            "exposure_time": self.exposure_time,
-            "uncertainties": dict(self.uncertainties),
-            "band": self.band,
-            "edge": self.edge,
-            "scan_axis": self.scan_axis,
-            "lines": self.lines,
-            "other_readout_time": self.other_readout_time,
-        }

@@ -1,14 +1,12 @@
 """Plug-ins: objects that installed packages provide by entry points, imported when first needed."""
 
 import re
-import signal
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache
 from threading import get_ident
-from traceback import walk_tb
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from occ_model.errors import ParameterError, PluginError, one_line, quote
@@ -24,7 +22,6 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")  # allowed names of plug-i
 
 _Kind = TypeVar("_Kind")
 
-_LONGEST_SENTENCE = 1000  # characters of a plug-in's error message up to which it stays unchanged
 
 _running: dict[int, str] = {}  # the plug-in that each thread runs
 
@@ -105,20 +102,17 @@ def call(
 ) -> _Kind:
     """Call a plug-in's function, and return its result after a check.
 
-    An exception of either becomes a sentence; even reading a result's attributes may raise one.
-    Only exceptions of signal handlers pass, such as Ctrl-C or a request to end the program.
+    An exception of either becomes a sentence. SystemExit and Ctrl-C pass.
     """
     try:
         with at_work(who):
             return check(function(*arguments))
-    except BaseException as error:
-        if _is_of_signal(error):
-            raise
-        text = _message(error)
-        is_sentence = isinstance(error, ParameterError | PluginError) and text.isprintable()
-        if is_sentence and len(text) <= _LONGEST_SENTENCE:
-            raise
-        raise PluginError(f"{who} cannot {verb}: {reason(error)}") from None
+    except (ParameterError, PluginError):
+        raise
+    except Exception as error:  # noqa: BLE001 - a plug-in raises anything
+        text = one_line(str(error)).rstrip(".")
+        reason = f"{type(error).__name__}{': ' * bool(text)}{text}."
+        raise PluginError(f"{who} cannot {verb}: {reason}") from None
 
 
 def of_kind(who: str, kind: type[_Kind]) -> Callable[[object], _Kind]:
@@ -130,29 +124,6 @@ def of_kind(who: str, kind: type[_Kind]) -> Callable[[object], _Kind]:
         return result
 
     return check
-
-
-def _is_of_signal(error: BaseException) -> bool:
-    if isinstance(error, KeyboardInterrupt):
-        return True
-    handlers = map(signal.getsignal, signal.valid_signals())
-    codes = {getattr(handler, "__code__", None) for handler in handlers}
-    return any(frame.f_code in codes for frame, _ in walk_tb(error.__traceback__))
-
-
-def reason(error: BaseException) -> str:
-    """Format a plug-in's exception as the end of a sentence."""
-    text = one_line(_message(error)).rstrip(".")
-    return f"{one_line(type(error).__name__)}{': ' * bool(text)}{text}."
-
-
-def _message(error: BaseException) -> str:
-    try:
-        return str(error)
-    except BaseException as another:
-        if _is_of_signal(another):
-            raise
-        return "it has no message that could be read"
 
 
 _counting: ContextVar[tuple["Faults", ...]] = ContextVar("_counting", default=())

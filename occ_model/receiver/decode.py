@@ -23,7 +23,6 @@ from occ_model.receiver.threshold import DECODER as THRESHOLD
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.scene.colour_scenes import check_monochrome
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.plugin_checks import require_text
 from occ_model.transmitter.scheme import check_code
 
 
@@ -130,10 +129,7 @@ def _load_plugin(name: str) -> Decoder:
         except ParameterError as error:
             raise PluginError(str(error), parameters=error.parameters) from None
 
-    title = plugins.call(
-        who, "be used", lambda title: require_text(who, "title", title), lambda: decoder.title
-    )
-    return Decoder(name, title, read)
+    return Decoder(name, decoder.title, read)
 
 
 _LARGEST_LEVEL = 1e5  # largest accepted grey level, above those of any bit depth

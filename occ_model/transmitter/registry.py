@@ -6,19 +6,14 @@ from functools import cache
 from importlib import import_module
 from typing import Generic, TypeVar
 
+import numpy as np
+
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError, quote
+from occ_model.errors import PluginError
 from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
-from occ_model.transmitter.plugin_checks import (
-    require_bits,
-    require_count,
-    require_failure,
-    require_places,
-    require_text,
-)
 
 _Kind = TypeVar("_Kind")
 
@@ -54,64 +49,44 @@ class Registry(Generic[_Kind]):
         return self.guard(plugins.load_plugin(self.group, name, self.kind))
 
 
-MOST_CHIPS = 65_536  # in a plug-in's period or result; the longest built-in packet has 57,116
+def require_bits(who: str, what: str, values: object) -> ByteArray:
+    """Return a plug-in's zeros and ones as bytes, in an array that it cannot change later."""
+    array = np.asarray(values)
+    if array.ndim != 1 or not np.isin(array, (0, 1)).all():
+        raise PluginError(f"{who} gives {what} that are not an array of zeros and ones.")
+    return array.astype(np.uint8)
 
 
 def _guard_line_code(offered: LineCode) -> LineCode:
     """Wrap a plug-in's line code so that its faults become sentences."""
     who = plugins.describe(plugins.LINE_CODES, offered.name)
 
-    def check_declaration(code: LineCode) -> LineCode:
-        preamble = require_text(who, "preamble", code.preamble)
-        if set(preamble) - {"0", "1"}:
-            raise PluginError(f"{who} gives preamble = {quote(preamble)}; allowed: zeros and ones.")
-        run, disparity = code.longest_run, code.disparity
-        return LineCode(
-            code.name,
-            require_text(who, "title", code.title),
-            require_count(who, "block_bits", code.block_bits, 1, MOST_CHIPS),
-            require_count(who, "block_chips", code.block_chips, 1, MOST_CHIPS),
-            None if run is None else require_count(who, "longest_run", run, 1, MOST_CHIPS),
-            None
-            if disparity is None
-            else require_count(who, "disparity", disparity, 0, MOST_CHIPS),
-            bool(code.finds_wrong_chip),
-            code.encode,
-            code.decode,
-            preamble,
-        )
-
-    checked_code = plugins.call(who, "be used", check_declaration, lambda: offered)
-
     def encode(bits: ByteArray, level: int) -> ByteArray:
-        count = checked_code.chips_for(len(bits))
+        count = offered.chips_for(len(bits))
 
         def check(chips: object) -> ByteArray:
-            array = require_bits(who, "chips", chips, MOST_CHIPS)
+            array = require_bits(who, "chips", chips)
             if len(array) != count:
                 raise PluginError(f"{who} gives {len(array)} chips in place of {count}.")
             return array
 
-        return plugins.call(who, "encode", check, checked_code.encode, bits.copy(), level)
+        return plugins.call(who, "encode", check, offered.encode, bits.copy(), level)
 
     def decode(chips: ByteArray, level: int) -> Decoded:
-        blocks, rest = divmod(len(chips), checked_code.block_chips)
-        most = (blocks + 1) * checked_code.block_bits
+        blocks, rest = divmod(len(chips), offered.block_chips)
 
         def check(read: object) -> Decoded:
             read = plugins.of_kind(who, Decoded)(read)
-            failure = require_failure(who, read.failure)
-            bits = require_bits(who, "bits", read.bits, most)
-            if failure is None and rest == 0 and len(bits) != blocks * checked_code.block_bits:
+            bits = require_bits(who, "bits", read.bits)
+            if read.failure is None and rest == 0 and len(bits) != blocks * offered.block_bits:
                 raise PluginError(
-                    f"{who} gives {len(bits)} bits in place of {blocks * checked_code.block_bits}."
+                    f"{who} gives {len(bits)} bits in place of {blocks * offered.block_bits}."
                 )
-            places = require_places(who, "violations", read.violations, len(bits))
-            return Decoded(bits, places, failure)
+            return replace(read, bits=bits)
 
-        return plugins.call(who, "decode", check, checked_code.decode, chips.copy(), level)
+        return plugins.call(who, "decode", check, offered.decode, chips.copy(), level)
 
-    return replace(checked_code, encode=encode, decode=decode)
+    return replace(offered, encode=encode, decode=decode)
 
 
 LINE_CODES = Registry(  # the line codes among which a scene chooses
@@ -133,16 +108,11 @@ def _guard_framing(offered: Framing) -> Framing:
     """Wrap a plug-in's framing so that its faults become sentences."""
     who = plugins.describe(plugins.FRAMINGS, offered.name)
 
-    def check_declaration(framing: Framing) -> Framing:
-        title = require_text(who, "title", framing.title)
-        return Framing(framing.name, title, bool(framing.checks), framing.encode, framing.decode)
-
-    checked_framing = plugins.call(who, "be used", check_declaration, lambda: offered)
     lengths: dict[tuple[str, str, int], int] = {}
 
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
         def check(chips: object) -> ByteArray:
-            array = require_bits(who, "chips", chips, MOST_CHIPS)
+            array = require_bits(who, "chips", chips)
             # Every payload must have the same number of chips, on which its readers rely.
             key = form.line_code.name, form.preamble, form.bits
             length = lengths.setdefault(key, len(array))
@@ -154,22 +124,21 @@ def _guard_framing(offered: Framing) -> Framing:
                 )
             return array
 
-        return plugins.call(who, "encode", check, checked_framing.encode, bits.copy(), form)
+        return plugins.call(who, "encode", check, offered.encode, bits.copy(), form)
 
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
         def check(read: object) -> Framed:
             read = plugins.of_kind(who, Framed)(read)
-            failure = require_failure(who, read.failure)
-            bits = require_bits(who, "bits", read.bits, form.bits)
-            if failure is None and len(bits) != form.bits:
+            bits = require_bits(who, "bits", read.bits)
+            if read.failure is None and len(bits) != form.bits:
                 raise PluginError(
                     f"{who} gives {len(bits)} bits in place of {form.bits}, and no failure."
                 )
-            return Framed(require_places(who, "headers", read.headers, len(chips)), bits, failure)
+            return replace(read, bits=bits)
 
-        return plugins.call(who, "decode", check, checked_framing.decode, chips.copy(), form)
+        return plugins.call(who, "decode", check, offered.decode, chips.copy(), form)
 
-    return replace(checked_framing, encode=encode, decode=decode)
+    return replace(offered, encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(  # the framings among which a scene chooses

@@ -17,9 +17,9 @@ from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import VideoFrame
 from occ_model.results.video_reading import FrameReading
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.registry import MOST_CHIPS
 from occ_model.video.chip_timing import ChipLattice, ChipTiming, fit_timing
 
+_MOST_CHIPS = 65_536  # in a frame; the longest packet has 57,116
 _MAX_UNEXPLAINED = 0.3  # maximum fraction of the variance that the chips leave unexplained
 _REMEMBERED_REGIONS = 5  # earlier frames that show the panel's ends, since it moves little
 _MAX_DARK_CHIPS = 6.0  # in a row at an end of the panel, more than any line code allows
@@ -227,7 +227,7 @@ def fit_lattice(
         numbers = np.rint(np.concatenate(chip_numbers(kinds, lattice_at(kinds, step))))
         places = np.concatenate([kinds.rising, kinds.falling])
     # Far more chips than columns can show, or an exposure longer than all columns.
-    if not exposure <= step * len(signal) <= MOST_CHIPS:
+    if not exposure <= step * len(signal) <= _MOST_CHIPS:
         return None
     # A chip is read in the column whose exposure has its middle within the chip.
     middle = float(np.mean(numbers - places * step))
@@ -244,7 +244,7 @@ def _fit_line(
     """Fit a line through edges; return its chips per column, and each edge's deviation in chips."""
     design = np.column_stack([np.ones(len(places)), numbers, np.where(rising, 0.5, -0.5)])
     coefficients = np.linalg.lstsq(design, places, rcond=None)[0]
-    if coefficients[1] * MOST_CHIPS <= 1.0:  # not even a fraction of a column each
+    if coefficients[1] * _MOST_CHIPS <= 1.0:  # not even a fraction of a column each
         return 0.0, np.zeros(len(places))
     return float(1.0 / coefficients[1]), np.asarray(
         (places - design @ coefficients) / coefficients[1]

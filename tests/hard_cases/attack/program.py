@@ -45,7 +45,6 @@ class Outcomes:
 def doors() -> dict[str, Door]:
     """All doors by name."""
     from hard_cases.attack.doors.photos import FILMS, PHOTOS, RAW
-    from hard_cases.attack.doors.plugins import PLUGINS
     from hard_cases.attack.doors.scenes import CARRIERS, LESSONS_FILES, SCENES
     from hard_cases.attack.doors.shell import SHELL, WINDOW_SHELL
     from hard_cases.attack.doors.state import STATE
@@ -55,7 +54,7 @@ def doors() -> dict[str, Door]:
 
     all_of_them = (
         TYPED, SCENES, LESSONS_FILES, CARRIERS, TABLES, PHOTOS, RAW, FILMS, SHELL,
-        WINDOW_SHELL, STATE, WINDOW, PLUGINS,
+        WINDOW_SHELL, STATE, WINDOW,
     )  # fmt: skip
     return {door.name: door for door in all_of_them}
 

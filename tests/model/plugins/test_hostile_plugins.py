@@ -2,20 +2,15 @@
 
 import csv
 import re
-import signal
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 import pytest
-from hard_cases.attack.doors.plugins import install_plugin
 from model.plugins.installed_package import importable
 
 import occ_model as occ
 from occ_model import plugins
-from occ_model.arrays import FloatArray
 from occ_model.cli import main
 from occ_model.commands.limits import sentences
 from occ_model.files.writing import write_image
@@ -38,40 +33,6 @@ from occ_model.transmitter.line_codes.manchester import LINE_CODE
 
 def fail(*_):
     raise ValueError("not today")
-
-
-def leave(*_):
-    raise SystemExit(3)
-
-
-class Own(BaseException):
-    pass
-
-
-class WordlessError(Exception):
-    def __str__(self):
-        raise Own
-
-
-def fall(*_):
-    raise Own("out of\x1b[31m reach")
-
-
-def say_nothing(*_):
-    raise WordlessError
-
-
-def stop(*_):
-    raise StopIteration
-
-
-def close(*_):
-    raise GeneratorExit
-
-
-class Mine(occ.DecodeResult):
-    def __init__(self, decoder):
-        object.__setattr__(self, "decoder", decoder)
 
 
 def sometimes(signal, scene):
@@ -99,41 +60,25 @@ def make_spoiled(name, **parts):
     return decoder(name, lambda *_: replace(read, **parts))
 
 
-# Too many values to check one by one.
-endless = np.broadcast_to(np.uint8(0), 10**12)
 raises = decoder("raises", fail)
-leaves = decoder("leaves", leave)
 nothing = decoder("nothing", lambda *_: None)
 empty = decoder("empty", lambda *_: occ.DecodeResult("empty"))
 floats = make_spoiled("floats", bits=np.array([0.5]))
-huge = make_spoiled("huge", chips=endless)
 overwrites = decoder("overwrites", overwrite)
 misnamed = decoder("another", fail)
-unset = decoder("unset", lambda *_: Mine("unset"))
-falls, wordless = decoder("falls", fall), decoder("wordless", say_nothing)
-stops, closes = decoder("stops", stop), decoder("closes", close)
 occasional, confident = decoder("occasional", sometimes), decoder("confident", sure)
-titleless = occ.Decoder("titleless", None, fail)
 threshold = decoder("threshold", fail)
 
 code_raises = replace(LINE_CODE, name="code_raises", encode=fail, decode=fail)
 code_short = replace(LINE_CODE, name="code_short", encode=lambda bits, level: bits)
 code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.arange(2 * len(bits)))
-code_endless = replace(LINE_CODE, name="code_endless", longest_run=10**12)
 code_partial = replace(
     LINE_CODE, name="code_partial", decode=lambda chips, level: occ.Decoded(chips[:3])
 )
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
 code_scalar = replace(LINE_CODE, name="code_scalar", encode=lambda *_: np.array(1))
-code_wordless = replace(
-    LINE_CODE, name="code_wordless", decode=lambda *_: occ.Decoded(np.array([1]), failure=3)
-)
-code_blockless = replace(LINE_CODE, name="code_blockless", block_chips=0)
-code_lettered = replace(LINE_CODE, name="code_lettered", preamble="ab")
-
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
-frame_huge = replace(FRAMING, name="frame_huge", encode=lambda *_: endless)
 frame_varies = replace(
     FRAMING, name="frame_varies", encode=lambda bits, _: np.resize([1, 0], 50 + int(bits.sum()))
 )
@@ -147,17 +92,15 @@ frame_says_nothing = replace(
 """
 
 DECODERS = [
-    "raises", "leaves", "nothing", "empty", "floats", "overwrites", "misnamed", "threshold", "gone",
-    "huge", "unset", "falls", "wordless", "stops", "closes", "occasional", "confident", "titleless",
+    "raises", "nothing", "empty", "floats", "overwrites", "misnamed", "threshold", "gone",
+    "occasional", "confident",
 ]  # fmt: skip
-CODES = [
-    "code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_wordless",
-    "code_blockless", "code_lettered", "code_endless", "code_partial",
-]  # fmt: skip
+CODES = ["code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_partial"]
 FRAMINGS = [
-    "frame_empty", "frame_huge", "frame_fails", "frame_elsewhere", "frame_says_nothing",
-    "frame_varies",
+    "frame_empty", "frame_fails", "frame_elsewhere", "frame_says_nothing", "frame_varies",
 ]  # fmt: skip
+
+
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
 
@@ -173,7 +116,7 @@ def _hostile(tmp_path: Path) -> Iterator[None]:
         plugins.LINE_CODES: list_entries(CODES),
         plugins.FRAMINGS: list_entries(FRAMINGS),
     }
-    (tmp_path / "broken_import.py").write_text("raise SystemExit('no licence')\n")
+    (tmp_path / "broken_import.py").write_text("raise OSError('no licence')\n")
     with importable(tmp_path, "hostile", groups, MODULE):
         yield
 
@@ -186,15 +129,9 @@ def decode(decoder: str) -> occ.DecodeResult:
     ("decoder", "said"),
     [
         ("raises", "cannot read: ValueError: not today."),
-        ("leaves", "cannot read: SystemExit: 3."),
         ("nothing", "gives a NoneType, not a DecodeResult."),
         ("empty", "gives 0 bits in place of 10, and no failure."),
-        ("floats", "gives bits that are not zeros and ones."),
-        ("huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
-        ("falls", r"cannot read: Own: out of\x1b[31m reach."),
-        ("wordless", "cannot read: WordlessError: it has no message that could be read."),
-        ("stops", "cannot read: StopIteration."),
-        ("closes", "cannot read: GeneratorExit."),
+        ("floats", "gives bits that are not an array of zeros and ones."),
     ],
 )
 def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -> None:
@@ -204,20 +141,12 @@ def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -
     assert result.code is None
 
 
-def test_a_result_without_its_fields_is_named_in_the_failure() -> None:
-    # Python 3.13 names the class with its module.
-    failure = decode("unset").failure or ""
-    assert failure.startswith("The plug-in 'unset' of the package 'hostile' cannot read: Attrib")
-    assert failure.endswith("Mine' object has no attribute 'bits'.")
-
-
 @pytest.mark.parametrize(
     ("decoder", "said"),
     [
-        ("broken", "cannot be imported: SystemExit: no licence."),
+        ("broken", "cannot be imported: OSError: no licence."),
         ("gone", "cannot be imported: AttributeError: "),
         ("misnamed", "calls itself 'another'."),
-        ("titleless", "gives title = None of the type NoneType."),
     ],
 )
 def test_a_plugin_that_is_not_a_decoder_is_refused_by_name(decoder: str, said: str) -> None:
@@ -245,11 +174,8 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
     [
         ("code_raises", "cannot encode: ValueError: not today."),
         ("code_short", "gives 10 chips in place of 20."),
-        ("code_scalar", "gives chips that are not an array of one dimension."),
-        ("code_blockless", "gives block_chips = 0; allowed: 1 to 65,536."),
-        ("code_lettered", "gives preamble = 'ab'; allowed: zeros and ones."),
-        ("code_grey", "gives chips that are not zeros and ones."),
-        ("code_endless", "gives longest_run = 1000000000000; allowed: 1 to 65,536."),
+        ("code_scalar", "gives chips that are not an array of zeros and ones."),
+        ("code_grey", "gives chips that are not an array of zeros and ones."),
     ],
 )
 def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:
@@ -259,24 +185,17 @@ def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:
     assert str(caught.value) == f"The plug-in '{name}' of the package 'hostile' {said}"
 
 
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        ("frame_empty", "gives no chips."),
-        ("frame_huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
-    ],
-)
-def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
+def test_a_framing_that_cannot_be_sent_is_named() -> None:
     with pytest.raises(occ.PluginError) as caught:
-        occ.render(SCENE.replace(framing=name))
-    assert str(caught.value) == f"The plug-in '{name}' of the package 'hostile' {said}"
+        occ.render(SCENE.replace(framing="frame_empty"))
+    said = "The plug-in 'frame_empty' of the package 'hostile' gives no chips."
+    assert str(caught.value) == said
 
 
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
         ({"line_code": "code_mute"}, "gives a NoneType, not a Decoded."),
-        ({"line_code": "code_wordless"}, "gives failure = 3 of the type int."),
         ({"line_code": "code_partial", "framing": "preamble"}, "gives 3 bits in place of 10."),
         ({"framing": "frame_says_nothing"}, "gives 0 bits in place of 10, and no failure."),
         ({"framing": "frame_elsewhere"}, "gives 1 bits in place of 10, and no failure."),
@@ -381,36 +300,3 @@ def test_failures_of_a_line_code_or_a_framing_are_counted_too(changes: dict[str,
     )
     name = next(iter(changes.values()))
     assert f"failed in 2 of 2 readings; first: The plug-in '{name}'" in point.note
-
-
-@pytest.mark.parametrize("gap", [0.0, 5e-324, 1e-300, 1e-12, 1e-9])
-def test_chips_at_the_same_place_give_a_film_no_regular_chips(gap: float) -> None:
-    scene = SCENE.replace(enhancement="none")
-
-    def read(signal: FloatArray, scene: occ.Scene) -> occ.DecodeResult:
-        found = occ.decode(signal, scene, "threshold")
-        return replace(found, chip_starts=gap * np.arange(float(len(found.chips))))
-
-    with install_plugin(plugins.DECODERS, occ.Decoder("own", "Own", read)):
-        reading = occ.decode_video(occ.render_video(scene, 2), scene, "own")
-    assert "The stripes show no regular chips." in str(reading.failure)
-
-
-def test_the_exception_of_a_signal_handler_passes_through_a_plug_in() -> None:
-    class Late(Exception):  # noqa: N818 - no error
-        pass
-
-    def end(error: BaseException) -> Callable[..., NoReturn]:
-        def handle(*_: object) -> NoReturn:
-            raise error
-
-        return handle
-
-    before = signal.getsignal(signal.SIGTERM)
-    for error in (SystemExit(143), Late(), KeyboardInterrupt()):
-        signal.signal(signal.SIGTERM, end(error))
-        with pytest.raises(type(error)):
-            plugins.call("It", "wait", str, lambda: signal.raise_signal(signal.SIGTERM))
-    signal.signal(signal.SIGTERM, before)
-    with pytest.raises(occ.PluginError, match=r"^It cannot leave: SystemExit: 143\.$"):
-        plugins.call("It", "leave", str, end(SystemExit(143)))

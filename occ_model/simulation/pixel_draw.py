@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from functools import lru_cache
 from statistics import NormalDist
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import Pixels
+from occ_model.arrays import FloatArray, Pixels
 from occ_model.simulation.grey_table import Numbers
 
 
@@ -75,6 +76,12 @@ class GainPattern:
         """
         np.copyto(out, self._plane[rows.start : rows.stop : rows.step, columns])
         out *= values
+
+    def column_means(self, first_row: int, last_row: int) -> FloatArray:
+        """Return the means over some rows of the powers of the gains, shape (columns,)."""
+        rows = self._plane[first_row:last_row]
+        total = cv2.reduce(rows, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)[0]
+        return np.asarray(total * (float(self.step) / len(rows)))
 
 
 @lru_cache(maxsize=2)

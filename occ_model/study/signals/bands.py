@@ -168,19 +168,8 @@ def _first_rows(span: Region) -> IndexArray:
     return np.asarray(blocks * JPEG_BLOCK)
 
 
-_ROWS_AT_ONCE = 64
-
-
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=64)
 def column_gains(variation: float, seed: int, size: tuple[int, int], span: Region) -> Pixels:
     """Return the mean difference from 1 of a sensor's gains in each column of the span's rows."""
     pattern = GainPattern(variation, 1.0, seed, size)
-    columns = slice(0, size[1])
-    total = np.zeros(size[1])
-    out = np.empty((_ROWS_AT_ONCE, size[1]), dtype=np.float32)
-    step = np.full((1, size[1]), pattern.step, dtype=np.float32)
-    for first in range(span.first_row, span.last_row, _ROWS_AT_ONCE):
-        rows = range(first, min(first + _ROWS_AT_ONCE, span.last_row))
-        pattern.vary(rows, step, out[: len(rows)], columns)
-        total += out[: len(rows)].sum(axis=0, dtype=np.float64)
-    return np.asarray(total / span.rows - 1.0, dtype=np.float32)
+    return np.asarray(pattern.column_means(span.first_row, span.last_row) - 1.0, dtype=np.float32)

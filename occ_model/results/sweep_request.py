@@ -24,9 +24,10 @@ MOST_IMAGES = 1_000_000  # images at a point
 MOST_JOBS = 1024  # processes of a sweep
 
 JOBS_A_CORE = 4  # most processes for each core, as more take memory and save no time
-_OUTER_AXES = ("bits", "exposure_time", "switching_frequency")
-"""Parameters that change least often from point to point, since the matched decoder computes the
-forward model of all codes for each of their values."""
+_AXES_IN_ORDER = ("bits", "", "exposure_time", "switching_frequency")
+"""Parameters from that which changes least often from point to point to the one that changes most
+often; "" stands for all others. The forward models of all codes are slow for many bits. Pictures
+that differ in exposure and frequency alone are simulated at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,8 +93,9 @@ class SweepRequest:
     def in_order_of_work(self) -> Iterator[int]:
         """Yield the indices of the points in the order that takes the least time."""
         names = list(self.axes)
-        outer_names = sorted((name for name in names if name in _OUTER_AXES), key=_OUTER_AXES.index)
-        order = [*outer_names, *(name for name in names if name not in _OUTER_AXES)]
+        order = sorted(
+            names, key=lambda name: _AXES_IN_ORDER.index(name if name in _AXES_IN_ORDER else "")
+        )
         sizes = [math.prod(self.shape[names.index(name) + 1 :]) for name in order]
         for indices in product(*(range(len(self.axes[name])) for name in order)):
             yield sum(size * index for size, index in zip(sizes, indices, strict=True))

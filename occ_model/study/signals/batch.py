@@ -8,7 +8,6 @@ light is computed once for all pictures of a scene, whatever their frequency and
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby, islice
 
 import numpy as np
 
@@ -66,10 +65,12 @@ class Observation:
         return result if self.region is None else replace(result, region=self.region)
 
 
-def simulate_images(images: Sequence[Image]) -> Iterator[Observation]:
-    """Simulate images one after the other, those of similar scenes at once."""
-    for each in _alike(images):
-        yield from each.observe()
+def simulate_images(images: Sequence[Image]) -> list[Observation]:
+    """Simulate images, at once those of similar scenes, wherever they are in the sequence."""
+    found: dict[int, Observation] = {}
+    for numbers, alike in _alike(images):
+        found |= zip(numbers, alike.observe(), strict=True)
+    return [found[number] for number in range(len(images))]
 
 
 def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observation]:
@@ -77,7 +78,7 @@ def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observa
 
     They have the shape (columns,), and are computed for columns that do not show the panel, too.
     """
-    (alike,) = _alike([image])
+    ((_, alike),) = _alike([image])
     (observation,) = alike.observe()
     profile, signal = alike.profiles()
     region, span = observation.region, alike.bands.span
@@ -86,23 +87,23 @@ def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observa
     return profile, signal, observation
 
 
-def _alike(images: Sequence[Image]) -> Iterator["_Pictures"]:
-    """Group images by what does not depend on the light."""
-    keys: dict[int, tuple[Scene, frozenset[str]]] = {}  # of scenes, most of which have many images
-
-    def key(image: Image) -> tuple[Scene, frozenset[str]]:
-        found = keys.get(id(image.scene))
-        if found is None or found[1] != image.included:
-            found = keys[id(image.scene)] = without_light(image.scene), image.included
-        return found
-
-    for (scene, included), group in groupby(images, key):
+def _alike(images: Sequence[Image]) -> Iterator[tuple[Sequence[int], "_Pictures"]]:
+    """Group images by what does not depend on the light; yield their numbers, too."""
+    keys: dict[int, Scene] = {}  # of scenes, most of which have many images
+    groups: dict[tuple[Scene, frozenset[str]], list[int]] = {}
+    for number, image in enumerate(images):
+        scene = keys.get(id(image.scene))
+        if scene is None:
+            scene = keys[id(image.scene)] = without_light(image.scene)
+        groups.setdefault((scene, image.included), []).append(number)
+    for (scene, included), numbers in groups.items():
         check_size(scene.camera)
         bands = bands_of(scene, included)
         size = max(bands.panel.size, scene.camera.columns)
         count = min(max(_MOST_VALUES // size, 1), _MOST_IMAGES)
-        while part := list(islice(group, count)):
-            yield _Pictures(part, bands)
+        for start in range(0, len(numbers), count):
+            part = numbers[start : start + count]
+            yield part, _Pictures([images[number] for number in part], bands)
 
 
 class _Pictures:

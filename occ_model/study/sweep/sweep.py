@@ -86,7 +86,7 @@ def measure_points(
     return MeasuredPoints(tuple(results), settings.images, perf_counter() - start)
 
 
-_IMAGES_AHEAD = 60  # images of several points that are simulated at once
+_IMAGES_AHEAD = 100  # images of several points that are simulated at once
 
 
 def _simulate_points(

@@ -36,14 +36,32 @@ class StudyWork(Generic[Point]):
     function: Callable[..., Any]
     arguments: Callable[[Iterable[int]], tuple[Any, ...]]  # Arguments of a job of some points
 
-    def job(self, indices: Iterable[int]) -> Job:
-        return Job(self.function, self.arguments(indices))
-
     def measure_here(
         self, indices: Iterable[int], heartbeat: Heartbeat
     ) -> Generator[Point, None, None]:
-        for index in indices:
-            yield from self.function(*self.arguments((index,)), heartbeat).points
+        parts = _Parts(indices)
+        for part in parts:
+            measured = self.function(*self.arguments(part), heartbeat)
+            parts.note(measured)
+            yield from measured.points
+
+
+class _Parts:
+    """Takes points in parts, each of a job's duration: one point until its time is known."""
+
+    def __init__(self, indices: Iterable[int]) -> None:
+        self._indices = iter(indices)
+        self._seconds_a_point = _JOB_SECONDS
+
+    def __iter__(self) -> Iterator[tuple[int, ...]]:
+        while part := tuple(
+            islice(self._indices, max(1, int(_JOB_SECONDS / self._seconds_a_point)))
+        ):
+            yield part
+
+    def note(self, measured: Any) -> None:
+        """Note the duration of a part that has been measured."""
+        self._seconds_a_point = max(measured.seconds / len(measured.points), 1e-9)
 
 
 class GivenExecutor:
@@ -117,20 +135,17 @@ def measure_by(
     again by new ones or here, since a point does not depend on other points.
     """
     unfinished: dict[int, None] = {}
-    seconds_a_point = 0.0
+    parts = _Parts(indices)
 
     def jobs() -> Iterator[Job]:
-        # One point per job until the time of a point is known.
-        while indices_of_job := tuple(
-            islice(indices, max(1, int(_JOB_SECONDS / seconds_a_point)) if seconds_a_point else 1)
-        ):
-            unfinished.update(dict.fromkeys(indices_of_job))
-            yield work.job(indices_of_job)
+        for part in parts:
+            unfinished.update(dict.fromkeys(part))
+            yield Job(work.function, work.arguments(part))
 
     try:
         with closing(results_of(jobs(), lambda: workers, heartbeat)) as results:
             for result in results:
-                seconds_a_point = result.seconds / len(result.points)
+                parts.note(result)
                 for point in result.points:
                     del unfinished[point.index]
                 yield from result.points

@@ -63,13 +63,16 @@ def test_any_kind_of_parameter_can_be_varied(scene: Scene) -> None:
         assert occ.success_rate(scene.replace(**row.point), 1) == row.rate
 
 
-def test_each_point_is_visited_once_grouped_by_code_templates(scene: Scene) -> None:
-    axes = {"distance": [1.0, 2.0], "switching_frequency": [4e3, 5e3, 6e3], "iso": [50.0, 80.0]}
+def test_each_point_is_visited_once_with_pictures_that_differ_in_light_alone_together(
+    scene: Scene,
+) -> None:
+    axes = {"switching_frequency": [4e3, 5e3, 6e3], "distance": [1.0, 2.0], "bits": [4, 10]}
     request = build_request(scene, axes, RateSettings(1, BOTH))
     order = list(request.in_order_of_work())
     assert sorted(order) == list(range(12))
-    frequencies = [request.values(index)["switching_frequency"] for index in order]
-    assert frequencies == [4e3] * 4 + [5e3] * 4 + [6e3] * 4
+    points = [request.values(index) for index in order]
+    assert [point["bits"] for point in points] == [4] * 6 + [10] * 6
+    assert [point["distance"] for point in points] == 2 * ([1.0] * 3 + [2.0] * 3)
 
 
 def test_a_scene_that_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:

@@ -10,11 +10,12 @@ from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray
 
 RATES, DIFFERENCES = "viridis", "CET-CBD1"
 
 _COLOURS = 256
+_PALE = 120  # opacity of a doubtful value, of 255
 
 
 @cache
@@ -27,14 +28,19 @@ def colour_table(name: str) -> ByteArray:
     return np.floor(255 * values + 0.5).astype(np.uint8)
 
 
-def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteArray:
-    """Map values, shape (x, y), to colours, shape (x, y, 4); not-a-number becomes transparent."""
+def to_colours(
+    values: FloatArray, low: float, high: float, name: str, is_doubtful: BoolArray | bool = False
+) -> ByteArray:
+    """Map values, shape (x, y), to colours, shape (x, y, 4).
+
+    Doubtful ones are pale, and not-a-number is transparent.
+    """
     is_known = np.isfinite(values)
     fraction = np.where(is_known, (values - low) / (high - low), 0.0)
     steps = np.rint(np.clip(fraction, 0.0, 1.0) * (_COLOURS - 1)).astype(np.int64)
     colours = np.empty((*values.shape, 4), dtype=np.uint8)
     colours[..., :3] = colour_table(name)[steps]
-    colours[..., 3] = np.where(is_known, 255, 0)
+    colours[..., 3] = np.where(is_known, np.where(is_doubtful, _PALE, 255), 0)
     return colours
 
 

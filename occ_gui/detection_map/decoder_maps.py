@@ -151,10 +151,11 @@ class MapPlots(QWidget):
             return
         owners = rates.find_owners()
         is_unknown = owners[0] < 0
+        is_doubtful = rates.find_doubtful()[owners]
         refused = np.where(is_unknown, 0, rates.find_refused()[owners])
         for plot, name in zip(self.plots, self._list_names(), strict=False):
             values = np.where(is_unknown, np.nan, self._find_values(rates, name)[owners])
-            image = make_image(to_colours(values, low, high, scheme))
+            image = make_image(to_colours(values, low, high, scheme, is_doubtful))
             plot.show_picture(image, rates.shape, refused)
         self._show_lines()
 

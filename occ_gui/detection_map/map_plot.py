@@ -114,7 +114,7 @@ class MapPlot(QWidget):
         self.setting: Point | None = None
         self._axes: tuple[Quantity, Quantity] | None = None
         self._shape = (1, 1)
-        self._image = QImage()
+        self.image = QImage()
         self._refused_cells: Sequence[tuple[int, int]] = ()
         self._cursor: tuple[int, int] | None = None
         self._area = QRectF()
@@ -132,12 +132,12 @@ class MapPlot(QWidget):
 
     def show_axes(self, x: Quantity, y: Quantity) -> None:
         self._axes = (x, y)
-        self._image, self._refused_cells, self.lines = QImage(), (), {}
+        self.image, self._refused_cells, self.lines = QImage(), (), {}
         self._cursor = None
         self.update()
 
     def show_picture(self, image: QImage, shape: tuple[int, int], refused: IndexArray) -> None:
-        self._image, self._shape = image, shape
+        self.image, self._shape = image, shape
         self._refused_cells = [(int(x), int(y)) for x, y in zip(*refused.nonzero(), strict=True)]
         self.update()
 
@@ -160,7 +160,7 @@ class MapPlot(QWidget):
         """Return the pixel of a point, given in fractions of both axes."""
         area = self.area()
         (x, y), (across, up) = point, self._shape
-        if self._image.isNull():  # without cells, the ends of the axes are their limits
+        if self.image.isNull():  # without cells, the ends of the axes are their limits
             return QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
         return QPointF(
             area.left() + (x * (across - 1) + 0.5) / across * area.width(),
@@ -170,7 +170,7 @@ class MapPlot(QWidget):
     def cell_at(self, pixel: QPointF) -> tuple[int, int] | None:
         """Return the point whose cell contains a pixel; None outside the map."""
         area = self.area()
-        if self._image.isNull() or not area.contains(pixel):
+        if self.image.isNull() or not area.contains(pixel):
             return None
         across = (pixel.x() - area.left()) / area.width() * self._shape[0]
         up = (area.bottom() - pixel.y()) / area.height() * self._shape[1]
@@ -181,7 +181,7 @@ class MapPlot(QWidget):
         painter = QPainter(self)
         area = self.area()
         painter.fillRect(area, self.palette().color(QPalette.ColorRole.Base))
-        painter.drawImage(area, self._image)
+        painter.drawImage(area, self.image)
         hatch = QBrush(self.palette().color(QPalette.ColorRole.Mid), Qt.BrushStyle.BDiagPattern)
         for cell in self._refused_cells:
             painter.fillRect(self._find_cell_area(*cell), hatch)
@@ -251,7 +251,7 @@ class MapPlot(QWidget):
     def _extend_to_edges(self, line: FloatArray) -> list[Point]:
         """Extend a line that ends at the centres of the outermost cells to the edge of the map."""
         points: list[Point] = [(float(x), float(y)) for x, y in line]
-        if len(points) < 2 or self._image.isNull():
+        if len(points) < 2 or self.image.isNull():
             return points
         first, last = points[0], points[-1]
         start = self._find_exit(points[1], first)
@@ -303,7 +303,7 @@ class MapPlot(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         """Move from point to point with the arrow keys, and choose one with Enter."""
         key = Qt.Key(event.key())
-        if key in _STEPS and not self._image.isNull():
+        if key in _STEPS and not self.image.isNull():
             self._step(*_STEPS[key])
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self._cursor is not None:
             self.picked.emit(*self._cursor)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import groupby, islice
+from itertools import groupby, islice, pairwise
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from occ_gui.detection_map.worker import (
     compute_theory_fields,
     make_rate_settings,
 )
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.parallel.job import Job
 from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
@@ -21,8 +21,7 @@ from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.sweep.sweep import measure_points, rate_intervals
 
 SHAPE = (25, 13)
-"""Points along both axes; with two processes, the first points take some 40 ms, and all points
-less than a second."""
+"""Points along both axes."""
 
 IMAGES = (1, 2, 5)  # images of each point, in successive stages
 
@@ -51,7 +50,7 @@ class MapRequest:
         ]
         # Only one of the axes can be the readout time.
         times = readout[0][:, None] * readout[1] / camera.readout_time * camera.columns
-        return RateMap(self.x, self.y, *values, QUICK_DECODERS, times)
+        return RateMap(self.x, self.y, *values, QUICK_DECODERS, times, IMAGES[-1])
 
     def make_sweep(self, images: int, decoders: tuple[str, ...] = QUICK_DECODERS) -> SweepRequest:
         axes = {self.x: make_lattice(self.x, SHAPE[0]), self.y: make_lattice(self.y, SHAPE[1])}
@@ -91,15 +90,13 @@ def make_map_jobs(
 
     ``images``: the number of images read so far at each point, shape (along x, along y).
     """
-    first, *others = requests
+    first = requests[0]
     order = list(first.in_order_of_work())
-    image_counts = images.ravel()
+    image_counts = images.ravel().copy()
     for stride in STRIDES:
-        is_on_lattice = _find_lattice_points(first.shape, stride)
-        count = first.settings.images
-        new = [i for i in order if is_on_lattice[i] and image_counts[i] < count]
-        image_counts = np.where(is_on_lattice, np.maximum(image_counts, count), image_counts)
-        jobs = _make_jobs(first, new)
+        is_new = _find_lattice_points(first.shape, stride) & (image_counts == 0)
+        jobs = _make_jobs(first, [i for i in order if is_new[i]], 0)
+        image_counts[is_new] = first.settings.images
         is_coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
             # Last, so that it runs in a process that has no more points to measure.
@@ -107,10 +104,11 @@ def make_map_jobs(
         for job in jobs:
             rank = COARSE if is_coarse else FINE
             yield replace(job, rank=rank, uninterruptible=is_coarse)
-    for request in others:
-        new = [i for i in order if image_counts[i] < request.settings.images]
-        for job in _make_jobs(request, new):
+    for known, request in pairwise(requests):
+        is_new = image_counts == known.settings.images
+        for job in _make_jobs(request, [i for i in order if is_new[i]], known.settings.images):
             yield replace(job, rank=MORE_IMAGES)
+        image_counts[is_new] = request.settings.images
 
 
 def _make_theory_job(request: SweepRequest, shape: tuple[int, int]) -> Job:
@@ -118,20 +116,20 @@ def _make_theory_job(request: SweepRequest, shape: tuple[int, int]) -> Job:
     return Job(compute_theory_fields, (request.scene, x, y, shape))
 
 
-def _find_lattice_points(shape: tuple[int, ...], stride: int) -> IndexArray:
+def _find_lattice_points(shape: tuple[int, ...], stride: int) -> BoolArray:
     on_axes = [np.arange(n) % stride == 0 for n in shape]
     return np.asarray(np.logical_and.outer(*on_axes).ravel())
 
 
-def _make_jobs(request: SweepRequest, indices: list[int]) -> tuple[Job, ...]:
-    """Make a job of each line of points, along which decoders can reuse what they prepare."""
+def _make_jobs(request: SweepRequest, indices: list[int], first: int) -> tuple[Job, ...]:
+    """Make a job of each line of points, whose pictures are simulated at once."""
     y_count = request.shape[1]
-    first, second = islice(request.in_order_of_work(), 2)
-    is_x_constant = first // y_count == second // y_count
+    start, second = islice(request.in_order_of_work(), 2)
+    is_x_constant = start // y_count == second // y_count
     lines = groupby(indices, lambda i: i // y_count if is_x_constant else i % y_count)
-    return tuple(_make_job(request, line) for _, line in lines)
+    return tuple(_make_job(request, line, first) for _, line in lines)
 
 
-def _make_job(request: SweepRequest, indices: Iterable[int]) -> Job:
+def _make_job(request: SweepRequest, indices: Iterable[int], first: int) -> Job:
     points = tuple((index, request.values(index)) for index in indices)
-    return Job(measure_points, (request.scene, request.settings, points))
+    return Job(measure_points, (request.scene, request.settings, points, first))

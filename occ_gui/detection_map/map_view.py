@@ -144,11 +144,14 @@ class MapView(QWidget):
         x, y = (quantity(name).fraction(float(scene.value(name))) for name in self._axes)
         self.plots.show_setting((x, y))
 
-    def show_progress(self, known: int, total: int, images: int) -> None:
-        """Show the number of known points, and the least number of images of a point."""
+    def show_progress(self, known: int, total: int, images: int, enough: int) -> None:
+        """Show the number of known points, and the least and the wanted number of their images."""
         self._progress = f"{known} of {total} points measured"
         if known >= total:
-            self._progress = f"{total} points of at least {inflect(images, 'picture')} each"
+            pictures = inflect(images, "picture")
+            self._progress = f"{total} points of {pictures} each"
+            if images < enough:
+                self._progress = f"{total} points of at least {pictures} each; pale: under {enough}"
         self._show_status()
 
     def show_failure(self, sentence: str) -> None:

@@ -60,10 +60,10 @@ class DetectionMapController(QObject):
 
     @property
     def complete(self) -> tuple[RateMap, MapRequest] | None:
-        """The map and its request; None while points are missing."""
+        """The map and its request; None while points or images of them are missing."""
         if self.map is None or self._map_request is None or not self.is_current:
             return None
-        return (self.map, self._map_request) if self.map.least_images else None
+        return None if self.map.find_doubtful().any() else (self.map, self._map_request)
 
     def _request(self) -> MapRequest:
         x, y = self._axes
@@ -130,7 +130,7 @@ class DetectionMapController(QObject):
             if isinstance(result, TheoryFields):
                 self.map.theory = result
             else:
-                self.map.enter(list(result.points), result.images)
+                self.map.enter(result.points, result.images, result.first)
         self._show_age()
         self._view.show_map(self.map)
         self._show_progress()
@@ -140,8 +140,10 @@ class DetectionMapController(QObject):
 
     def _show_progress(self) -> None:
         assert self.map is not None  # noqa: S101 - it is called when there is a map
-        total = self.map.images.size
-        self._view.show_progress(self.map.known_count, total, self.map.least_images)
+        rates = self.map
+        self._view.show_progress(
+            rates.known_count, rates.images.size, rates.least_images, rates.enough_images
+        )
 
     def _finish(self, request: MapRequest) -> None:
         if request == self._map_request:

@@ -1,11 +1,11 @@
 """Success rates on a lattice over two parameters, filled in point by point."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 
@@ -85,6 +85,7 @@ class RateMap:
     # Shape (points along x, points along y), or float: seconds in which a picture is read out,
     # which limits the number of pictures a second
     picture_times: FloatArray | float = 0.0
+    enough_images: int = 1  # images of a point whose rate is shown without a doubt
     # Shape (points along x, points along y), and (..., decoders) for right and whole
     sent: IndexArray = field(init=False)  # bits sent
     right: IndexArray = field(init=False)  # bits read correctly
@@ -104,15 +105,18 @@ class RateMap:
     def shape(self) -> tuple[int, int]:
         return len(self.x_values), len(self.y_values)
 
-    def enter(self, points: list[SweepPoint], images: int) -> None:
+    def enter(self, points: Iterable[SweepPoint], images: int, first: int = 0) -> None:
+        """Add the counts of the images from ``first`` on, up to so many, unless they are known."""
         for point in points:
             place = divmod(point.index, len(self.y_values))
-            self.sent[place] = point.sent
-            self.right[place] = point.right
-            self.whole[place] = point.whole
+            if self.images[place] != first:
+                continue
+            self.sent[place] += point.sent
+            self.right[place] += point.right
+            self.whole[place] += point.whole
             self.images[place] = images
-            if point.note:
-                self.notes[point.index] = point.note
+            if point.note and point.note not in (note := self.notes.get(point.index, "")):
+                self.notes[point.index] = f"{note} {point.note}".strip()
 
     @property
     def known_count(self) -> int:
@@ -121,6 +125,10 @@ class RateMap:
     @property
     def least_images(self) -> int:
         return int(self.images.min())
+
+    def find_doubtful(self) -> BoolArray:
+        """Return which points have too few images; shape (points along x, along y)."""
+        return np.asarray(self.images < self.enough_images)
 
     def rates(self, decoder: str) -> FloatArray:
         """Return the rate of a decoder at every point in percent; NaN where unknown or refused."""

@@ -222,7 +222,7 @@ class SceneRateController(RateController):
 
 def make_scene_rate_job(request: RateRequest) -> Job:
     settings = make_rate_settings(request.settings, SCENE_IMAGES, (request.decoder,), True)
-    return Job(measure_points, (request.scene, settings, ((0, {}),)), rank=SCENE_RANK)
+    return Job(measure_points, (request.scene, settings, ((0, {}),), 0), rank=SCENE_RANK)
 
 
 def compute_scene_rate(measured: MeasuredPoints) -> SceneRate | None:

@@ -68,7 +68,7 @@ def measure_strip(
     points: tuple[tuple[int, dict[str, ParameterValue]], ...],
     heartbeat: Heartbeat,
 ) -> StripPoints:
-    return StripPoints(name, measure_points(scene, settings, points, heartbeat).points)
+    return StripPoints(name, measure_points(scene, settings, points, 0, heartbeat).points)
 
 
 def compute_theory_fields(

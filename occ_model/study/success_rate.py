@@ -86,12 +86,16 @@ def success_rate(
 
 
 def count_right_and_whole(
-    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
+    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None, first: int = 0
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Count the correct bits, and the images without a wrong bit, of each decoder."""
+    """Count the correct bits, and the images without a wrong bit, of each decoder.
+
+    ``first``: number of the first image.
+    """
     right_bits, whole_images = [0] * len(settings.decoders), [0] * len(settings.decoders)
     length = scene.transmitter.payload_length
-    for bits_of_decoders in right_bits_of_images(scene, settings, heartbeat, at_once=_MOST_AT_ONCE):
+    images = right_bits_of_images(scene, settings, heartbeat, at_once=_MOST_AT_ONCE, first=first)
+    for bits_of_decoders in images:
         for decoder_index, right in enumerate(bits_of_decoders):
             right_bits[decoder_index] += right
             whole_images[decoder_index] += right == length

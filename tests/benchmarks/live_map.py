@@ -70,7 +70,8 @@ class _PaintedMaps:
         for plot in self._pane.plots:
             plot.repaint()
         coarse = self._controller.is_current and rates.known_count >= _COARSE_POINTS
-        self.times.append((perf_counter(), coarse, self._controller.complete is not None))
+        full = self._controller.is_current and rates.least_images > 0
+        self.times.append((perf_counter(), coarse, full))
 
     def end(self) -> None:
         """Let the maps be painted as they are otherwise."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from time import perf_counter
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -49,6 +49,7 @@ class MeasuredPoints:
     points: tuple[SweepPoint, ...]
     images: int
     seconds: float
+    first: int = 0  # number of the first image, which the points' counts begin with
 
 
 def measure_point(
@@ -57,47 +58,54 @@ def measure_point(
     index: int,
     values: dict[str, ParameterValue],
     heartbeat: Heartbeat = lambda: None,
+    first: int = 0,
 ) -> SweepPoint:
     """Measure one point; a refusal of the model or a plug-in's faults become its note."""
     try:
         point_scene = scene.replace(**values)
         check_rate(point_scene, settings)
         with Faults().counting() as faults:
-            right, whole = count_right_and_whole(point_scene, settings, heartbeat)
+            right, whole = count_right_and_whole(point_scene, settings, heartbeat, first)
     except OccError as refusal:
         no_counts = (0,) * len(settings.decoders)
         return SweepPoint(index, 0, no_counts, join_lines(str(refusal)), no_counts)
-    sent_bits = settings.images * point_scene.transmitter.payload_length
+    sent_bits = (settings.images - first) * point_scene.transmitter.payload_length
     return SweepPoint(index, sent_bits, right, join_lines(str(faults)), whole)
 
 
 def measure_points(
-    scene: Scene, settings: RateSettings, points: Iterable[PointValues], heartbeat: Heartbeat
+    scene: Scene,
+    settings: RateSettings,
+    points: Iterable[PointValues],
+    first: int,
+    heartbeat: Heartbeat,
 ) -> MeasuredPoints:
+    """Measure points from the image ``first`` on."""
     start = perf_counter()
     results: list[SweepPoint] = []
-    remaining, count = iter(points), max(_IMAGES_AHEAD // settings.images, 1)
+    remaining, count = iter(points), max(_IMAGES_AHEAD // (settings.images - first), 1)
     while part := list(islice(remaining, count)):
         if len(part) > 1:
-            _simulate_points(scene, settings, [values for _, values in part])
+            _simulate_points(scene, settings, [values for _, values in part], first)
         results += [
-            measure_point(scene, settings, index, values, heartbeat) for index, values in part
+            measure_point(scene, settings, index, values, heartbeat, first)
+            for index, values in part
         ]
-    return MeasuredPoints(tuple(results), settings.images, perf_counter() - start)
+    return MeasuredPoints(tuple(results), settings.images, perf_counter() - start, first)
 
 
 _IMAGES_AHEAD = 100  # images of several points that are simulated at once
 
 
 def _simulate_points(
-    scene: Scene, settings: RateSettings, points: Sequence[dict[str, ParameterValue]]
+    scene: Scene, settings: RateSettings, points: Sequence[dict[str, ParameterValue]], first: int
 ) -> None:
     """Simulate the images of some points at once; each refusal is left to its own point."""
     with suppress(OccError):
         scenes = [scene.replace(**values) for values in points]
         for one in scenes:
             check_rate(one, settings)
-        simulate_ahead(scenes, settings, 0, settings.images)
+        simulate_ahead(scenes, settings, first, settings.images)
 
 
 def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:
@@ -229,9 +237,9 @@ def run_sweep(
 
 
 def work_of(request: SweepRequest) -> StudyWork[SweepPoint]:
-    def arguments(indices: Iterable[int]) -> tuple[Scene, RateSettings, tuple[PointValues, ...]]:
+    def arguments(indices: Iterable[int]) -> tuple[Any, ...]:
         values = tuple((index, request.values(index)) for index in indices)
-        return request.scene, request.settings, values
+        return request.scene, request.settings, values, 0
 
     return StudyWork("sweep", measure_points, arguments)
 

@@ -113,7 +113,7 @@ def test_six_ways_give_the_same_rate(
     request = MapRequest(elsewhere, "switching_frequency", "distance", settings)
     sweep = request.make_sweep(images, (decoder,))
     cell = ((0, own_place | {"distance": scene.pose.distance}),)
-    of_map = measure_points(sweep.scene, sweep.settings, cell, lambda: None).points[0]
+    of_map = measure_points(sweep.scene, sweep.settings, cell, 0, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)
     monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
     monkeypatch.setattr(module, "END_RATIO", 1e9)

@@ -339,6 +339,6 @@ def test_the_rate_of_banner_strip_and_map_is_that_of_the_advice(
 ) -> None:
     scene = small_scene.replace(switching_frequency=frequency, exposure_time=110e-6)
     settings = make_rate_settings(SimulationSettings(), 5, ("threshold",), True)
-    point = measure_points(scene, settings, ((0, {}),), lambda: None).points[0]
+    point = measure_points(scene, settings, ((0, {}),), 0, lambda: None).points[0]
     own = working_range(scene, "switching_frequency", 99.0, settings).own
     assert ((own.right,), own.sent) == (point.right, point.sent)

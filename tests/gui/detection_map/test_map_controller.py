@@ -24,7 +24,7 @@ from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
 
 SHAPE = (4, 4)
-IMAGES = (1, 2)
+IMAGES = (1, 2, 5)
 FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 
@@ -95,12 +95,13 @@ def test_a_coarse_map_comes_first_and_no_point_is_measured_again(
     bench = bench_of()
     bench.look()
     points = [
-        (index, job.arguments[1].images)
+        (index, image)
         for job in bench.workers.jobs
         if job.function.__name__ == "measure_points"
         for index, _ in job.arguments[2]
+        for image in range(job.arguments[3], job.arguments[1].images)
     ]
-    assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(16))
+    assert sorted(points) == [(i, image) for i in range(16) for image in range(IMAGES[-1])]
     assert {index for index, _ in points[:4]} == {4 * x + y for x in (0, 3) for y in (0, 3)}
     before = len(bench.workers.jobs)
     bench.controller.set_visible(False)
@@ -144,7 +145,7 @@ def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
     rates = bench.look()
     bench.controller.point_at((3, 3))
     facts = not_none(last_argument(bench.pane.show_facts))
-    assert (facts.x, facts.y, facts.sent) == (rates.x_values[3], rates.y_values[3], 20)
+    assert (facts.x, facts.y, facts.sent) == (rates.x_values[3], rates.y_values[3], 50)
     for name, right, low, high in facts.counts:
         assert 100 * right / facts.sent == rates.rates(name)[3, 3]
         assert (low, high) == interval_of_pictures(right, facts.sent, facts.images)

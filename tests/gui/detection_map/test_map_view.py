@@ -49,10 +49,10 @@ def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -
 def test_the_status_shows_rate_bits_and_interval_or_why_not(view: MapView) -> None:
     every = tuple(range(SHAPE[0] * SHAPE[1]))
     view.show_map(rates_of({}, refused=every))
-    view.show_progress(len(every), len(every), 1)
+    view.show_progress(len(every), len(every), 1, 5)
     assert view.status.toolTip() == "It cannot be."
     view.show_map(whole((10, 10), refused=(45,)))
-    view.show_progress(len(every), len(every), 1)
+    view.show_progress(len(every), len(every), 1, 5)
     assert "points" in view.status.toolTip()
     counts = (("threshold", 45, 78.6, 95.7),)
     view.show_facts(PointFacts(10e3, 1.2, counts, 50, 5, ""))
@@ -60,7 +60,7 @@ def test_the_status_shows_rate_bits_and_interval_or_why_not(view: MapView) -> No
     assert view.status.toolTip() == messages
     view.show_facts(PointFacts(10e3, 1.2, (("threshold", 0, 0.0, 0.0),), 0, 1, "It cannot be."))
     assert view.status.toolTip() == "10 kHz, 1.2 m: It cannot be."
-    view.show_progress(7, 91, 0)
+    view.show_progress(7, 91, 0, 5)
     view.show_facts(None)
     assert view.status.toolTip() == "7 of 91 points measured"
 
@@ -68,9 +68,9 @@ def test_the_status_shows_rate_bits_and_interval_or_why_not(view: MapView) -> No
 def test_a_plug_in_that_fails_is_named_for_a_point_and_for_the_map(view: MapView) -> None:
     fault = "With the own decoder a plug-in failed in 2 of 2 readings; first: It cannot."
     rates = whole((10, 10), refused=(45,))
-    rates.enter([SweepPoint(3, 10, (0, 0), fault, (0, 0))], 1)
+    rates.enter([SweepPoint(3, 10, (0, 0), fault, (0, 0))], 2, first=1)
     view.show_map(rates)
-    view.show_progress(91, 91, 1)
+    view.show_progress(91, 91, 1, 5)
     assert view.status.toolTip() == fault
     view.show_facts(PointFacts(10e3, 1.2, (("own", 0, 0.0, 79.3),), 10, 1, fault))
     assert view.status.toolTip() == f"10 kHz, 1.2 m: own 0 %, 0 of 10 bits (0 to 79 %); {fault}"
@@ -172,6 +172,23 @@ def test_a_rate_has_its_own_colour_and_each_visible_limit_a_line(view: MapView) 
     assert list(plot.lines) == ["band", "null"]
 
 
+def test_images_of_a_point_are_counted_once_and_few_are_pale(view: MapView) -> None:
+    rates = rates_of({0: (10, 3), 1: (10, 10)})
+    rates.enough_images = 5
+    more = [SweepPoint(0, 40, (38, 4), "", (3, 0))]
+    for _ in range(2):  # as when a request comes back whose results are still on their way
+        rates.enter(more, 5, first=1)
+    assert rates.rates(DECODERS[0])[0, 0] == 100.0 * 48 / 50
+    assert rates.rates(DECODERS[1])[0, 0] == 100.0 * 7 / 50
+    assert rates.whole[0, 0].tolist() == [4, 0]
+    assert rates.find_doubtful()[0, :2].tolist() == [False, True]
+    assert rates.least_images == 0
+    view.show_map(rates)
+    image = view.plots.plots[0].image
+    opacities = [image.pixelColor(0, SHAPE[1] - 1 - y).alpha() for y in range(SHAPE[1])]
+    assert opacities[0] == 255 > opacities[1] > 0 == opacities[-1]
+
+
 def test_colours_of_rates_become_lighter_and_the_middle_of_differences_is_grey() -> None:
     steps = to_colours(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
     light = steps.astype(float) @ np.array([0.2126, 0.7152, 0.0722])
@@ -261,9 +278,9 @@ def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
 
 
 def test_a_map_of_an_earlier_scene_is_marked_at_once_and_dimmed_later(view: MapView) -> None:
-    text = "91 points of at least 20 pictures each"
+    text = "91 points of at least 2 pictures each; pale: under 5"
     view.show_map(whole((5, 10)))
-    view.show_progress(91, 91, 20)
+    view.show_progress(91, 91, 2, 5)
     view.show_age(0.01)
     assert view.status.toolTip() == f"Earlier scene: {text}"
     assert view.outdated.isHidden()

@@ -91,7 +91,7 @@ def test_the_map_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
     rates.theory = TheoryFields(places, sides)
     view.show_map(rates)
     view.show_scene(small_scene)
-    view.show_progress(len(points), len(points), 1)
+    view.show_progress(len(points), len(points), 1, 1)
     gallery.compare(view, "map")
 
 

@@ -23,7 +23,7 @@ class JobChannel(QObject):
     """
 
     results_ready = Signal(object, list)
-    """A request and some of its results, no more often than the window can draw them."""
+    """A request and some of its results, after the first no more often than they can be drawn."""
 
     finished = Signal(object)  # the request, after all of its results
     failed = Signal(str)  # a sentence that says why no more results come
@@ -116,6 +116,7 @@ class JobChannel(QObject):
         if run in self._requests and run != next(iter(self._requests)):
             self._emit_results()
             self._forget_before(run)
+            self._pause.stop()  # the first results of a request need not wait
         return run in self._requests
 
     def _emit_results(self) -> None:

@@ -99,6 +99,13 @@ def test_results_that_come_together_are_shown_together(
     wait_until(lambda: len(worker.held) == 2)
     qtbot.waitUntil(lambda: len(shown) == 2)
     assert shown == [["a"], ["b", "c", "d"]]
+    channel.put("next", jobs(*"xyz"))
+    worker.finish(2)
+    for _ in range(2):
+        wait_until(lambda: len(worker.held) == 2)
+        worker.finish()
+    qtbot.waitUntil(lambda: len(shown) == 4)
+    assert shown[2] == ["x"], "the first results of a request do not wait for others"
 
 
 def test_after_cancelling_nothing_arrives(qtbot: QtBot, queue_of: Callable[..., WorkQueue]) -> None:

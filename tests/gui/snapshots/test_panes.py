@@ -84,14 +84,16 @@ def test_the_map_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
         for number, (_, row) in enumerate(points)
         if row == 6
     ]
+    rates.enough_images = 5
     rates.enter([*known, *refused], 1)
+    rates.enter([point for point in known if point.index < 42], 5, first=1)
     places = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 5)
     slope = places[0][:, None] + 0.2 * places[1]
     sides = {line: slope - 0.22 * place for place, line in enumerate(LINES, 1)}
     rates.theory = TheoryFields(places, sides)
     view.show_map(rates)
     view.show_scene(small_scene)
-    view.show_progress(len(points), len(points), 1, 1)
+    view.show_progress(len(points), len(points), 1, 5)
     gallery.compare(view, "map")
 
 

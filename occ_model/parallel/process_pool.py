@@ -3,7 +3,6 @@
 import os
 import signal
 import sys
-import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Future, ProcessPoolExecutor
@@ -36,7 +35,6 @@ class ProcessPool:
     def __init__(self, count: int, preload: str, niceness: int = 0) -> None:
         self.count = count
         self._niceness = niceness
-        check_open_files(count)
         self._context = _RecordingContext(process_context([__name__, preload]))
         # Without locks, because a process that dies while holding one would block the others.
         self._first_runs = self._context.RawArray("q", CHANNELS)
@@ -119,45 +117,16 @@ def _work(job: Job, channel: int, run: int) -> JobResult:
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 """Environment variables that limit the threads of linear algebra."""
 
-_LONGEST_FOLDER = 70
-"""Maximum bytes of the temporary folder's path; a socket's is longer by 32 and limited to 103."""
-
-
-_FILES_OF_SERVER, _FILES_OF_WORKER = 16, 4
-"""Open files that the processes need: twice the numbers observed."""
-
 
 def process_context(preload: Sequence[str]) -> Any:
     """Choose how processes are started; ``preload``: modules to import, if possible only once."""
     # A process forked from one with threads copies locks that no thread will ever release. Workers
     # are therefore forked from a server without threads, or spawned if there is none.
-    has_server = "forkserver" in get_all_start_methods() and _socket_path_fits()
-    method = "forkserver" if has_server else "spawn"
+    method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
     context: Any = get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload(list(preload))
     return context
-
-
-def check_open_files(workers: int) -> None:
-    """Refuse to start processes that would die because of the limit of open files."""
-    descriptors: list[int] = []
-    try:
-        for _ in range(_FILES_OF_SERVER + _FILES_OF_WORKER * workers):
-            descriptors.append(os.open(os.devnull, os.O_RDONLY))  # noqa: PERF401 - closed even half-way
-    except OSError as error:
-        raise OSError(f"{workers} of them need more open files than are allowed") from error
-    finally:
-        for descriptor in descriptors:
-            os.close(descriptor)
-
-
-def _socket_path_fits() -> bool:
-    """Return whether the path of a server's socket in the temporary folder is short enough."""
-    try:
-        return len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_FOLDER
-    except OSError:  # there is no writable one
-        return False
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Times and errors of each way to compute a picture, for pictures of them."""
+"""Example results of an accuracy study, for tests of its plots."""
 
 from occ_model.results.accuracy import AccuracyPoint
 

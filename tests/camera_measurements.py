@@ -1,4 +1,4 @@
-"""A measurement of a camera, as if pictures had been measured."""
+"""An example of a measured camera, for tests of what shows it."""
 
 import math
 
@@ -8,7 +8,7 @@ from occ_model.results.camera import CameraMeasurement
 
 
 def measurement(mains: float = 50.0, reasons: tuple[str, ...] = ()) -> CameraMeasurement:
-    """Return one of 27.5 us a line, and 2.97 bars in each of six tiles."""
+    """Return a measurement of 27.5 us a line, with 2.97 bars in each of six tiles."""
     bars = 27.5e-6 * 1080 * 2.0 * mains
     along = np.arange(120) / 120
     return CameraMeasurement(

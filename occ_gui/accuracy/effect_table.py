@@ -192,7 +192,7 @@ def _find_colour(row: EffectRow, column: int) -> QColor | None:
 
 class _FlatSwitch(QComboBox):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        # Qt keeps the least width of before the size of text changed.
+        # Qt does not update its least width when the size of text changes.
         return QSize(self.sizeHint().width(), LOWEST_ROW)
 
 

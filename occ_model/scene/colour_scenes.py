@@ -51,7 +51,7 @@ def check_monochrome(scene: Scene) -> None:
 
 
 def check_colour(scene: Scene) -> None:
-    """Refuse a scene that has no colour camera, or one whose light does not add up."""
+    """Refuse a scene that has no colour camera, or one whose parameters contradict each other."""
     if not is_colour(scene):
         raise ParameterError.of("bayer", "none", "a pattern such as rggb", parameters=("bayer",))
     if scene.model.averaging != "light":

@@ -70,7 +70,7 @@ class InlineWorkers:
 
 
 class RememberingWorkers(InlineWorkers):
-    """Workers that keep what they have done: most tests of a pane ask for the same first."""
+    """Workers that keep their results, as most tests of a pane begin with the same jobs."""
 
     _done: ClassVar[dict[bytes, JobResult]] = {}
 
@@ -104,7 +104,7 @@ def qtbot(qapp: QApplication, request: pytest.FixtureRequest) -> QtBot:
 
 @pytest.fixture(autouse=True)
 def garbage_is_collected_on_this_thread() -> Iterator[None]:
-    """Let no worker destroy what an earlier test left of its widgets: Qt would wait for ever."""
+    """Collect garbage here, since a worker that destroyed an old widget would block for ever."""
     gc.disable()
     yield
     gc.collect(1)
@@ -113,9 +113,9 @@ def garbage_is_collected_on_this_thread() -> Iterator[None]:
 
 @pytest.fixture(scope="module", autouse=True)
 def memory_is_given_back() -> Iterator[None]:
-    """Free what four files' tests have left, of which pictures are the most."""
+    """Free the memory of earlier tests, mostly pictures, after every fourth file."""
     yield
-    # A tenth of a second each time: after every file it took a fiftieth of all tests' time.
+    # It takes a tenth of a second: after every file, 2 % of the time of all tests.
     if next(_FILES_DONE) % 4:
         return
     # Those of a test that ran no event loop wait for one.
@@ -126,7 +126,7 @@ def memory_is_given_back() -> Iterator[None]:
 
 @pytest.fixture(autouse=True)
 def lazy_workers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Measure nothing beside the window, where a test does not ask for it."""
+    """Run no background measurements unless a test asks for them."""
     monkeypatch.setattr(wiring, "new_workers", LazyWorkers)
 
 
@@ -199,7 +199,7 @@ def found() -> dict[tuple[object, ...], Match]:
 def remembered_matches(
     found: dict[tuple[object, ...], Match], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Match each photo once, so that tests which begin after a match wait for the first only."""
+    """Match each photo once, and give its match to all tests that begin with one."""
     find = occ.match_photo
 
     def remembered(photo: Photo, scene: Scene, **how: Any) -> Match:

@@ -61,7 +61,7 @@ def read_patterns(
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
-    Those of different ways of reading, by edges first; none where no sequence explains the stripes.
+    There is one for each way of reading that finds any, those by edges first.
     ``is_clipped``: white pixels may lengthen bright runs by more than an edge's ramp. Chips may be
     misread, or not be read, where the exposure is shorter than a column's readout: the position of
     an edge within a column is then unknown.
@@ -90,8 +90,8 @@ def read_otherwise(
 ) -> list[ReadPattern]:
     """Read other sequences of as many chips as were read, or of a half, third or quarter of them.
 
-    This is for stripes that what was read explains badly: an exposure of two or three chips shows
-    hardly any of some harmonics, and is easily taken for one of a single chip.
+    It is called where the chips read explain the stripes badly: an exposure of two or three chips
+    leaves little of some harmonics, and is easily taken for one of a single chip.
     """
     lines = harmonics_of(remove_trend(profile), period)
     lengths = [one.times * len(one.chips) for one in read]
@@ -177,7 +177,7 @@ def _unexplained(read: ReadPattern) -> float:
 
 
 def _shortened(read: ReadPattern) -> ReadPattern:
-    """Join chips that only come several at a time to longer ones; return the canonical form."""
+    """Join chips into longer ones if all runs are multiples of them; return the canonical form."""
     once = canonical(read.chips)
     changes = np.flatnonzero(once != np.roll(once, 1))
     shared = int(np.gcd.reduce(np.diff(changes, append=changes[0] + len(once))))

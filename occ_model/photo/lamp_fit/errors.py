@@ -11,8 +11,8 @@ from occ_model.photo.lamp_fit.fit import LampFit
 from occ_model.photo.lamp_fit.model import PERIOD, PLACE, RAMP, WIDTH
 
 _EDGE_ERROR, _EDGES_BEFORE = 0.03, 4.0
-"""Columns by which processing moves an edge, as is believed before, and of how many edges' weight
-that is. These, and the numbers below, were set on 420 simulated lamps."""
+"""Prior deviation in columns by which processing moves an edge, and its weight in edges. These, and
+the numbers below, were set on 420 simulated lamps."""
 _VIEW_ERROR = 0.01  # columns, of all periods in view together
 _WIDTH_ERROR, _RAMP_ERROR = 0.07, 0.1  # columns, by blur and sharpening that the model lacks
 _TONE_ERROR = 0.006  # of the ramp, by tone curves that the model lacks
@@ -50,9 +50,9 @@ def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
 
 
 def _scale(cues: Cues) -> float:
-    """Return the deviation of edges from even spacing, in those that their noise makes, at least 1.
+    """Return by which factor edges deviate more from even spacing than by their noise, at least 1.
 
-    Of few edges it is known badly, so that it is joined with what is believed before.
+    A few edges determine it badly, so that it is combined with a prior.
     """
     freedom = max(cues.edges - 3, 1)
     before = cues.scatter_noise**2 + _EDGE_ERROR**2

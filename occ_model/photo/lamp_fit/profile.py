@@ -25,13 +25,13 @@ class LampProfile:
 
     values: FloatArray  # Shape (columns,)
     variances: FloatArray  # Shape (columns,): of the noise of each mean
-    clipped: BoolArray  # Shape (columns,): columns that are brighter than their mean says
+    clipped: BoolArray  # Shape (columns,): columns with clipped pixels, whose mean is too dark
 
     @classmethod
     def of(cls, pixels: FloatArray, shown: BoolArray) -> "LampProfile":
         """Average a lamp's pixels, shapes (rows, columns), over its rows.
 
-        The noise is that between neighbouring rows, as these show the same stripes.
+        The noise is estimated from neighbouring rows, which show the same stripes.
         """
         count = np.maximum(shown.sum(axis=0), 1)
         both = shown[1:] & shown[:-1]
@@ -58,13 +58,14 @@ class LampProfile:
         )
 
     def most_lines_at_once(self) -> int:
-        """Return how many lines the sensor may read together where edges without ramps hide it."""
+        """Return how many lines the sensor may read together, if edges are too sharp to tell."""
         return max((count for count, _, has_ramps in self._groups() if not has_ramps), default=1)
 
     def _groups(self) -> Iterator[tuple[int, int, bool]]:
-        """Yield numbers of lines with steps between their groups only.
+        """Yield sizes of groups of lines between which the profile steps, but not within them.
 
-        Each with the first line that begins a group, and whether ramps show that it is no chance.
+        Each comes with the first line that begins a group, and with whether ramps prove it: sharp
+        edges can be whole groups apart by chance.
         """
         steps = np.square(np.diff(self.values))
         for count in _GROUPS:

@@ -89,8 +89,8 @@ def common_timing(one: LampTiming, other: LampTiming) -> LampTiming | None:
 def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
     """Find the period or the chip of edges common to some rows.
 
-    There are several where lamps beside each other are as high as each other. ``weights``: shape
-    (edges,), how many rows show each. ``codes``: whether some may be those of a code: strips of it
+    Lamps side by side, in the same rows, give several timings. ``weights``: shape (edges,), how
+    many rows show each edge. ``codes``: whether some may be those of a code: strips of it
     show no pulse that repeats.
     """
     found: list[LampTiming] = []

@@ -67,7 +67,7 @@ def test_what_is_of_one_colour_refuses_three(call: object) -> None:
         ({"green_code": 1024}, "0 to 1023 with 10 bits"),
     ],
 )
-def test_scenes_that_do_not_add_up_are_refused(changes: dict[str, str], sentence: str) -> None:
+def test_contradictory_colour_scenes_are_refused(changes: dict[str, str], sentence: str) -> None:
     with pytest.raises(occ.ParameterError) as refused:
         occ.render_colour(small(**changes))
     assert all(word in str(refused.value) for word in sentence.split())

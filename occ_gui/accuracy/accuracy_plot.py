@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from itertools import accumulate
 
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
@@ -75,13 +75,21 @@ class AccuracyPlot(QWidget):
         box.sigRangeChangedManually.connect(self._keep_range)
         box.sigResized.connect(self._fit)
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        # Wide enough for its widest number and the label: pyqtgraph widens it only while drawing.
-        widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
-        self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
+        self._widen_axis()
         self._make_items()
         self.plot.follow_palette(self._dress)
         self._lay_out()
         self._fit()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "plot"):
+            self._widen_axis()
+
+    def _widen_axis(self) -> None:
+        """Fit the axis to its widest number and its label: pyqtgraph does so only while drawing."""
+        widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
+        self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
 
     def _make_items(self) -> None:
         self.lines = {part: pg.PlotCurveItem() for part in _CURVE_PARTS}

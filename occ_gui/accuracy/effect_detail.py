@@ -77,11 +77,11 @@ class EffectDetail(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.title = embolden(paragraph())
-        self.crop_note, self.error, self.reason = (paragraph() for _ in range(3))
+        self.crop_note, self.error = paragraph(), paragraph()
         self.pictures = CropPictures()
         fill(
             QVBoxLayout(self), self.title, (self.pictures, 1), self.crop_note, self.error,
-            self.reason, None, margins=(8, 0, 0, 0), spacing=4,
+            None, margins=(8, 0, 0, 0), spacing=4,
         )  # fmt: skip
         self.show_row(None, None)
 
@@ -104,11 +104,11 @@ class EffectDetail(QWidget):
         self.pictures.show_crop(crop)
         if row is None:
             self.title.setText("Select an effect to see what it does.")
-            texts = ("", "", "")
+            texts = ("", "")
         else:
             self.title.setText(row.label)
-            texts = (self._describe_crop(row, crop), row.error_meaning, row.reason)
-        for label, text in zip((self.crop_note, self.error, self.reason), texts, strict=True):
+            texts = (self._describe_crop(row, crop), row.error_meaning)
+        for label, text in zip((self.crop_note, self.error), texts, strict=True):
             label.setText(text)
             label.setVisible(bool(text))
         self._limit_pictures()

@@ -42,7 +42,7 @@ _Index = QModelIndex | QPersistentModelIndex
 _TINT = QColor(REGION)
 _TINT.setAlpha(48)
 
-LOWEST_ROW, HIGHEST_ROW = 16, 28  # pixels of a row in a low pane and in a high one
+_ROW_MARGINS = 2, 14  # pixels around the text of a row in a low pane and in a high one
 
 _LEAST_ROWS = 4  # fewest visible rows; the others scroll, so that the window fits its screen
 
@@ -193,7 +193,7 @@ def _find_colour(row: EffectRow, column: int) -> QColor | None:
 class _FlatSwitch(QComboBox):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         # Qt does not update its least width when the size of text changes.
-        return QSize(self.sizeHint().width(), LOWEST_ROW)
+        return QSize(self.sizeHint().width(), self.fontMetrics().height() + _ROW_MARGINS[0])
 
 
 class EffectTable(QTableView):
@@ -214,9 +214,6 @@ class EffectTable(QTableView):
         self._force: Mapping[str, bool] = {}
         self.setModel(self.effects)
         self.setAccessibleName("Effects")
-        font = self.font()
-        font.setPointSizeF(0.9 * font.pointSizeF())
-        self.setFont(font)
         self.setShowGrid(False)
         self.setWordWrap(False)
         self.setTabKeyNavigation(False)
@@ -230,16 +227,13 @@ class EffectTable(QTableView):
             ERROR, ErrorCell(lambda: self.effects.rows, lambda: self._tolerance, self)
         )
         self.setItemDelegateForColumn(TIME, TimeCell(lambda: self.effects.rows, self))
-        rows, header = self.verticalHeader(), self.horizontalHeader()
-        rows.hide()
-        rows.setMinimumSectionSize(LOWEST_ROW)
-        rows.setDefaultSectionSize(LOWEST_ROW)
+        header = self.horizontalHeader()
+        self.verticalHeader().hide()
         header.setHighlightSections(False)
         header.setSortIndicator(STAGE, Qt.SortOrder.AscendingOrder)
         header.setSortIndicatorClearable(True)
         self.setSortingEnabled(True)
         header.setMinimumSectionSize(24)
-        header.setFixedHeight(LOWEST_ROW)
         self.effects.modelReset.connect(self._make_switches)
         self.selectionModel().currentRowChanged.connect(self._choose)
 
@@ -307,7 +301,6 @@ class EffectTable(QTableView):
 
     def _make_switch(self, row: EffectRow) -> QComboBox:
         switch = _FlatSwitch()
-        switch.setFont(self.font())
         switch.addItems(["plan", "on", "off"])
         switch.setAccessibleName(f"Switch: {row.label}")
         switch.setToolTip(f"{row.label}\nplan: decided automatically; on, off: always.")
@@ -362,18 +355,25 @@ class EffectTable(QTableView):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and getattr(self, "switches", None):
             QTimer.singleShot(0, self, self._size_columns)  # once the switches have the font, too
+            self._size_rows()
+
+    def _row_heights(self) -> tuple[int, int]:
+        """Return the height in pixels of a row in a low pane, and in a high one."""
+        lowest, highest = (self.fontMetrics().height() + margin for margin in _ROW_MARGINS)
+        return lowest, highest
 
     def _size_rows(self) -> None:
-        count = max(1, len(self.effects.rows))
-        height = min(max(self.viewport().height() // count, LOWEST_ROW), HIGHEST_ROW)
-        if height != self.verticalHeader().defaultSectionSize():
-            self.verticalHeader().setDefaultSectionSize(height)
+        rows, (lowest, highest) = self.verticalHeader(), self._row_heights()
+        height = self.viewport().height() // max(1, len(self.effects.rows))
+        rows.setMinimumSectionSize(lowest)
+        rows.setDefaultSectionSize(min(max(height, lowest), highest))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        height = (1 + _LEAST_ROWS) * LOWEST_ROW + 2 * self.frameWidth()
+        height = (1 + _LEAST_ROWS) * self._row_heights()[0] + 2 * self.frameWidth()
         return QSize(super().minimumSizeHint().width(), height)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         rows = len(self.effects.rows) or _EMPTY_TABLE_ROWS
-        height = LOWEST_ROW + rows * HIGHEST_ROW + 2 * self.frameWidth()
+        lowest, highest = self._row_heights()
+        height = lowest + rows * highest + 2 * self.frameWidth()
         return QSize(super().sizeHint().width(), height)

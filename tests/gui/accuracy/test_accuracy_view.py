@@ -90,7 +90,7 @@ def test_effect_and_observable_are_chosen(qtbot: QtBot, bench: Bench) -> None:
         qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Down)
         bench.simulate()
     assert bench.settings.settings.force == {"sensor-noise": False}
-    assert "switched on" in bench.row("sensor-noise").reason
+    assert "switched off" in bench.row("sensor-noise").reason
     qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Home)
     qtbot.keyClick(bench.view.observable, Qt.Key.Key_Down)
     settings = bench.settings.settings
@@ -121,13 +121,13 @@ def test_the_next_plan_is_shown_before_its_picture(qtbot: QtBot, bench: Bench) -
     assert bench.row("sensor-noise").pending is None
 
 
-def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_rows(
+def test_a_selected_effect_has_its_error_and_the_time_is_the_sum_of_the_rows(
     bench: Bench,
 ) -> None:
     bench.view.table.choose("sensor-noise")
     detail = bench.view.detail
     assert detail.title.text() == "Shot and read noise"
-    assert "tolerance 0.5" in detail.reason.text()
+    assert "Leaving it out" in detail.error.text()
     rows = bench.view.table.effects.rows
     total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
     time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"

@@ -129,7 +129,7 @@ def _in_colour(pixels: ByteArray, frame: ColourFrame) -> ByteArray:
         return np.ascontiguousarray(pixels)
     shown = np.zeros((*pixels.shape, 3), dtype=np.uint8)
     top, left = frame.region.first_row, frame.region.first_column
-    for place, letter in enumerate(frame.scene.colours.bayer):
-        own = slice((place // 2 - top) % 2, None, 2), slice((place % 2 - left) % 2, None, 2)
-        shown[(*own, "rgb".index(letter))] = pixels[own]
+    for channel, (rows, columns) in frame.scene.colours.filters:
+        own = slice((rows.start - top) % 2, None, 2), slice((columns.start - left) % 2, None, 2)
+        shown[(*own, channel)] = pixels[own]
     return shown

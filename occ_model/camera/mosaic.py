@@ -85,9 +85,8 @@ def mosaic_of(image: ByteArray, scene: Scene) -> ByteArray:
     if image.ndim == 2:
         return image
     mosaic = np.empty(image.shape[:2], dtype=image.dtype)
-    for place, letter in enumerate(scene.colours.bayer):
-        own = slice(place // 2, None, 2), slice(place % 2, None, 2)
-        mosaic[own] = image[(*own, "rgb".index(letter))]
+    for channel, own in scene.colours.filters:
+        mosaic[own] = image[(*own, channel)]
     return mosaic
 
 

@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 from occ_model.arrays import ByteArray
@@ -110,7 +111,11 @@ def _run(options: argparse.Namespace) -> int:
 def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
     """Read the three colours of a picture, and print one line with all of them first."""
     if options.follow or is_film(options.file):
-        return _read_colour_film(options, scene)
+        if options.calibration or options.offset_to:
+            raise ParameterError(
+                "--calibration is for a picture, and --offset-to for a film of one LED."
+            )
+        return read_film(options, scene, tolerances_of(options))
 
     def load(path: Path) -> ColourPhoto:
         return load_colours(path, gamma=scene.camera.gamma, scan_axis=options.scan_axis)
@@ -129,32 +134,6 @@ def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
         if result.failure is not None:
             print(f"{colour}: {result.failure}", file=sys.stderr)
     return 0 if reading.is_read else EXIT_FAILURE
-
-
-def _read_colour_film(options: argparse.Namespace, scene: Scene) -> int:
-    """Read the three colours of a film, and print what is known of each."""
-    if options.calibration or options.offset_to:
-        raise ParameterError(
-            "--calibration is for a picture, and --offset-to for a film of one LED; leave them out."
-        )
-    video = load_video(options.file, options.scan_axis, channel="colours")
-    with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
-
-        def report_progress(colour: str, progress: FilmProgress) -> None:
-            if options.follow:
-                print(f"{colour:7}{_format_progress(progress)}", flush=True)
-            elif colour == COLOURS[-1]:
-                bar.update()
-
-        readings = decode_colour_video(
-            video, scene, options.decoder, progress=report_progress, **tolerances_of(options)
-        )
-    for colour, reading in readings.items():
-        print(f"{colour.capitalize()}:")
-        for line in _film_lines(reading, video):
-            print(line)
-        print_problems(video, reading)
-    return 0 if all(reading.failure is None for reading in readings.values()) else EXIT_FAILURE
 
 
 def _remarks(result: DecodeResult, image: ByteArray, scene: Scene) -> list[str]:
@@ -209,36 +188,37 @@ _MIN_RATE_PACKETS = 50  # fewest packets for which the rates of parts are report
 
 
 def read_film(options: argparse.Namespace, scene: Scene, tolerances: Tolerances) -> int:
-    """Read the film of a command line and print the results."""
-    video = load_video(options.file, options.scan_axis, channel=film_channel(options.channel))
+    """Read the film of a command line, of a colour camera in three colours; print the results."""
+    channel = "colours" if is_colour(scene) else film_channel(options.channel)
+    video = load_video(options.file, options.scan_axis, channel=channel)
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
-        def report_progress(progress: FilmProgress) -> None:
+        def report_progress(colour: str, progress: FilmProgress) -> None:
             if options.follow:
-                print(_format_progress(progress), flush=True)
-            else:
+                print(f"{colour:5} {_format_progress(progress)}".lstrip(), flush=True)
+            elif colour in ("", COLOURS[-1]):
                 bar.update()
 
-        reading = decode_video(
-            video,
-            scene,
-            options.decoder,
-            progress=report_progress,
-            **tolerances,
-        )
-    for line in _film_lines(reading, video):
-        print(line)
-    print_problems(video, reading)
-    if options.offset_to is not None:
-        print(_offset_line(reading, options, scene, tolerances))
-    if reading.failure is not None:
-        if video.scene is not None and video.scene.transmitter.light != "code":
-            light = describe_light(video.scene.transmitter)
-            print(
-                f"The film was simulated of this light: {light}; it sends no code.", file=sys.stderr
+        if is_colour(scene):
+            readings = decode_colour_video(
+                video, scene, options.decoder, progress=report_progress, **tolerances
             )
-        return EXIT_FAILURE
-    return 0
+        else:
+            report = partial(report_progress, "")
+            reading = decode_video(video, scene, options.decoder, progress=report, **tolerances)
+            readings = {"": reading}
+    for colour, reading in readings.items():
+        heading = f"{colour.capitalize()}:".lstrip(":")
+        print(*filter(None, (heading, *_film_lines(reading, video))), sep="\n")
+        print_problems(video, reading)
+    if options.offset_to is not None:
+        print(_offset_line(readings[""], options, scene, tolerances))
+    if all(reading.failure is None for reading in readings.values()):
+        return 0
+    if video.scene is not None and video.scene.transmitter.light != "code":
+        light = describe_light(video.scene.transmitter)
+        print(f"The film was simulated of this light: {light}; it sends no code.", file=sys.stderr)
+    return EXIT_FAILURE
 
 
 def _offset_line(

@@ -20,7 +20,7 @@ from occ_model.receiver.csk import read_symbols
 from occ_model.receiver.decode import decoder_named, read_with
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.colour import ColourReading
-from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Location, Region
 from occ_model.scene.colour_scenes import check_colour
 from occ_model.scene.parameters.colour import COLOURS, CSK_ORDERS
 from occ_model.scene.scene import Scene
@@ -95,25 +95,33 @@ class ColourSignals:
 
 def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | None:
     """Find the panel and return the means of its pixels by column; None if there is none."""
+    places = _places_of(image, scene)
+    location = _locate(places, scene)
+    return None if location is None else _signals_in(location.region, places, scene)
+
+
+def _places_of(image: NDArray[np.uint8], scene: Scene) -> list[ByteArray]:
+    """Return the pixels at each of the four places of the Bayer pattern, in as many rows each."""
     mosaic = mosaic_of(_check_image(image), scene)
     rows, columns = (size // 2 for size in mosaic.shape)
-    places = [mosaic[place // 2 : 2 * rows : 2, place % 2 : 2 * columns : 2] for place in range(4)]
+    return [mosaic[own][:rows, :columns] for _, own in scene.colours.filters]
+
+
+def _locate(places: list[ByteArray], scene: Scene) -> Location | None:
     # Of one colour alone the mean of four pixels would be as dark as the noise beside the panel.
     brightest = np.maximum(np.maximum(*places[:2]), np.maximum(*places[2:]))
-    location = locate(brightest, scene.receiver.bright_fraction)
-    if location is None:
-        return None
-    greys = np.full((2, 3, 2 * location.region.columns), np.nan)
+    return locate(brightest, scene.receiver.bright_fraction)
+
+
+def _signals_in(part: Region, places: list[ByteArray], scene: Scene) -> ColourSignals:
+    """Return the means of a region, which is given in pairs of rows and columns."""
+    means = np.full((2, 3, 2 * part.columns), np.nan)
     light = light_of_greys(scene.camera.gamma)
-    for place, letter in enumerate(scene.colours.bayer):
-        means = greys[:, "rgb".index(letter), place % 2 :: 2]
-        means[0] = column_means(places[place], location.region)
-        means[1] = _mean_light(location.region.crop(places[place]), light)
-    part = location.region
-    region = Region(
-        2 * part.first_row, 2 * part.last_row, 2 * part.first_column, 2 * part.last_column
-    )
-    return ColourSignals(scene, region, greys[0], greys[1])
+    for pixels, (channel, (_, columns)) in zip(places, scene.colours.filters, strict=True):
+        means[0, channel, columns] = column_means(pixels, part)
+        means[1, channel, columns] = _mean_light(part.crop(pixels), light)
+    ends = part.first_row, part.last_row, part.first_column, part.last_column
+    return ColourSignals(scene, Region(*(2 * end for end in ends)), means[0], means[1])
 
 
 def _check_image(image: NDArray[np.uint8]) -> ByteArray:
@@ -166,22 +174,13 @@ def measure_mixing(pictures: list[NDArray[np.uint8]], scene: Scene) -> Scene:
             "The four pictures of a calibration must have the same rows and columns, not "
             f"{', '.join(map(str, sizes))}."
         )
-    lit = colour_signals(pictures[1], scene)
-    if lit is None:
+    places = [_places_of(picture, scene) for picture in pictures]
+    location = _locate(places[1], scene)
+    if location is None:
         raise DecodeInputError("The picture of the green LED shows no panel.")
-    means = [_channel_light(picture, lit.region, scene) for picture in pictures]
+    lights = [_signals_in(location.region, each, scene).lights for each in places]
+    means = np.array([np.nanmean(each, axis=1) for each in lights]) / scene.colours.gains
     matrix = np.array([mean - means[3] for mean in means[:3]]).T
     matrix = np.maximum(matrix / max(float(matrix.sum(axis=1).max()), 1e-9), 0.0)
     text = " / ".join(" ".join(f"{number:.5f}" for number in row) for row in matrix)
     return scene.replace(mixing=text)
-
-
-def _channel_light(picture: NDArray[np.uint8], region: Region, scene: Scene) -> FloatArray:
-    """Return the mean light of each channel in a region, before the white balance."""
-    light = light_of_greys(scene.camera.gamma)[region.crop(mosaic_of(picture, scene))]
-    sums, counts = np.zeros(3), np.zeros(3)
-    for place, letter in enumerate(scene.colours.bayer):
-        own = light[place // 2 :: 2, place % 2 :: 2]
-        sums["rgb".index(letter)] += own.sum()
-        counts["rgb".index(letter)] += own.size
-    return np.asarray(sums / counts / np.array(scene.colours.gains))

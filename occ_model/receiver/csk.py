@@ -6,6 +6,7 @@ squares solves for the light of each symbol of the packet from all columns.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -40,11 +41,11 @@ def read_symbols(light: FloatArray, scene: Scene) -> DecodeResult:
     best = int(np.argmax(fits))
     result = DecodeResult("csk", signal=total, correlation=fits[best])
     if fits[best] < _LEAST_CORRELATION:
-        return _failed(result, "No header: the sum of the colours shows no dark symbols.")
+        return replace(result, failure="No header: the sum of the colours shows no dark symbols.")
     table = shares(scene, length, total.size, float(starts[best]))
     if len(total) < length or np.linalg.cond(table) > _WORST_CONDITION:
-        return _failed(
-            result, "The exposure or the columns leave the light of single symbols unknown."
+        return replace(
+            result, failure="The exposure or the columns leave the light of single symbols unknown."
         )
     powers = np.linalg.lstsq(table, light.T, rcond=None)[0]
     dark = powers[:HEADER].mean(axis=0)
@@ -54,25 +55,13 @@ def read_symbols(light: FloatArray, scene: Scene) -> DecodeResult:
     distances = np.linalg.norm(powers[:, None] - points[None], axis=2)
     bits = bits_of(order, np.argmin(distances, axis=1).tolist(), len(sent))
     payload = scene.transmitter.payload
-    return DecodeResult(
-        "csk",
-        signal=total,
-        correlation=fits[best],
+    return replace(
+        result,
         code=code_of(bits),
         bits=np.array(bits, dtype=np.uint8),
         payload=payload_of_bits(bits, form_of(payload)) if payload else "",
-        chip_length=_columns_a_symbol(scene),
+        chip_length=1.0 / (scene.transmitter.switching_frequency * scene.camera.readout_time),
     )
-
-
-def _failed(result: DecodeResult, sentence: str) -> DecodeResult:
-    return DecodeResult(
-        "csk", signal=result.signal, correlation=result.correlation, failure=sentence
-    )
-
-
-def _columns_a_symbol(scene: Scene) -> float:
-    return 1.0 / (scene.transmitter.switching_frequency * scene.camera.readout_time)
 
 
 def shares(scene: Scene, length: int, columns: int, start: float) -> FloatArray:

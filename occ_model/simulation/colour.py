@@ -130,11 +130,10 @@ def _expose_mosaic(scene: Scene, prepared: _Prepared, seed: int, timer: StageTim
     rows, columns = scene.camera.rows, scene.camera.columns
     mosaic = np.empty((rows, columns), dtype=np.uint8)
     plan = sensor_plan(prepared.plan)
-    for place, letter in enumerate(scene.colours.bayer):
-        own = mosaic[place // 2 :: 2, place % 2 :: 2]
-        if own.size:
-            view = filter_view(prepared.views["rgb".index(letter)], place)
-            own[:] = _expose_pixels(view, plan, 4 * seed + place, timer)
+    for place, (channel, own) in enumerate(scene.colours.filters):
+        if mosaic[own].size:
+            view = filter_view(prepared.views[channel], place)
+            mosaic[own] = _expose_pixels(view, plan, 4 * seed + place, timer)
             timer.end_stage("mosaic")
     return mosaic
 
@@ -171,9 +170,8 @@ def channel_means(image: ByteArray, scene: Scene, region: Region) -> FloatArray:
         sums = cv2.reduce(seen.reshape(len(seen), -1), 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
         return np.asarray(sums.reshape(-1, 3).T / len(seen), dtype=np.float64)
     means = np.full((3, image.shape[1]), math.nan)
-    for place, letter in enumerate(scene.colours.bayer):
-        first = rows.start + (place // 2 - rows.start) % 2
-        own = image[first : rows.stop : 2, place % 2 :: 2]
+    for channel, (lines, columns) in scene.colours.filters:
+        own = image[rows.start + (lines.start - rows.start) % 2 : rows.stop : 2, columns]
         if own.size:
-            means["rgb".index(letter), place % 2 :: 2] = own.mean(axis=0)
+            means[channel, columns] = own.mean(axis=0)
     return means

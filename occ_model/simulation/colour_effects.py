@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import to_bytes
 from occ_model.camera.mosaic import demosaic, store_as_jpeg
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
@@ -70,7 +70,10 @@ def _changes_by_processing(scene: Scene, profiles: FloatArray) -> Iterator[_Chan
     colours, quality = scene.colours, scene.camera.jpeg_quality
     if colours.demosaicing == "none":
         return
-    picture = demosaic(_tile(profiles, colours.bayer), scene)
+    tile = np.empty((_ROWS, profiles.shape[1]), dtype=np.uint8)
+    for channel, own in colours.filters:
+        tile[own] = to_bytes(profiles[channel, own[1]])
+    picture = demosaic(tile, scene)
     change = picture.astype(np.float64) - to_bytes(profiles).T
     yield "demosaicing", "Demosaicing", "processing", _rms(change)
     if quality:
@@ -79,15 +82,6 @@ def _changes_by_processing(scene: Scene, profiles: FloatArray) -> Iterator[_Chan
         less = store_as_jpeg(picture, quality, colours.chroma)
         is_full = colours.chroma == "full"
         yield "chroma", "Chroma of the file", "processing", None if is_full else _rms(less - full)
-
-
-def _tile(profiles: FloatArray, bayer: str) -> ByteArray:
-    """Return the mosaic of some rows that all see the same light."""
-    tile = np.empty((_ROWS, profiles.shape[1]), dtype=np.uint8)
-    for place, letter in enumerate(bayer):
-        own = to_bytes(profiles["rgb".index(letter), place % 2 :: 2])
-        tile[place // 2 :: 2, place % 2 :: 2] = own
-    return tile
 
 
 def _rms(change: FloatArray) -> float:

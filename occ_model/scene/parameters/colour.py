@@ -132,6 +132,14 @@ class Colours(Group):
         """The gain of each channel by the white balance."""
         return self.red_gain, 1.0, self.blue_gain
 
+    @property
+    def filters(self) -> tuple[tuple[int, tuple[slice, slice]], ...]:
+        """The channel of each of the pattern's four places, and its rows and columns."""
+        return tuple(
+            ("rgb".index(letter), (slice(place // 2, None, 2), slice(place % 2, None, 2)))
+            for place, letter in enumerate(self.bayer)
+        )
+
     def first_pixel(self, colour: str) -> tuple[int, int]:
         """Return row and column of the colour's first pixel: of green, in the first row."""
         place = self.bayer.index(colour[0])

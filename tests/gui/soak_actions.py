@@ -6,14 +6,17 @@ from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 
+import damaged_photos
 import pytest
 from film_source import FilmSource
 from gui.kinds import not_none
 from gui.mouse import turn_wheel, views_of
+from hard_cases.attack import hostile
+from hard_cases.attack.promise import LONGEST
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QLineEdit
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -117,6 +120,8 @@ class Monkey:
             self.lay_the_photo_over: 20,
             self.toggle_a_dock: 60,
             self.ask_for_what_cannot_be: 40,
+            self.type_anything: 40,
+            self.drop_what_is_damaged: 40,
             self.resize: 20,
             self.zoom_every_plot: 4,
             self.hold_the_brightness: 20,
@@ -158,6 +163,11 @@ class Monkey:
             self.write_for_a_board: 3,
         }
         self._never_done = list(self._deeds)
+
+    def check_message(self, text: str) -> None:
+        """See that what the status line shows is one printable line of a bounded length."""
+        assert text.isprintable(), f"not one printable line: {text!r}"
+        assert len(text) <= LONGEST, f"{len(text)} characters"
 
     def act(self) -> None:
         """Do something: at first each of all things once, then whatever comes."""
@@ -293,6 +303,29 @@ class Monkey:
         self._application.store.change(exposure_time=-1.0)
         self._application.settings.set_tolerance(float("nan"))
         self._application.files.open_photo(Path("/nowhere/photo.png"))
+
+    def type_anything(self) -> None:
+        """Type anything in some fields, and leave each."""
+        fields = self._application.window.findChildren(QLineEdit)
+        enabled = [field for field in fields if field.isEnabled() and field.isVisible()]
+        for field in self._random.sample(enabled, min(3, len(enabled))):
+            make = hostile.quantity if self._random.random() < 0.7 else hostile.word
+            field.setText(make(self._random).encode("utf-8", "replace").decode())
+            field.textEdited.emit(field.text())
+            field.returnPressed.emit()
+            field.editingFinished.emit()
+
+    def drop_what_is_damaged(self) -> None:
+        """Drop a damaged scene, or a photo that is damaged or odd."""
+        scene = hostile.damaged(self._random, self._scene.to_toml())
+        make = self._random.choice((damaged_photos.damaged, damaged_photos.odd))
+        path = self._folder / self._random.choice(("a\x1b[31m", "é" * 60, "own.toml", "own.png"))
+        path.write_bytes(
+            hostile.encoded(self._random, scene)
+            if self._random.random() < 0.3
+            else make(self._random.getrandbits(32))[1]
+        )
+        self._application.window.dropped.emit([path])
 
     def resize(self) -> None:
         width = self._random.randrange(1000, 1600)
@@ -480,8 +513,8 @@ class Monkey:
         self._trigger("transmitter")
         transmitter = not_none(self._application.shell.find_pane("transmitter"))
         dialog = not_none(transmitter.dialog)
-        dialog.results_store.setCurrentIndex(self._random.randrange(dialog.results_store.count()))
-        dialog.results_store.chosen.emit(dialog.results_store.key())
+        dialog.board.setCurrentIndex(self._random.randrange(dialog.board.count()))
+        dialog.board.chosen.emit(dialog.board.key())
         boards = self._folder / "boards" / str(self._random.random())
         boards.mkdir(parents=True)
         self._dialogs.lay_ready(boards)

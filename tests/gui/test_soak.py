@@ -1,6 +1,7 @@
 """Whatever is done in whatever order, the window lives, and its memory stays what it was.
 
-It runs with ``--whole``: each action about once, or ``OCC_SOAK=20000`` of them. ``-rP``
+It runs with ``--whole``: each action about once, or ``OCC_SOAK=20000`` of them, and from another
+seed with ``OCC_SOAK_SEED``. ``-rP``
 prints by how much the memory grew; with ``-s`` nobody would look for Qt's warnings.
 """
 
@@ -26,6 +27,7 @@ from occ_gui.lessons import lesson_controller as lessons_room
 from occ_model import plugins
 
 ACTIONS = int(os.environ.get("OCC_SOAK", 120))
+SEED = int(os.environ.get("OCC_SOAK_SEED", 1))
 _WINDOW = 5_000
 """Actions between two looks at the memory; after the first of them all that is kept is full."""
 
@@ -105,7 +107,11 @@ def monkey(
     """Let a monkey at the application, and leave the other tests their theme and clipboard."""
     monkeypatch.setattr(lessons_room, "lessons", smaller_lessons)
     GarbageCollector(application.window)  # as a program that runs has one: figures are in cycles
-    yield Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, seed=1)
+    monkey = Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, seed=SEED)
+    status_line = application.window.statusBar().messageChanged
+    status_line.connect(monkey.check_message)
+    yield monkey
+    status_line.disconnect(monkey.check_message)
     application.options.theme.choose("system")
     QGuiApplication.clipboard().clear()
 

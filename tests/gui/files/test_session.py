@@ -170,19 +170,6 @@ def test_a_maximized_window_opens_maximized(start: Starting) -> None:
             assert application.window.isMaximized() == maximized
 
 
-def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alone(
-    tmp_path: Path, small_scene: Scene
-) -> None:
-    (tmp_path / "session-1.json").write_bytes(os.urandom(4000))
-    assert SessionFile(tmp_path).last is None
-    old = tmp_path / "scene-1.toml"
-    old.write_text(small_scene.to_toml(), encoding="utf-8")
-    file = SessionFile(tmp_path)
-    assert (file.last, file.crashed) == (None, None)
-    file.close()
-    assert old in tmp_path.iterdir()
-
-
 def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> None:
     file, asked = SessionFile(tmp_path), Workspace(small_scene.replace(iso=99.0))
     left = Workspace(small_scene.replace(iso=321.0), SimulationSettings(9.0, force={"jpeg": False}))

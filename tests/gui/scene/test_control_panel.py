@@ -177,22 +177,6 @@ def test_choosing_a_preset_emits_its_name(panel: ControlPanel, qtbot: QtBot) -> 
     assert names == ["large"]
 
 
-def test_the_list_shows_the_scenes_preset_or_that_it_is_changed_or_none(
-    panel: ControlPanel,
-) -> None:
-    panel.show_preset("large")
-    assert panel.preset.currentData() == "large"
-    panel.show_preset("")
-    assert panel.preset.currentIndex() == -1
-    assert panel.preset.placeholderText()
-    panel.list_presets([("phone-68us", "Phone, 68 µs")])
-    panel.show_preset("", "phone-68us")
-    assert panel.preset.currentIndex() == -1
-    assert panel.preset.placeholderText() == "Phone, 68 µs, changed"
-    panel.show_preset("")
-    assert panel.preset.placeholderText() == "Choose a preset"
-
-
 def test_presets_are_replaced_without_a_signal_and_listed_by_title_or_own_name(
     panel: ControlPanel,
 ) -> None:

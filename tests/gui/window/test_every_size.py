@@ -10,6 +10,7 @@ from typing import Any
 import pyqtgraph as pg
 import pytest
 from gui.detection_map.test_advice import advice_on
+from gui.layout_faults import find_faults, is_cut_off
 from gui.user import User
 from gui.window.size_walk import LARGE, LEAST, SIZES, USUAL, walk
 from PySide6.QtCore import QSize, Qt
@@ -17,8 +18,13 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
+from occ_gui.detection_map.rate_map import RateMap, make_lattice
+from occ_gui.values.choices import OVERLAYS
 from occ_gui.window.theme import SIZES as TEXT_SIZES
 from occ_model.receiver.decode import DECODERS
+from occ_model.results.sweep_request import SweepPoint
+from occ_model.scene.scene import Scene
 
 TESTS = Path(__file__).parents[2]
 
@@ -42,19 +48,28 @@ def assert_none(faults: dict[str, str]) -> None:
 def test_nothing_is_cut_at_any_size_after_all_modes_and_with_filled_limits(
     qtbot: QtBot, application: Application, user: User
 ) -> None:
-    application.window.resize(LARGE)
+    application.window.resize(LEAST)
     application.window.bring_to_front("map")
     advice = advice_on(application.store.scene)
+    view, x, y = application.view("map"), "switching_frequency", "distance"
     for decoder in DECODERS:
         limits = replace(advice.limits, decoder=decoder)
-        application.view("map").advice.show_advice(replace(advice, limits=limits))
+        view.advice.show_advice(replace(advice, limits=limits))
+    rates = RateMap(x, y, make_lattice(x, 13), make_lattice(y, 7), ("threshold", "matched"))
+    rates.enter([SweepPoint(index, 10, (10, 10), "", (1, 1)) for index in range(91)], 2)
+    view.show_map(rates)
+    view.show_omissions(("Vignetting", "JPEG"))
+    qtbot.waitUntil(lambda: not any(map(is_cut_off, (*view.plots.plots, view.plots.bar))))
+    plot = view.plots.plots[0]
+    assert plot.rect().toRectF().contains(plot.area())
+    assert plot.area().contains(plot.place_of((1.0, 1.0)))
     assert_none(faults_of(qtbot, application, user))
 
 
 @pytest.mark.parametrize(
     "changes",
     [
-        {"exposure_time": 136e-6, "switching_frequency": 20e3, "iso": 6400.0},
+        {"exposure_time": 136e-6, "switching_frequency": 20e3, "iso": 6400.0, "edge_time": 5e-6},
         {"light": "lamp", "lamp_frequency": 120.0, "duty": 0.3},
         pytest.param({"bits": 16, "code": 2**16 - 1}, marks=pytest.mark.whole),
         pytest.param({"light": "mains"}, marks=pytest.mark.whole),
@@ -67,6 +82,54 @@ def test_nothing_is_cut_for_any_light_and_verdict(
     application.store.change(**changes)
     user.wait_until_idle()
     assert_none(faults_of(qtbot, application, user, (USUAL, LEAST)))
+
+
+def test_nothing_is_cut_off_squeezed_or_overlapped_beside_a_photo(
+    application: Application, user: User, photo_file: Path, qtbot: QtBot
+) -> None:
+    def check() -> None:
+        assert find_faults(application.window) == [], mode
+
+    application.window.resize(LEAST)
+    application.files.open_photo(photo_file)
+    application.view("profile").enhanced.setChecked(True)
+    user.wait_until_idle()
+    photo = application.view("photo")
+    for mode in (*OVERLAYS, "matched"):
+        if mode == "matched":  # a running match, a failure, and the result of the match before
+            photo.form.sent.show_key("lamp")
+            photo.form.sent.chosen.emit("lamp")
+            photo.result.show()
+            photo.verdict.end_match(["No scene explains the stripes of this photo at all. " * 4])
+            photo.form.show_running(True)
+        else:
+            application.options.choose_overlay(mode)
+        qtbot.waitUntil(check)
+    assert application.window.size() == LEAST
+    application.view("profile").enhanced.setChecked(False)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"exposure_time": 200e-6},  # without a band model
+        pytest.param({"switching_frequency": 500.0, "distance": 5.0}, marks=pytest.mark.whole),
+    ],
+    ids=str,
+)
+def test_the_window_opens_at_the_requested_size_for_any_scene(
+    qtbot: QtBot, small_scene: Scene, changes: dict[str, float]
+) -> None:
+    fresh = Application(Workspace(small_scene.replace(**changes)))
+    assert fresh.window.size() == USUAL
+    fresh.window.resize(LEAST)
+    fresh.window.show()
+    qtbot.waitUntil(lambda: fresh.is_idle)
+    QApplication.processEvents()
+    size = fresh.window.size()
+    fresh.window.close()
+    fresh.window.deleteLater()
+    assert size == LEAST
 
 
 @pytest.mark.own_window

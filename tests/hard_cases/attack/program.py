@@ -50,11 +50,10 @@ def doors() -> dict[str, Door]:
     from hard_cases.attack.doors.state import STATE
     from hard_cases.attack.doors.tables import TABLES
     from hard_cases.attack.doors.typed import TYPED
-    from hard_cases.attack.doors.window import WINDOW
 
     all_of_them = (
         TYPED, SCENES, LESSONS_FILES, CARRIERS, TABLES, PHOTOS, RAW, FILMS, SHELL,
-        WINDOW_SHELL, STATE, WINDOW,
+        WINDOW_SHELL, STATE,
     )  # fmt: skip
     return {door.name: door for door in all_of_them}
 

@@ -33,16 +33,6 @@ def scene_texts() -> tuple[str, ...]:
     return tuple(scene.to_toml() for scene in scenes)
 
 
-def preset_texts() -> tuple[str, ...]:
-    """The texts of the package's own presets."""
-    return _texts_of("presets")
-
-
-def lesson_texts() -> tuple[str, ...]:
-    """The texts of the package's own lessons."""
-    return _texts_of("lessons")
-
-
 @cache
 def _texts_of(folder: str) -> tuple[str, ...]:
     """The texts of the package's own presets or lessons."""
@@ -58,7 +48,7 @@ def _scene(chance: Random, folder: Path) -> list[str]:
 
 
 def _preset(chance: Random, folder: Path) -> list[str]:
-    text = hostile.damaged(chance, chance.choice((*preset_texts(), *scene_texts())))
+    text = hostile.damaged(chance, chance.choice((*_texts_of("presets"), *scene_texts())))
     preset = preset_from("own", text)
     check_scene(preset.scene)
     assert preset.title
@@ -84,7 +74,7 @@ def _own_files(chance: Random, folder: Path) -> list[str]:
 
 
 def _lesson(chance: Random, folder: Path) -> list[str]:
-    text = hostile.damaged(chance, chance.choice(lesson_texts()))
+    text = hostile.damaged(chance, chance.choice(_texts_of("lessons")))
     path = folder / f"{chance.choice(_NAMES)}.toml"
     path.write_bytes(hostile.encoded(chance, text))
     lesson = read_lesson(path)

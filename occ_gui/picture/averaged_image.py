@@ -1,16 +1,14 @@
 """Image item that averages the pixels under each screen pixel, which avoids aliasing."""
 
 import math
-from collections.abc import Sequence
 
-import cv2
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QImage, QPainter, QTransform
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
-from occ_gui.simulation.snapshot import halve
+from occ_gui.simulation.snapshot import mean_of_cells
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
@@ -32,25 +30,21 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         super().__init__()
         self._with_values = with_values
         self.image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
-        self.halves: tuple[ByteArray, ...] = ()
         self._rect = QRectF()
         self._first_row, self._last_column = -math.inf, math.inf
         self._cache: tuple[QRect, tuple[int, int], QImage] | None = None
 
-    def set_image(
-        self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
-    ) -> None:
+    def set_image(self, image: ByteArray, rect: QRectF | None = None) -> None:
         """Show an image of shape (rows, columns), which is not copied.
 
-        ``rect``: its place, by default with the centre of the first pixel at (0, 0). ``halves``:
-        the image halved repeatedly, largest first.
+        ``rect``: its place, by default with the centre of the first pixel at (0, 0).
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect
         if rect != self._rect:
             self.prepareGeometryChange()
             self._rect = rect
-        self.image, self.halves = image, tuple(halves)
+        self.image = image
         self._cache = None
         self.update()
 
@@ -114,33 +108,10 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         ]
         # The image is only reduced here; the painter enlarges it, without smoothing.
         smaller = (min(size[0], part.width()), min(size[1], part.height()))
-        if pixels.shape == self.image.shape:
-            pixels = self._choose_smallest(*smaller)
-        pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
+        pixels = np.ascontiguousarray(mean_of_cells(pixels, *smaller))
         rows, columns = pixels.shape
         image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
         return image.copy()  # it refers to the array's memory, which is freed
-
-    def _choose_smallest(self, columns: int, rows: int) -> ByteArray:
-        """Return the smallest of the image and its halves with at least this many pixels."""
-        candidates = [
-            half for half in self.halves if half.shape[0] >= rows and half.shape[1] >= columns
-        ]
-        return candidates[-1] if candidates else self.image
-
-
-def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
-    """Average an image down to a size that is no larger than its own.
-
-    It is halved repeatedly, which is fast, and then reduced by a ratio of less than two. The edge
-    that halving leaves out is smaller than a pixel of the screen.
-    """
-    while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
-        pixels = halve(pixels)
-    if pixels.shape == (rows, columns):
-        return pixels
-    smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)
-    return np.asarray(smaller, dtype=np.uint8)
 
 
 def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> None:

@@ -129,7 +129,7 @@ class ImageView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         if snapshot.frame is not self.frame:  # else it was already shown, before it was decoded
-            self.show_picture(Picture(snapshot.frame, self.picture_kind, ()))
+            self.show_picture(Picture(snapshot.frame))
         self.show_reading(snapshot)
 
     def show_reading(self, reading: Reading) -> None:
@@ -139,9 +139,7 @@ class ImageView(QWidget):
         """Show a picture in place of the previous one; the region stays until the next reading."""
         self.frame = frame = picture.frame
         image = frame.picture(self.picture_kind)
-        # The user may have chosen the other kind of picture since this one was prepared.
-        halves = picture.halves if picture.picture_kind == self.picture_kind else ()
-        self.simulation.show_picture(image, halves, frame.rows_step)
+        self.simulation.show_picture(image, frame.rows_step)
         if frame.rows_step == 1:
             self.overlay.set_simulated(image)
         elif self.shown_photo is not None:
@@ -159,7 +157,7 @@ class ImageView(QWidget):
         self.switch.show_key(picture_kind)
         self.before.choose_picture(picture_kind)
         if self.frame is not None:
-            self.show_picture(Picture(self.frame, picture_kind, ()))
+            self.show_picture(Picture(self.frame))
         self.picture_chosen.emit(picture_kind)
 
     def levels_at(self, column: int, row: int) -> dict[str, int] | None:

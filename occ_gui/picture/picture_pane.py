@@ -1,7 +1,5 @@
 """View of a single picture with its caption and the region that was decoded."""
 
-from collections.abc import Sequence
-
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
@@ -46,9 +44,7 @@ class PicturePane(QWidget):
         layout.addLayout(self.caption_row)
         layout.addWidget(self.graphics, 1)
 
-    def show_picture(
-        self, image: ByteArray, halves: Sequence[ByteArray] = (), rows_step: int = 1
-    ) -> None:
+    def show_picture(self, image: ByteArray, rows_step: int = 1) -> None:
         """Show a picture; the zoom changes only if the size of the picture does.
 
         ``rows_step``: the height of a row in pixels; more than 1 in a draft, which covers the same
@@ -56,7 +52,7 @@ class PicturePane(QWidget):
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows * rows_step)
-        self._picture.set_image(image, rect, halves)
+        self._picture.set_image(image, rect)
         last_image, self._image = self._image, image
         last_step, self._rows_step = self._rows_step, rows_step
         if (

@@ -38,6 +38,7 @@ from occ_gui.simulation.snapshot import SOURCES, Picture, Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.receiver.decode import QUICK_DECODERS
+from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import render_with
 
@@ -53,6 +54,11 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
     """Simulate a scene and decode its picture; raises ParameterError or ProjectionError."""
     request = SimulationRequest(scene, settings)
     return explain_failures(snapshot_of(request, render_with(scene, settings)))
+
+
+def _made_picture(frame: Frame, request: SimulationRequest, reading: Reading | None) -> Picture:
+    frame.picture(request.picture_kind)  # made here, since the window must not wait for it
+    return Picture(frame, request, reading)
 
 
 class SimulationController(QObject):
@@ -133,7 +139,7 @@ class SimulationController(QObject):
         if draft is not None:
             self._draft_rows.record_time(move.draft_seconds)
             report(MoveTime.of(draft, move.draft_seconds))
-            report(Picture.of(draft, request.picture_kind, request, reading))
+            report(_made_picture(draft, request, reading))
             report.wait_for_paint(_LONGEST_PAINT)
             reading = None
             report.give_way(self.ages.rest(_REST_TIME))
@@ -144,7 +150,7 @@ class SimulationController(QObject):
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
         if reading is not None:
             reading = replace(reading, has_picture=True)
-        report(Picture.of(frame, request.picture_kind, request, reading))
+        report(_made_picture(frame, request, reading))
         report.wait_for_paint(_LONGEST_PAINT)
         if reading is not None:
             report.give_way()  # the verdict is shown already, so a later scene comes first

@@ -109,10 +109,6 @@ class Snapshot(Reading):
         return sum(self.frame.timings.values())
 
 
-_MIN_COPY_SIDE = 256
-"""Least side, in pixels, of a picture with reduced copies; smaller ones are drawn fast enough."""
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class PictureView:
     """The pixels of a scene's picture, or of a frame of a film, and their place in it."""
@@ -122,7 +118,6 @@ class PictureView:
     size: tuple[int, int]
     # Shape (4, 2): the panel's corners in the whole picture, each as (column, row)
     corners: FloatArray
-    smallest: ByteArray  # the same pixels, or their most reduced copy
 
     def view_as(self, _picture_kind: str) -> Self:
         return self
@@ -131,9 +126,6 @@ class PictureView:
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
     frame: Frame
-    picture_kind: str  # one of PICTURES
-    # The picture at half its size, a quarter and so on; each pixel is the mean of four
-    halves: tuple[ByteArray, ...]
     # The scene and the settings from which it was simulated, if known
     request: SimulationRequest | None = None
     # The reading of the same scene to be shown together with the picture, if known already
@@ -143,30 +135,21 @@ class Picture:
         """Return the pixels of the camera's picture or of the receiver's."""
         frame, camera = self.frame, self.frame.scene.camera
         image = frame.picture(picture_kind)
-        smallest = self.halves[-1] if self.halves and self.picture_kind == picture_kind else image
-        return PictureView(
-            image, frame.rows, (camera.rows, camera.columns), frame.corners, smallest
-        )
-
-    @classmethod
-    def of(
-        cls,
-        frame: Frame,
-        picture_kind: str,
-        request: SimulationRequest | None = None,
-        reading: Reading | None = None,
-    ) -> Self:
-        """Compute the reduced copies, which is slow, on a background thread."""
-        return cls(frame, picture_kind, halves_of(frame.picture(picture_kind)), request, reading)
+        return PictureView(image, frame.rows, (camera.rows, camera.columns), frame.corners)
 
 
-def halves_of(pixels: ByteArray) -> tuple[ByteArray, ...]:
-    """Return smaller copies of a picture, each half the size of the last."""
-    halves = []
-    while min(pixels.shape) >= 2 * _MIN_COPY_SIDE:
+def mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
+    """Average an image down to a size that is no larger than its own.
+
+    It is halved repeatedly, which is fast, and then reduced by a ratio of less than two. The edge
+    that halving leaves out is smaller than a pixel of the screen.
+    """
+    while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
         pixels = halve(pixels)
-        halves.append(pixels)
-    return tuple(halves)
+    if pixels.shape == (rows, columns):
+        return pixels
+    smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)
+    return np.asarray(smaller, dtype=np.uint8)
 
 
 def halve(pixels: ByteArray) -> ByteArray:

@@ -8,7 +8,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
-from occ_gui.simulation.snapshot import PictureView
+from occ_gui.simulation.snapshot import PictureView, mean_of_cells
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.colours import REGION
@@ -35,7 +35,7 @@ class StripesRow(StoryRow):
     def show_picture(self, picture: PictureView) -> None:
         self._image, self._corners, self._rows = picture.image, picture.corners, picture.rows
         self._all_rows = range(picture.size[0])
-        self.thumbnail.show_image(picture.smallest, *picture.size)
+        self.thumbnail.show_image(picture.image, *picture.size)
         self._mark_view()
         self.redraw()
 
@@ -120,7 +120,7 @@ class FrameThumbnail(QAbstractButton):
     def _scale_image(self, pixels: ByteArray, rect: QRectF) -> QImage:
         ratio = self.devicePixelRatioF()
         width, height = max(1, round(rect.width() * ratio)), max(1, round(rect.height() * ratio))
-        small = shrink(pixels, height, width)
+        small = np.ascontiguousarray(mean_of_cells(pixels, width, height))
         image = QImage(small.data, width, height, width, QImage.Format.Format_Grayscale8).copy()
         image.setDevicePixelRatio(ratio)
         return image
@@ -195,20 +195,3 @@ def resample(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
     if height < rows:
         cells = cv2.resize(cells, (cells.shape[1], rows), interpolation=cv2.INTER_NEAREST_EXACT)
     return np.ascontiguousarray(cells)
-
-
-def shrink(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
-    """Average a picture over the cells of a much coarser grid.
-
-    First over blocks of whole pixels, which OpenCV averages many times faster than fractions of
-    pixels; a remainder of less than half a cell at the lower and right edge is left out.
-    """
-    block_height, block_width = (
-        max(1, pixels.shape[0] // (2 * rows)),
-        max(1, pixels.shape[1] // (2 * columns)),
-    )
-    height, width = pixels.shape[0] // block_height, pixels.shape[1] // block_width
-    blocks = pixels[: height * block_height, : width * block_width]
-    small = cv2.resize(blocks, (width, height), interpolation=cv2.INTER_AREA)
-    small = cv2.resize(small, (columns, rows), interpolation=cv2.INTER_AREA)
-    return np.asarray(small, dtype=np.uint8)

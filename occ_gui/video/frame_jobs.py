@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import occ_model as occ
-from occ_gui.simulation.snapshot import ColumnView, PictureView, halves_of
+from occ_gui.simulation.snapshot import ColumnView, PictureView
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
@@ -124,7 +124,7 @@ def _step_of(request: FrameRequest) -> int:
 def _make_picture(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
     step = story.picture.rows.step
     region = story.reading.region
-    return ShownPicture(image, halves_of(image), region, caption, step)
+    return ShownPicture(image, region, caption, step)
 
 
 def _make_story(
@@ -151,7 +151,7 @@ def _make_story(
         period_columns=period_columns(scene),
     )  # fmt: skip
     size = picture_scene.camera.rows, picture_scene.camera.columns
-    picture = PictureView(image, range(0, size[0], step), size, corners, image)
+    picture = PictureView(image, range(0, size[0], step), size, corners)
     # Without this note, its threshold would seem to contradict that in the mode Explore.
     treatment = "enhanced" if is_enhanced else "not enhanced"
     place = f"{source_name}, frame {frame.index + 1}"

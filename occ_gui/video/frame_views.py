@@ -24,7 +24,6 @@ _LEAST = QSize(140, 90)
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownPicture:
     image: ByteArray  # shape (rows, columns)
-    halves: tuple[ByteArray, ...]
     region: Region | None  # the part that was read; None if there is none
     caption: str
     rows_step: int = 1  # height of a row in pixels; more than 1 in a draft
@@ -49,7 +48,7 @@ class _Side(QStackedWidget):
             self.setCurrentWidget(self.placeholder)
             return
         self.pane.caption.set_full_text(picture.caption)
-        self.pane.show_picture(picture.image, picture.halves, picture.rows_step)
+        self.pane.show_picture(picture.image, picture.rows_step)
         self.pane.show_region(picture.region)
         self.setCurrentWidget(self.pane)
 

@@ -128,9 +128,7 @@ class PaneBench:
         snapshot = simulated(workspace.scene, workspace.settings)
         for hear in self.hear_first:
             hear(snapshot)
-        self.results_store.show_picture(
-            Picture.of(snapshot.frame, workspace.picture_kind, snapshot.request)
-        )
+        self.results_store.show_picture(Picture(snapshot.frame, snapshot.request))
         self.results_store.show_reading(snapshot)
         self.results_store.show_snapshot(snapshot)
         return snapshot

@@ -122,7 +122,7 @@ class Simulation(QObject):
         self.submitted.emit()
 
     def deliver(self, snapshot: Snapshot) -> None:
-        self.results_store.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+        self.results_store.show_picture(Picture(snapshot.frame, snapshot.request))
         self.results_store.show_snapshot(snapshot)
         self.results_store.show_reading(snapshot)
 

@@ -69,19 +69,19 @@ def test_a_draft_lies_where_its_picture_will_says_so_and_gives_the_levels_of_its
     view: ImageView, small_scene: Scene
 ) -> None:
     whole, draft = (occ.render(small_scene, rows_step=step) for step in (1, 7))
-    view.show_picture(Picture.of(whole, "camera"))
+    view.show_picture(Picture(whole))
     seen, caption = view.simulation.box.viewRect(), view.simulation.caption.text()
-    view.show_picture(Picture.of(draft, "camera"))
+    view.show_picture(Picture(draft))
     (picture,) = pictures(view.simulation)
     rows, columns = whole.image.shape
     assert picture.boundingRect() == QRectF(-0.5, -0.5, columns, 7 * len(draft.rows))
     assert 0 <= 7 * len(draft.rows) - rows < 7
     assert view.simulation.box.viewRect() == seen
     assert view.simulation.graphics.accessibleName() == "Draft, one row in 7: Camera's picture"
-    view.show_picture(Picture.of(whole, "camera"))
+    view.show_picture(Picture(whole))
     assert view.simulation.box.viewRect() == seen
     assert view.simulation.caption.text() == caption
-    view.show_picture(Picture.of(draft, "camera"))
+    view.show_picture(Picture(draft))
     for row in (0, 6, 7, small_scene.camera.rows - 1):
         levels = not_none(view.levels_at(1500, row))
         assert levels["receiver"] == draft.image[row // 7, 1500]
@@ -95,7 +95,7 @@ def test_a_photo_is_compared_with_all_rows_of_a_draft(
     view.show_photo(photo)
     view.set_mode("difference")
     draft = occ.render(small_scene, rows_step=7)
-    view.show_picture(Picture.of(draft, "camera"))
+    view.show_picture(Picture(draft))
     simulated = not_none(view.overlay.simulated)
     assert simulated.shape == (small_scene.camera.rows, small_scene.camera.columns)
     assert np.array_equal(simulated[::7], draft.camera_image)
@@ -230,7 +230,7 @@ def test_the_camera_s_picture_is_shown_first_and_the_switch_shows_the_receiver_s
     view: ImageView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     frame = snapshot_of().frame
-    view.show_picture(Picture.of(frame, "camera"))
+    view.show_picture(Picture(frame))
     assert places_in(view).image is frame.camera_image
     assert view.simulation.caption.text() == "Camera's picture"
     assert view.switch.key() == "camera"
@@ -243,21 +243,9 @@ def test_the_camera_s_picture_is_shown_first_and_the_switch_shows_the_receiver_s
     assert view.simulation.graphics.accessibleName() == view.simulation.caption.text()
     assert view.overlay.simulated is frame.image
     other = snapshot_of(enhancement="none").frame
-    view.show_picture(Picture.of(other, "receiver"))
+    view.show_picture(Picture(other))
     assert places_in(view).image is other.image
     assert view.simulation.caption.text() == "Receiver's picture, not enhanced"
-
-
-def test_the_smaller_copies_are_those_of_the_picture_shown(
-    view: ImageView, snapshot_of: SnapshotOf
-) -> None:
-    frame = snapshot_of(rows=1200).frame
-    view.choose_picture("receiver")
-    view.show_picture(Picture.of(frame, "camera"))  # prepared before the choice
-    assert places_in(view).halves == ()
-    view.show_picture(Picture.of(frame, "receiver"))
-    assert len(places_in(view).halves) == 2
-    assert abs(places_in(view).halves[0].mean() - frame.image.mean()) < 1.0
 
 
 def test_before_is_of_the_same_picture_as_now(view: ImageView, snapshot_of: SnapshotOf) -> None:

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, not_none
 
-import occ_model as occ
 from occ_gui.simulation import jobs
 from occ_gui.simulation.jobs import LEAST_ROWS, LONGEST_DRAFT, MOST_THINNING, DraftRows
-from occ_gui.simulation.snapshot import Picture, halve
+from occ_gui.simulation.snapshot import halve
 from occ_gui.values.simulated import LEAST_DRAFT_STEP
-from occ_model.scene.scene import Scene
 from occ_model.simulation.render import plan_scene
 
 ROWS = 4608
@@ -79,15 +77,6 @@ def test_a_picture_of_few_pixels_needs_no_draft(
     monkeypatch.setattr(jobs, "SMALL_PICTURE", pixels - 1)
     draft = not_none(jobs.draft_of(request, planned))
     assert draft.rows_step == request.draft_step
-
-
-def test_a_picture_has_copies_of_half_the_size_down_to_a_small_one(
-    small_scene: Scene,
-) -> None:
-    frame = occ.render(small_scene.replace(rows=521, columns=601))
-    (half,) = Picture.of(frame, "camera").halves
-    assert half.shape == (260, 300)
-    assert Picture.of(occ.render(small_scene.replace(rows=511)), "camera").halves == ()
 
 
 @pytest.mark.parametrize(("rows", "columns"), [(4, 6), (5, 7)])

@@ -92,7 +92,7 @@ def test_the_story_looks_as_stored(
 ) -> None:
     view = gallery.show(StoryView(QWidget(), ("threshold", "matched")), 820, 560)
     snapshot = snapshot_of(**changes)
-    view.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+    view.show_picture(Picture(snapshot.frame, snapshot.request))
     view.show_reading(snapshot)
     gallery.compare(view, f"story-{name}-{theme}")
 

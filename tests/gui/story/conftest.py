@@ -17,7 +17,7 @@ def snapshot(bare_snapshot_of: SnapshotOf) -> Snapshot:
 @pytest.fixture
 def rows(qtbot: QtBot, snapshot: Snapshot) -> StoryRows:
     rows = show_widget(qtbot, StoryRows(), 900, 620)
-    rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+    rows.show_picture(Picture(snapshot.frame, snapshot.request))
     rows.show_reading(snapshot)
     QApplication.processEvents()
     return rows

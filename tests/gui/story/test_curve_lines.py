@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from occ_gui.simulation.snapshot import mean_of_cells
 from occ_gui.story.curve_lines import DASH, keep_extremes, make_lines
-from occ_gui.story.stripes_row import resample, shrink
+from occ_gui.story.stripes_row import resample
 
 
 @pytest.fixture
@@ -107,7 +108,7 @@ def test_a_shrunk_picture_has_the_means_of_its_cells(size: tuple[int, int]) -> N
     y, x = np.meshgrid(*(np.linspace(0.0, np.pi, side) for side in size), indexing="ij")
     picture = (120.0 + 100.0 * np.sin(x) * np.cos(y)).astype(np.uint8)
     exact = cv2.resize(picture, (columns, rows), interpolation=cv2.INTER_AREA)
-    small = shrink(picture, rows, columns)
+    small = mean_of_cells(picture, columns, rows)
     assert small.shape == (rows, columns)
     a_cell = 100.0 * np.pi / min(rows, columns)  # the most by which neighbours differ
     assert np.abs(small.astype(int) - exact).max() <= a_cell / 2 + 1

@@ -62,7 +62,7 @@ def test_rows_kept_from_an_earlier_scene_equal_those_drawn_anew(
         ("start_time", 1.3e-4), ("code", 5), ("edge_time", 4e-5), ("iso", 60.0),
     ):  # fmt: skip
         snapshot = snapshot_of(**{name: value})
-        rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+        rows.show_picture(Picture(snapshot.frame, snapshot.request))
         rows.show_reading(snapshot)
         before = rows.grab().toImage()
         for row in all_rows(rows):
@@ -89,7 +89,7 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
 ) -> None:
     exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail.view
     draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=7)
-    rows.show_picture(Picture.of(draft, "camera", snapshot.request))
+    rows.show_picture(Picture(draft, snapshot.request))
     drafted = grey_picture(rows.stripes)
     np.testing.assert_array_equal(drafted[:, GUTTER:], exact[:, GUTTER:])
     assert rows.stripes.thumbnail.view.top() == pytest.approx(view.top(), abs=7)
@@ -103,10 +103,10 @@ def test_the_stripes_are_the_rows_of_a_draft_that_show_the_panel(
     rows: StoryRows, bare_snapshot_of: SnapshotOf, step: int, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
-    rows.show_picture(Picture.of(snapshot.frame, "camera"))
+    rows.show_picture(Picture(snapshot.frame))
     rows_per_pixel = rows.stripes.rows_per_pixel()
     draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=step)
-    rows.show_picture(Picture.of(draft, "camera"))
+    rows.show_picture(Picture(draft))
     first, last = rows.stripes.panel_rows()
     ends = draft.corners[:, 1].min(), draft.corners[:, 1].max()
     expected = [row for row in draft.rows if ends[0] <= row <= ends[1]]
@@ -358,7 +358,7 @@ def test_extreme_scenes_are_drawn(
     rows: StoryRows, bare_snapshot_of: SnapshotOf, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
-    rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+    rows.show_picture(Picture(snapshot.frame, snapshot.request))
     rows.show_reading(snapshot)
     for name in ("packets", "panel"):
         rows.choose_range(name)

@@ -18,7 +18,7 @@ from occ_gui.widgets.columns import round_step
 def view(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
     """Show the pane, with an empty widget for the whole picture."""
     view = show_widget(qtbot, StoryView(QWidget(), ("threshold", "matched")), 900, 640)
-    view.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+    view.show_picture(Picture(snapshot.frame, snapshot.request))
     view.show_reading(snapshot)
     QApplication.processEvents()
     return view

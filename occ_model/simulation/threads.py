@@ -32,10 +32,13 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
         yield from map(work, items)
         return
     waiting: deque[Future[_Result]] = deque()
-    with ThreadPoolExecutor(count, "band") as pool:
+    pool = ThreadPoolExecutor(count, "band")
+    try:
         for item in items:
             waiting.append(pool.submit(work, item))
             if len(waiting) > _ITEMS_AHEAD * count:
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
+    finally:
+        pool.shutdown(cancel_futures=True)  # of work that ends early, only what has begun is done

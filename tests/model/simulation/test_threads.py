@@ -80,6 +80,26 @@ def test_an_error_in_a_thread_is_raised_to_the_caller(monkeypatch: pytest.Monkey
         list(each_in_threads(lambda number: 1 / number, [1, 0, 2]))
 
 
+def test_of_work_that_is_given_up_only_what_has_begun_is_done(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    use_threads(monkeypatch, 2)
+    begun, may_end = list[int](), threading.Event()
+
+    def work(number: int) -> None:
+        begun.append(number)
+        may_end.wait(10.0)
+
+    def items() -> Iterator[int]:
+        yield from range(4)
+        threading.Timer(0.1, may_end.set).start()
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        list(each_in_threads(work, items()))
+    assert set(begun) <= {0, 1}
+
+
 def test_the_times_of_all_stages_add_up_to_that_of_the_frame(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -1,7 +1,5 @@
 """View of the bars: how deep they are, the map of the least depth, and the shutter speeds."""
 
-from itertools import chain
-
 from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
@@ -19,9 +17,10 @@ from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import SceneBars
 from occ_gui.bands.lamp_question import LampBars
 from occ_gui.widgets.answer import Answer
-from occ_gui.widgets.building import embolden, fill, make_read_only
+from occ_gui.widgets.building import embolden, fill, make_read_only, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.bands import SpeedDepth, format_depth
+from occ_model.scene.light_words import describe_light
 from occ_model.scene.units import SECOND
 
 _DIGITS = 4
@@ -50,9 +49,11 @@ class BandsView(QWidget):
         self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._row.addWidget(self.map, 3)
         self._row.addLayout(right_column, 2)
-        titles = (embolden(QLabel(text)) for text in ("My lamp makes bars", "The scene"))
-        parts = zip(titles, (self.lamp, self.scene_answer), strict=True)
-        fill(QVBoxLayout(self), *chain.from_iterable(parts), (self._row, 1), margins=8)
+        self.scene_title = embolden(paragraph())
+        fill(
+            QVBoxLayout(self), embolden(QLabel("My lamp makes bars")), self.lamp,
+            self.scene_title, self.scene_answer, (self._row, 1), margins=8,
+        )  # fmt: skip
         self.outdated = OutdatedMark(self)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -86,6 +87,7 @@ class BandsView(QWidget):
         self.scene_answer.show_answer(sentence)
 
     def show_bands(self, bars: SceneBars) -> None:
+        self.scene_title.setText(f"The scene: {describe_light(bars.scene.transmitter)}")
         self.scene_answer.show_answer(self._write_headline(bars), self._write_sentences(bars))
         self.map.show_depths(bars)
         self.risk.show_flicker(bars)

@@ -121,7 +121,7 @@ ENHANCED = "Receiver's picture, enhanced by "
 """Start of an enhanced picture's title, also in its file; the enhancement's name follows."""
 
 
-class Pictures(Protocol):
+class PicturePair(Protocol):
     """A picture as the camera takes it, and as the receiver enhances it, with column means.
 
     All are as :class:`Frame` has them; some are made when they are first asked for.
@@ -170,7 +170,7 @@ class Frame:
     rows: range
     corners: FloatArray
     timings: Mapping[str, float]
-    pictures: Pictures = field(repr=False)
+    pictures: PicturePair = field(repr=False)
     estimate_errors: Callable[[], Mapping[str, float]] | None = field(repr=False, default=None)
 
     @property

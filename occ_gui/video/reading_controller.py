@@ -168,14 +168,13 @@ def sentences_of(
 
 def _explain_losses(progress: FilmProgress, reading: VideoReading) -> str:
     """Explain which packets were lost; their bits do not count as wrong."""
-    where = "sent in the gap between two frames, or cut off by a frame's edge"
+    where = "sent between two frames, or cut off by a frame's edge"
     if unplaced := progress.frames - progress.placed:
         where += f", or in {inflect(unplaced, 'frame')} without a known place"
-    lost = f"{reading.cut_off} of {inflect(reading.lost, 'lost packet')}"
-    text = f"{lost} {'is' if reading.cut_off == 1 else 'are'} not complete in any frame: {where}."
+    text = f"Lost: {inflect(reading.cut_off, 'packet')} {where}."
     if misread := reading.lost - reading.cut_off:
-        text += f" {misread} {'was' if misread == 1 else 'were'} in view and misread."
-    return text + " The bit error rate counts only bits of packets in view."
+        text += f" Misread: {inflect(misread, 'packet')}."
+    return text + " The bit error rate counts only packets in view."
 
 
 class FilmReader(QObject):

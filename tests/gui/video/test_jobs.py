@@ -171,8 +171,8 @@ def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
 def test_lost_packets_are_distinguished_from_wrong_bits() -> None:
     whole = reading(6, 1, 11, wrong=2)
     (sentence,) = sentences_of(progress_of(whole), whole, None)
-    assert sentence.startswith("11 of 14 lost packets are not complete in any frame: ")
-    assert "3 were in view and misread" in sentence
+    assert sentence.startswith("Lost: 11 packets sent between two frames, ")
+    assert "Misread: 3 packets." in sentence
     assert "not placed" not in sentence
     assert (
         "or in 1 frame without a known place" in sentences_of(progress_of(whole, 1), whole, None)[0]
@@ -181,10 +181,10 @@ def test_lost_packets_are_distinguished_from_wrong_bits() -> None:
         sentences_of(progress_of(each), each, None)[0]
         for each in (reading(6, 0, 1), reading(6, 1, 1))
     )
-    assert one.startswith("1 of 1 lost packet is not complete in any frame: sent in the gap")
-    assert "1 was in view and misread" in two
+    assert one.startswith("Lost: 1 packet sent between two frames")
+    assert "Misread: 1 packet." in two
     whole = reading(6, 0, 11)
-    assert "misread" not in sentences_of(progress_of(whole), whole, None)[0]
+    assert "Misread" not in sentences_of(progress_of(whole), whole, None)[0]
     whole = reading(6, 0, 0)
     assert sentences_of(progress_of(whole), whole, None) == ()
 

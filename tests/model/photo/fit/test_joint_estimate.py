@@ -1,7 +1,6 @@
 """What is left out of the profiles, and what is added to a fit's covariance, in closed forms."""
 
 import math
-from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -13,19 +12,14 @@ from occ_model.photo.fit import joint_estimate
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.joint_estimate import (
-    _doubts,
-    _exposure_doubts,
     _rounding,
     _widened,
-    _with_step_of,
     _with_steps_of_all,
-    _with_width,
     refined,
     within_rims,
-    without_rims,
 )
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.least_squares import StripeFit, StripeModel, Tone, exposure_deviation
+from occ_model.photo.fit.least_squares import StripeFit, StripeModel, Tone
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
@@ -61,22 +55,6 @@ def test_an_unusual_camera_widens_all_but_the_step(unusual: float) -> None:
     assert wide[1:, 1:] == pytest.approx(ratio**2 * FIT.covariance[1:, 1:])
 
 
-def test_the_step_is_taken_from_the_best_fit_of_all_pixels() -> None:
-    explanation: Any = SimpleNamespace(fits=[stripe_fit(0.2, 5.0), stripe_fit(0.11, 2.0)])
-    found = _with_step_of(FIT, explanation)
-    assert found.values.tolist() == [0.11, *FIT.values[1:]]
-    assert found.covariance[0, 0] == 1e-8
-    assert not found.covariance[0, 1:].any()
-    assert not found.covariance[1:, 0].any()
-    assert np.array_equal(found.covariance[1:, 1:], FIT.covariance[1:, 1:])
-
-
-def test_exposure_and_blur_are_as_wide_together_as_their_variances() -> None:
-    wide = _with_width(Timing(0.1, 0.8, 3.0, 2.2), FIT)
-    assert (wide.exposure / 0.1) ** 2 / 12.0 == pytest.approx(8.0**2 / 12.0 + 1.2**2)
-    assert replace(wide, exposure=0.8) == Timing(0.1, 0.8, 3.0, 2.2)
-
-
 def rounding_of(low: np.ndarray, swing: np.ndarray) -> float:
     model: Any = SimpleNamespace(levels=lambda _: (low, swing, None))
     return _rounding(model, Timing(0.1, 0.8, 3.0, 2.2))
@@ -90,44 +68,6 @@ def test_levels_that_are_rounded_change_an_exposure_as_their_distance() -> None:
     expected = math.hypot(1.0 / 4.0, 1.0 / 4.0) / math.sqrt(12.0) / 40.0
     assert rounding_of(varied, flat + 40.0) == pytest.approx(expected)
     assert rounding_of(flat, flat + 1e-9) == pytest.approx(math.sqrt(2.0 / 12.0))
-
-
-@pytest.mark.parametrize("columns", [0.1, 1.0, 4.0, 20.0])
-def test_a_blur_that_is_not_known_exactly_changes_an_exposure(columns: float) -> None:
-    """Where t^2/12 + b^2 is seen, and b^2 is off by d, t is off by 6 d / t."""
-    unknown = 0.02 * 1.5**2
-    off = exposure_deviation(unknown * 0.1**2, 0.1 * columns) / 0.1
-    assert off == pytest.approx(min(6.0 * unknown / columns, math.sqrt(12.0 * unknown)))
-
-
-def test_only_what_is_odd_is_doubted_with_its_figure() -> None:
-    assert _doubts(3.5) == ()
-    (sentence,) = _doubts(4.25)
-    assert "4.2 standard deviations" in sentence
-    assert _exposure_doubts(0.1) == ()
-    (sentence,) = _exposure_doubts(0.04)
-    assert "only 4 % of their columns" in sentence
-    assert "at least 10 %" in sentence
-
-
-@pytest.mark.parametrize(("chips", "columns"), [(6, 60), (8, 80), (30, 80)])
-def test_a_lamps_brightness_is_looked_for_within_a_period_or_a_few_chips(
-    chips: int, columns: int
-) -> None:
-    """So long it is surely on for once; without such pixels the first fits stay."""
-    asked: list[int] = []
-
-    def profiles(width: int) -> list[object]:
-        asked.append(width)
-        return []
-
-    explanation: Any = SimpleNamespace(
-        chips=np.arange(chips) % 2, fits=(stripe_fit(0.1),),
-        camera=SimpleNamespace(enhancement="none"),
-    )  # fmt: skip
-    cells: Any = SimpleNamespace(profiles=profiles)
-    assert refined(SimpleNamespace(), cells, explanation, 2.2).fits is explanation.fits  # type: ignore[arg-type]
-    assert asked == [columns]
 
 
 COLUMNS = 400
@@ -146,34 +86,6 @@ def test_columns_at_both_ends_that_no_level_follows_are_left_out() -> None:
     assert 16 <= shown[0] <= 32
     assert 400 - 48 <= shown[-1] + 1 <= 400 - 16
     np.testing.assert_array_equal(np.diff(shown), 1)
-
-
-@pytest.mark.parametrize("by_first", [True, False])
-def test_a_rim_is_seen_by_either_fit(by_first: bool) -> None:
-    class Model:
-        def start(self, timing: Timing) -> np.ndarray:
-            return np.array([timing.step])
-
-        def estimate_noise(self, values: np.ndarray) -> None: ...
-
-        def rough(
-            self, values: np.ndarray, fixed: tuple[int, ...], rounds: int
-        ) -> tuple[float, np.ndarray]:
-            return 0.0, values
-
-        def misfit_of_columns(self, values: np.ndarray) -> np.ndarray:
-            return NOISE if by_first else NOISE + AT_RIM
-
-    rim = np.sqrt(AT_RIM) if by_first else np.zeros(COLUMNS)
-    first: Any = type("First", (), {"timing": Timing(0.1, 1.0, 0.0, 2.2), "profile": np.zeros(400)})
-    model: Any = Model()
-    every = np.ones(COLUMNS, dtype=bool)
-    few = np.arange(COLUMNS) < 30
-    profiles = [EvenProfile(NOISE, every, 4.0), EvenProfile(NOISE, few, 4.0)]
-    (found,) = without_rims(profiles, model, first, np.sqrt(NOISE) + rim)
-    assert found.kept[32:].all()
-    assert not found.kept[:16].any()
-    assert without_rims(profiles[1:], model, first, np.sqrt(NOISE) + rim) == profiles[1:]
 
 
 @pytest.mark.parametrize(("exposure", "contradicts"), [(0.6, False), (1.9, True)])

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from lit_fractions import blurred_light
 
-from occ_model.photo.fit.exposure_modes import Possible, _with_blur
+from occ_model.photo.fit.exposure_modes import _with_blur
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.joint_model import PRIORS, JointModel
-from occ_model.photo.fit.seen_stripes import BlurShape, blur_kernel
+from occ_model.photo.fit.seen_stripes import blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import EvenProfile
@@ -129,12 +129,6 @@ def test_where_grey_levels_are_averaged_no_tone_is_fitted() -> None:
     assert model.adapted(TRUE)[[2, 3, 4, 5]].tolist() == [2.7, 0.0, 0.0, 0.2]
 
 
-def test_what_is_usual_leaves_timing_and_blur() -> None:
-    usual = model_of(values_of()).with_usual(TRUE)
-    assert usual[[0, 1, 2, 7]].tolist() == TRUE[[0, 1, 2, 7]].tolist()
-    assert usual[[3, 4, 5, 6, 8]].tolist() == [0.0, 0.03, 0.0, 0.0, 0.0]
-
-
 def test_any_gamma_may_be_found_where_it_is_asked_for() -> None:
     far = TRUE.copy()
     far[3] = 0.4
@@ -166,14 +160,6 @@ def test_edges_that_white_hides_are_not_seen() -> None:
     assert all(more > less for more, less in pairwise([1.0, *fractions]))
 
 
-def test_noise_is_taken_from_another_model_of_the_same_profiles() -> None:
-    one, other = model_of(values_of() + NOISE), model_of(values_of() + NOISE)
-    one.estimate_noise(TRUE)
-    before = other.fit(TRUE, rounds=0).misfit
-    other.take_noise(one)
-    assert other.fit(TRUE, rounds=0).misfit == one.fit(TRUE, rounds=0).misfit != before
-
-
 def test_another_blur_leaves_the_edges_width() -> None:
     """Variances add: t^2/12 and b^2."""
 
@@ -187,48 +173,3 @@ def test_another_blur_leaves_the_edges_width() -> None:
         assert other[[0, 2, 3, 8]].tolist() == TRUE[[0, 2, 3, 8]].tolist()
     # A blur as wide as the edge leaves a short exposure, and no negative one.
     assert _with_blur(TRUE, 2.9)[1] == pytest.approx(0.2 * 0.09)
-
-
-class Starts:
-    """In place of a model: takes each start for its fit, and keeps it."""
-
-    def __init__(self) -> None:
-        self.tried: list[tuple[np.ndarray, BlurShape]] = []
-
-    def fit(
-        self,
-        values: np.ndarray,
-        rounds: int = 1,
-        shape: BlurShape = "normal",
-    ) -> JointFit:
-        self.tried.append((values, shape))
-        return JointFit(values, np.zeros((9, 9)), 10.0)
-
-    def promising(
-        self, values: np.ndarray, rounds: int, shape: BlurShape, _hopeless: float
-    ) -> JointFit:
-        return self.fit(values, rounds, shape)
-
-
-def test_two_boxes_are_tried_in_either_order() -> None:
-    """An exposure of a columns behind a box of b columns makes the edges of the exchanged ones."""
-    starts = Starts()
-    found = JointFit(TRUE, np.zeros((9, 9)), 10.0)
-    boxes = Possible(starts, found)._exchanged([found])  # type: ignore[arg-type]
-    columns = TRUE[1] / TRUE[0]
-    exchanged = boxes[0].values
-    assert exchanged[1] / exchanged[0] == pytest.approx(math.sqrt(12.0) * TRUE[7])
-    assert math.sqrt(12.0) * exchanged[7] == pytest.approx(columns)
-    assert boxes[1].values[1] == pytest.approx(TRUE[0])
-    assert {shape for _, shape in starts.tried} == {"box"}
-
-
-def test_only_exposures_of_few_columns_may_be_mistaken_for_blur() -> None:
-    for columns, is_short in ((11.9, True), (12.1, False)):
-        starts, values = Starts(), TRUE.copy()
-        values[1] = columns * values[0]
-        free = JointFit(values, np.zeros((9, 9)), 10.0)
-        fits = Possible(starts, free).of_each_shape(free)  # type: ignore[arg-type]
-        assert any(fit.values is values for fit in fits)  # the blur as it was counts, too
-        shapes = {shape for _, shape in starts.tried}
-        assert shapes == ({"normal", "box", "exponential"} if is_short else set())

@@ -103,22 +103,3 @@ def test_the_canonical_form_knows_no_start_and_no_repetition(
 def test_no_chips_are_read_from_noise() -> None:
     noise = np.random.default_rng(4).standard_normal(1000)
     assert read_patterns(noise, noise, 120.0) == []
-
-
-EIGHTEEN = np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0], dtype=np.uint8)
-
-
-@pytest.mark.parametrize(
-    ("exposure", "noise", "both"),
-    [(0.5, 0.0, False), (0.5, 0.4, True), (1.4, 0.0, False), (2.0, 0.0, True)],
-)
-def test_clear_edges_of_short_exposures_need_no_other_reading(
-    exposure: float, noise: float, both: bool
-) -> None:
-    """Read by its harmonics, every number of chips is tried; what both ways read is given once."""
-    tried: list[None] = []
-    stripes = stripes_of(EIGHTEEN, exposure, 9.3, 0.4)
-    stripes += noise * np.random.default_rng(1).standard_normal(len(stripes))
-    read = read_patterns(stripes, stripes, 18 * 9.3, lambda: tried.append(None))
-    assert [text(one.chips) for one in read] == [text(canonical(EIGHTEEN))]
-    assert (len(tried) > 9.3 * 18 / 4) == both

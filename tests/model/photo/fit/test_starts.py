@@ -1,8 +1,6 @@
 """From where a fit of the timing starts."""
 
 import math
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,48 +8,11 @@ from lit_fractions import light_of
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.fit import best_timing
-from occ_model.photo.fit.camera_response import CameraTone, camera_tones
-from occ_model.photo.fit.exposure_modes import scanned_starts
+from occ_model.photo.fit.camera_response import camera_tones
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.timing import Timing
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
-TIMING = Timing(0.07, 1.3, 0.3, 2.2)
-
-
-class Scanned:
-    """In place of a model: its misfit is least at some exposures."""
-
-    def timing(self, values: np.ndarray) -> Timing:
-        step, exposure, middle = values[:3].tolist()
-        return Timing(step, exposure, middle, 2.2)
-
-    def with_usual(self, values: np.ndarray) -> np.ndarray:
-        return values
-
-    def rough(
-        self, values: np.ndarray, fixed: tuple[int, ...], _rounds: int, _hopeless: float
-    ) -> Any:
-        assert 1 not in fixed
-        near = min((0.5, 1.3, 2.7), key=lambda one: abs(one - values[1]))
-        found = values.copy()
-        found[1] = near
-        misfit = {0.5: 10.0, 1.3: 15.0, 2.7: 39.0}[near]
-        return misfit, found
-
-
-@pytest.mark.parametrize(
-    ("allowed", "expected"), [({0.5, 1.3, 2.7}, [1.3, 2.7]), ({0.5, 2.7}, [2.7]), ({0.5}, [])]
-)
-def test_the_best_other_exposures_are_scanned_for_each_once(
-    allowed: set[float], expected: list[float]
-) -> None:
-    found = np.array([0.1, 0.5, 2.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0])
-    starts = scanned_starts(
-        Scanned(), found, lambda timing: timing.exposure in allowed  # type: ignore[arg-type]
-    )  # fmt: skip
-    assert [one[1] for one in starts] == expected
 
 
 def test_the_correlation_of_a_start_is_that_of_its_own_profile() -> None:
@@ -147,35 +108,6 @@ def test_of_an_equalized_picture_a_column_shows_its_rank() -> None:
     constant = tones[1].tone(np.full(4, 0.3), 2.2)
     assert np.ptp(constant) == 0.0
     assert math.isfinite(constant[0])
-
-
-@pytest.mark.parametrize(
-    ("residuals", "kept"),
-    [
-        ({"p": 10.0, "e": 6.0}, "p"),
-        ({"p": 10.0, "e": 4.0}, "e"),
-        ({"e": 4.0, "p": 10.0, "E": 3.0, "P": 9.0}, "E"),  # of either averaging, in any order
-        ({"p": 10.0, "P": 7.0, "E": 4.0}, "P"),
-        ({"p": 10.0, "E": None}, "p"),  # no possible fit
-        ({"e": None}, None),
-    ],
-)
-def test_a_picture_is_equalized_where_that_halves_the_residual(
-    monkeypatch: pytest.MonkeyPatch, residuals: dict[str, float | None], kept: str | None
-) -> None:
-    def fits(tone: str, *_: object) -> list[Any]:
-        residual = residuals[tone]
-        return [] if residual is None else [SimpleNamespace(residual=residual, timing=TIMING)]
-
-    monkeypatch.setattr(best_timing, "StripeModel", lambda _profile, _chips, tone, *_: tone)
-    monkeypatch.setattr(best_timing, "_fits", fits)
-    cameras: Any = [
-        CameraTone("any", "equalization" if name in "eE" else "none", name)  # type: ignore[arg-type]
-        for name in residuals
-    ]
-    stripes: Any = SimpleNamespace(profile=np.zeros(9))
-    found = best_timing.explain_from([TIMING], stripes, CHIPS, cameras)
-    assert (found and found.camera.tone) == kept
 
 
 def test_of_an_equalized_picture_the_exposure_is_that_of_its_ranks() -> None:

@@ -111,7 +111,7 @@ def match_lamp(
     stripes = Stripes(
         place.region, WHITE * reading.profile.values, low, high,
         period, reading.errors.period * reading.step,
-        float((place.pixels[place.shown] >= SATURATED_LEVEL).mean()),
+        place.part_above(SATURATED_LEVEL),
     )  # fmt: skip
     model = WHITE * reading.levels
     flat = (model - low) / (high - low)

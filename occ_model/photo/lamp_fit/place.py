@@ -30,6 +30,11 @@ class LampPlace:
     pixels: FloatArray  # Shape (rows, columns of the region): fractions of white
     shown: BoolArray  # Shape as ``pixels``: which of them show the lamp
 
+    def part_above(self, least: float) -> float:
+        """Return the fraction of the lamp's pixels that are at least so bright."""
+        bright = int(np.count_nonzero((self.pixels >= least) & self.shown))
+        return bright / max(int(np.count_nonzero(self.shown)), 1)
+
 
 def find_place(photo: Photo, region: Region) -> LampPlace | None:
     """Find the brightest lamp within a region; None without pixels brighter than the rest.

@@ -16,6 +16,7 @@ _NOTABLE_STEP, _LEAST_RAMPS = 0.1, 4
 """Part of the largest step from which one is notable, and how many must follow another one: edges
 without ramps can be whole groups apart by chance."""
 _MOST_COLUMNS = 640  # of a profile that is fitted
+_ROWS_AT_ONCE = 32  # that are averaged
 _LEAST_PERIOD = 48.0  # columns that a period keeps
 
 
@@ -33,13 +34,22 @@ class LampProfile:
 
         The noise is estimated from neighbouring rows, which show the same stripes.
         """
-        count = np.maximum(shown.sum(axis=0), 1)
-        both = shown[1:] & shown[:-1]
-        steps = np.where(both, np.diff(pixels, axis=0), 0.0)
-        pairs = np.maximum(both.sum(axis=0), 1)
-        noise = np.square(steps).sum(axis=0, dtype=np.float64) / (2.0 * pairs * count)
-        clipped = (shown & (pixels >= _CLIPPED)).sum(axis=0) > _CLIPPED_PART * count
-        means = np.where(shown, pixels, 0.0).sum(axis=0, dtype=np.float64) / count
+        sums, squares, whole, pairs, bright = np.zeros((5, pixels.shape[1]))
+        for first in range(0, len(pixels), _ROWS_AT_ONCE):  # as many as a processor keeps at hand
+            rows = slice(first, first + _ROWS_AT_ONCE + 1)
+            part, seen = pixels[rows], shown[rows]
+            both = seen[1:] & seen[:-1]
+            steps = np.diff(part, axis=0) * both
+            squares += np.einsum("ij,ij->j", steps, steps, dtype=np.float64)
+            pairs += np.count_nonzero(both, axis=0)
+            part, seen = part[:_ROWS_AT_ONCE], seen[:_ROWS_AT_ONCE]
+            sums += (part * seen).sum(axis=0, dtype=np.float64)
+            whole += np.count_nonzero(seen, axis=0)
+            bright += np.count_nonzero(seen & (part >= _CLIPPED), axis=0)
+        count = np.maximum(whole, 1.0)
+        noise = squares / (2.0 * np.maximum(pairs, 1.0) * count)
+        clipped = bright > _CLIPPED_PART * count
+        means = sums / count
         return cls(means, np.maximum(noise, 1e-12), clipped)
 
     @property

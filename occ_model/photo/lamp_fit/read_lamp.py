@@ -136,8 +136,9 @@ def read_lamp(
 def _bands(place: LampPlace, step: int, first: int) -> FloatArray:
     """Return profiles of bands of rows, all columns of which show the lamp, shape (bands, n)."""
     whole = np.flatnonzero(place.shown.all(axis=1))
-    rows = place.pixels[whole if len(whole) >= _BANDS else slice(None)]
-    groups = np.array_split(rows, min(_BANDS, len(rows)))
-    bands = np.stack([group.mean(axis=0, dtype=np.float64) for group in groups])
+    # A lamp's place is convex: rows all of whose columns show it lie beside each other.
+    rows = slice(whole[0], whole[-1] + 1) if len(whole) >= _BANDS else slice(None)
+    groups = np.array_split(place.pixels[rows], _BANDS)
+    bands = np.stack([group.mean(axis=0, dtype=np.float64) for group in groups if len(group)])
     last = first + (bands.shape[1] - first) // step * step
     return np.asarray(bands[:, first:last].reshape(len(bands), -1, step).mean(axis=2))

@@ -7,9 +7,10 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.doubts import LEAST_INFORMATION
-from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
+from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import (
+    CLIPPED_FRACTION,
     EXPLAINED_CORRELATION,
     Explanation,
     explain,

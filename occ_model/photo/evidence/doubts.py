@@ -1,7 +1,8 @@
 """Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
 
 from occ_model.errors import distinct_texts
-from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
+from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.fit.best_timing import CLIPPED_FRACTION
 from occ_model.photo.fit.chip_runs import chips_if_longer, runs_of
 from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes

@@ -10,10 +10,6 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 
-CLIPPED_FRACTION = 0.02
-"""Saturated fraction of the pixels up to which saturation hardly changes the width of the
-stripes."""
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Hypothesis:

@@ -28,6 +28,10 @@ _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
 EXPLAINED_CORRELATION = 0.98  # correlation of a fit above which no other chips are tried
 
+CLIPPED_FRACTION = 0.02
+"""Saturated fraction of the pixels up to which saturation hardly changes the width of the
+stripes."""
+
 SAME_EXPOSURE = 0.04  # difference in chips below which two exposures are the same
 
 
@@ -95,7 +99,7 @@ def explain_from(
     """
     found: list[tuple[float, list[StripeFit], CameraTone]] = []
     for camera in cameras:
-        if found:  # responses differ too little to lead elsewhere
+        if found and stripes.saturated <= CLIPPED_FRACTION:  # responses then differ little
             starts = [fit.timing for fit in found[0][1]]
         model = StripeModel(stripes.profile, chips, camera.tone, starts[0].step)
         fits = _fits(model, starts, with_gamma)

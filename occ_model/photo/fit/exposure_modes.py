@@ -5,7 +5,6 @@ Edges show the width of an exposure and of blur together, so that one may be mis
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
@@ -48,68 +47,10 @@ _HELD_INDICES = (0, 3, 4, 5, 6, 7, 8)  # of the parameters held while exposures 
 _ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Possible:
-    """A model's fit, and the number of its steps once the noise is known."""
-
-    model: JointModel
-    fit: JointFit
-    rounds: int = 1
-
-    def free(self) -> JointFit:
-        """Fit again, the noise having been estimated."""
-        return self.model.fit(self.fit.values, rounds=self.rounds)
-
-    def of_each_shape(self, free: JointFit) -> list[JointFit]:
-        """Fit also with each shape of the blur, where it may be taken for the exposure.
-
-        Each minimum counts once, however many starts end in it.
-        """
-        if free.values[1] >= _MOST_COLUMNS * free.values[0]:
-            return [free]
-        hopeless = _HOPELESS_RATIO * free.misfit
-        found = {shape: self._shared(free.values, shape, hopeless) for shape in _BLUR_FRACTIONS}
-        found["normal"].append(free)
-        if found["box"]:
-            found["box"] += self._exchanged(found["box"], hopeless)
-        best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
-        for shape, fits in found.items():
-            # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
-            fits.append(self.model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
-        return [fit for fits in found.values() for fit in distinct(fits)]
-
-    def _exchanged(self, boxes: Sequence[JointFit], hopeless: float = math.inf) -> list[JointFit]:
-        """Fit with exposure and blur exchanged: two boxes make the same edge in either order."""
-        found = min(boxes, key=lambda fit: fit.misfit).values
-        step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
-        starts = []
-        # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
-        for box in (max(math.sqrt(12.0) * blur, _SHORTEST_EXPOSURE), 1.0):
-            values = found.copy()
-            values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
-            starts.append(values)
-        return self._promising(starts, _LAST_ROUNDS, "box", hopeless)
-
-    def _shared(self, values: FloatArray, shape: BlurShape, hopeless: float) -> list[JointFit]:
-        """Fit with another shape of the blur, starting from its fractions of the edges' width."""
-        columns = float(values[1] / values[0])
-        width = columns**2 / 12.0 + float(values[7]) ** 2
-        fractions = _BLUR_FRACTIONS[shape]
-        starts = [_with_blur(values, math.sqrt(fraction * width)) for fraction in fractions]
-        return self._promising(starts, 4, shape, hopeless)
-
-    def _promising(
-        self, starts: Sequence[FloatArray], rounds: int, shape: BlurShape, hopeless: float
-    ) -> list[JointFit]:
-        fits = [self.model.promising(start, rounds, shape, hopeless) for start in starts]
-        return [fit for fit in fits if fit is not None]
-
-
-def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Possible]:
+def fits_near(models: Sequence[JointModel], values: FloatArray) -> list[JointFit]:
     """Fit each model near an exposure; a short one with every blur, which it may be taken for."""
-    columns = float(values[1] / values[0])
-    if columns > _MOST_COLUMNS:
-        return [Possible(one, one.fit(one.adapted(values))) for one in models]
+    if not _is_short(values):
+        return [model.fit(model.adapted(values)) for model in models]
     found = []
     for model in models:
         here = model.adapted(values)
@@ -122,8 +63,56 @@ def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Poss
         for start in others:
             other = model.promising(start, _ROUNDS, "normal", _HOPELESS_RATIO * best.misfit)
             best = best if other is None or other.misfit >= best.misfit else other
-        found.append(Possible(model, best, _LAST_ROUNDS))
+        found.append(best)
     return found
+
+
+def of_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
+    """Fit also with each shape of the blur, where it may be taken for the exposure.
+
+    Each minimum counts once, however many starts end in it.
+    """
+    if not _is_short(free.values):
+        return [free]
+    hopeless = _HOPELESS_RATIO * free.misfit
+
+    def fits(starts: Sequence[FloatArray], rounds: int, shape: BlurShape) -> list[JointFit]:
+        tried = [model.promising(start, rounds, shape, hopeless) for start in starts]
+        return [fit for fit in tried if fit is not None]
+
+    width = float(free.values[1] / free.values[0]) ** 2 / 12.0 + float(free.values[7]) ** 2
+    found = {
+        shape: fits(
+            [_with_blur(free.values, math.sqrt(part * width)) for part in fractions], 4, shape
+        )
+        for shape, fractions in _BLUR_FRACTIONS.items()
+    }
+    found["normal"].append(free)
+    if found["box"]:
+        box = min(found["box"], key=lambda fit: fit.misfit)
+        found["box"] += fits(_exchanged(box.values), _LAST_ROUNDS, "box")
+    best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
+    for shape, others in found.items():
+        # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
+        others.append(model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
+    return [fit for fits in found.values() for fit in distinct(fits)]
+
+
+def _is_short(values: FloatArray) -> bool:
+    """Whether blur may be taken for the exposure."""
+    return bool(values[1] < _MOST_COLUMNS * values[0])
+
+
+def _exchanged(found: FloatArray) -> list[FloatArray]:
+    """Exchange exposure and blur: two boxes make the same edge in either order."""
+    step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
+    starts = []
+    # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
+    for box in (max(math.sqrt(12.0) * blur, _SHORTEST_EXPOSURE), 1.0):
+        values = found.copy()
+        values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
+        starts.append(values)
+    return starts
 
 
 def _with_blur(values: FloatArray, blur: float) -> FloatArray:
@@ -143,38 +132,44 @@ def exposure_modes(
     first = models[0]
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
     first.estimate_noise(first.start(best))
-    usual = first.fit(first.start(best))
-    first.estimate_noise(usual.values)
+    usual = first.fit(first.start(best)).values
+    first.estimate_noise(usual)
     for model in models[1:]:
         model.take_noise(first)
-    groups = [possible_near(models, usual.values)]
+    fits = list(zip(models, fits_near(models, usual), strict=True))
     # By the model that explains this exposure best: another one may explain none of them.
-    found = min(groups[0], key=lambda one: one.fit.misfit)
-    least = found.fit.misfit
-    for start in scanned_starts(found.model, found.fit.values, is_possible):
-        other = found.model.fit(start)
-        exposures = [one.fit.exposure for group in groups for one in group]
-        if any(abs(other.exposure - exposure) <= SAME_EXPOSURE for exposure in exposures):
-            continue
-        if other.misfit < least + _MOST_EXCESS_MISFIT:
-            groups.append([Possible(found.model, other)])
-    likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
-    likely.model.estimate_noise(likely.fit.values)
+    model, found = min(fits, key=lambda pair: pair[1].misfit)
+    groups = [fits]
+    for start in scanned_starts(model, found.values, is_possible):
+        other = model.fit(start)
+        exposures = [fit.exposure for group in groups for _, fit in group]
+        is_other = all(abs(other.exposure - each) > SAME_EXPOSURE for each in exposures)
+        if is_other and other.misfit < found.misfit + _MOST_EXCESS_MISFIT:
+            groups.append([(model, other)])
+    everything = [pair for group in groups for pair in group]
+    likely, found = min(everything, key=lambda pair: pair[1].misfit)
+    likely.estimate_noise(found.values)
     for model in models:
-        model.take_noise(likely.model)
-    means = []
+        model.take_noise(likely)
+    means, rounds = [], _LAST_ROUNDS if _is_short(usual) else 1
     for group in groups:
-        most = min(one.fit.misfit for one in group) + _MOST_EXCESS_MISFIT
-        again = [(one, one.free()) for one in group if one.fit.misfit <= most]
-        least = min(fit.misfit for _, fit in again)
-        fits: list[JointFit] = []
-        for one, own in again:
-            is_likely = own.misfit < least + _MOST_SHAPED_EXCESS
-            fits += one.of_each_shape(own) if is_likely else [own]
-        means.append(averaged([fit.unbiased for fit in fits]))
+        means.append(_mean_again(group, rounds))
+        rounds = 1
     least = min(fit.misfit for fit in means)
     most = _MOST_RATIO * least + _MOST_EXCESS
     return distinct([fit for fit in means if fit.misfit < most])
+
+
+def _mean_again(group: Sequence[tuple[JointModel, JointFit]], rounds: int) -> JointFit:
+    """Fit one exposure by its models again, the noise having been estimated; return the mean."""
+    most = min(fit.misfit for _, fit in group) + _MOST_EXCESS_MISFIT
+    again = [(model, model.fit(fit.values, rounds)) for model, fit in group if fit.misfit <= most]
+    least = min(fit.misfit for _, fit in again)
+    fits: list[JointFit] = []
+    for model, free in again:
+        is_likely = free.misfit < least + _MOST_SHAPED_EXCESS
+        fits += of_each_shape(model, free) if is_likely else [free]
+    return averaged([fit.unbiased for fit in fits])
 
 
 def scanned_starts(

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Container, Iterable, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
@@ -12,159 +11,13 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 from occ_gui.values.choices import OVERLAYS
 from occ_gui.values.modes import MODES
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_menu, in_tool_tip
+from occ_gui.window import menu_entries as entries
+from occ_gui.window.menu_entries import Entry
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import SCAN_AXES
 
 _SEARCH_WORDS = "search_words"  # name of an action's property
-
-_FIGURE = "save figure plot pdf png svg csv"
-_TEXT = "font zoom bigger size projector"
-_LEARN = "learn course tutorial teach student lab sheet"
-
-
-class _Entry(NamedTuple):
-    name: str
-    text: str
-    keys: QKeySequence.StandardKey | str = ""
-    tip: str = ""
-    words: str = ""  # search words beyond those of its text
-    is_checkable: bool = False
-
-
-_KEYS = QKeySequence.StandardKey
-_SEPARATOR = None
-_OPEN_PHOTO = _Entry("open_photo", "Open &photos…", _KEYS.Open, words="image picture jpeg heic raw")
-_FILE = (
-    _Entry("close_photo", "&Close photo"),
-    _Entry("open_film", "Open &film…", "Ctrl+Alt+O", words="video movie mp4 avi mkv camera"),
-    _Entry("close_film", "C&lose film"),
-    _SEPARATOR,
-    _Entry("open_scene", "Open sc&ene…", "Ctrl+Shift+O", words="toml load"),
-    _Entry("save_scene", "&Save scene", _KEYS.Save, words="toml"),
-    _Entry("save_scene_as", "Save scene &as…", "Ctrl+Shift+S", words="toml"),
-    _Entry("save_picture", "Save simulated p&icture as…", words="image png export"),
-    _Entry("save_film", "Sa&ve simulated film as…", words="video movie mp4 mkv gif export"),
-    _SEPARATOR,
-)
-_EXPORT_ALL = _Entry("export_all", "A&ll figures…", "Ctrl+Shift+E", words=_FIGURE)
-_TRANSMITTER_AND_QUIT = (
-    _Entry(
-        "transmitter", "&Transmitter…", words="arduino pico board microcontroller sketch code led"
-    ),
-    _SEPARATOR,
-    _Entry("quit", "&Quit", "Ctrl+Q"),
-)
-_PINS = (
-    _Entry("pin_a", "Pin as &A", "Ctrl+Shift+A", words="compare"),
-    _Entry("pin_b", "Pin as &B", "Ctrl+Shift+B", words="compare"),
-    _Entry("go_to_a", "Go &to A"),
-    _Entry("go_to_b", "Go t&o B"),
-    _Entry("clear_pins", "C&lear both"),
-)
-_EDIT = (
-    _SEPARATOR,
-    _Entry("copy_figure", "Copy fi&gure", "Ctrl+Shift+C", words="clipboard"),
-    _SEPARATOR,
-    _Entry(
-        "hold_brightness", "&Keep the brightness", "Ctrl+B",
-        "While on, a longer exposure lowers the ISO speed.", is_checkable=True,
-    ),
-    _Entry("reset_scene", "Reset &scene"),
-)  # fmt: skip
-_PHOTO = (
-    _Entry("match", "&Match photo", "Ctrl+M", words="fit measure camera readout"),
-    _Entry("match_all", "Ma&tch all photos", words="batch table several"),
-    _Entry("find_lamps", "&Find lamps", words="led light"),
-    _Entry("region_by_hand", "D&raw a region", words="crop rectangle"),
-    _Entry("whole_photo", "&Whole photo"),
-    _Entry("apply_match", "&Apply to the scene", "Ctrl+Shift+M"),
-    _Entry("save_match", "Sa&ve match as preset…"),
-    _Entry("delete_preset", "D&elete preset…"),
-    _Entry("use_settings", "&Use this photo's settings"),
-    _Entry(
-        "measure_camera",
-        "Measure m&y camera…",
-        "",
-        "With two pictures of a lit wall; no equipment is needed.",
-        "readout rolling shutter mains bars",
-    ),
-    _SEPARATOR,
-)
-_OVERLAYS = {
-    "beside": ("&Side by side", "", ""),
-    "blend": ("&Blended over the simulation", "", "overlay"),
-    "split": ("Sp&lit along a line", "", "overlay wipe"),
-    "difference": ("&Difference", "", ""),
-}
-_SCAN_AXES = {
-    "auto": ("&Automatic, from its stripes", "", ""),
-    "columns": ("Column by &column", "", ""),
-    "lines": ("&Line by line", "", ""),
-}
-_MODES = {
-    "explore": ("&Explore", "From the LED's light to the bits.", "story simulation"),
-    "photo": ("&Photo", "Find the settings behind your own photo.", "match camera readout"),
-    "limits": (
-        "&Limits", "How fast a code can be sent and still be read.",
-        "map how fast bits bit rate most highest frequency range",
-    ),
-    "effects": (
-        "E&ffects", "What accuracy costs in time.",
-        "accuracy cost time tolerance noise lens jpeg",
-    ),
-    "lessons": ("Le&ssons", "Learn step by step.", _LEARN),
-    "video": ("&Video", "Read films, or live from a camera.", "film movie camera live mp4"),
-    "room": ("&Room", "Many lamps in one picture: where am I?", ""),
-}  # fmt: skip
-_THEMES = {
-    "system": ("&System", "", "colour color"),
-    "light": ("&Light", "", "colour color bright"),
-    "dark": ("&Dark", "", "colour color night black"),
-}
-_LOOK = (
-    _Entry("fit", "&Fit pictures", "Ctrl+0", words="zoom whole reset"),
-    _Entry(
-        "before", "&Before the change", "Ctrl+Alt+Z",
-        "Show the picture before the latest change beside the present one.", is_checkable=True,
-    ),
-    _Entry(
-        "measure", "Meas&ure", "Ctrl+Shift+D",
-        "Show two cursors that can be dragged, and the distance between them.",
-        "cursor difference distance", is_checkable=True,
-    ),
-)  # fmt: skip
-_SIZES = (
-    _Entry(
-        "text_larger", "Lar&ger text", _KEYS.ZoomIn,
-        "Enlarge all text of the window, for example on a projector.", f"larger {_TEXT}",
-    ),
-    _Entry("text_smaller", "Smaller te&xt", _KEYS.ZoomOut, words=f"smaller {_TEXT}"),
-    _Entry("text_normal", "&Normal text size", "Ctrl+Alt+0", words=f"reset {_TEXT}"),
-    _Entry(
-        "full_screen", "Fu&ll screen", "F11",
-        "Fill the screen with the window, for example on a projector.",
-        "projector beamer presentation fullscreen maximize", is_checkable=True,
-    ),
-    _Entry("reset_layout", "&Reset layout"),
-    _Entry(
-        "slider_strips", "&Slider strips", "",
-        "Colour each slider by the fraction of bits that would be read there.",
-        "success rate", is_checkable=True,
-    ),
-    _SEPARATOR,
-)  # fmt: skip
-_HELP = (
-    _Entry("guide", "&User's guide"),
-    _Entry("about_pane", "About this &pane", "Shift+F1"),
-    _Entry("welcome", "&Welcome…"),
-    _Entry("my_lamp", "My lamp makes &bars", words="flicker banding shutter mains dimmed pwm"),
-    _Entry("lessons", "&Lessons", words=_LEARN),
-    _Entry("report", "&Report…", words="bug error problem"),
-    _Entry("about", "&About"),
-    _Entry("shortcuts", "&Keyboard shortcuts…", "F1", words="keys hotkeys"),
-    _Entry("palette", "Find a &command…", "Ctrl+Shift+P"),
-)
 
 
 class Menus(QObject):
@@ -182,13 +35,13 @@ class Menus(QObject):
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
         self._make_view_menu(window, docks)
-        self._fill(self._add_menu("help", "&Help"), *_HELP)
+        self._fill(self._add_menu("help", "&Help"), *entries.HELP)
 
     def _add_menu(self, name: str, text: str) -> QMenu:
         self.top_menus[name] = self._bar.addMenu(text)
         return self.top_menus[name]
 
-    def _fill(self, menu: QMenu, *entries: _Entry | None) -> None:
+    def _fill(self, menu: QMenu, *entries: Entry | None) -> None:
         for entry in entries:
             if entry is None:
                 menu.addSeparator()
@@ -218,7 +71,7 @@ class Menus(QObject):
         for place, name in enumerate(names, 1):
             text, tip, words = entries[name]
             entry = f"{prefix}_{name}"
-            self._fill(menu, _Entry(entry, text, keys.format(place), tip, words, is_checkable=True))
+            self._fill(menu, Entry(entry, text, keys.format(place), tip, words, is_checkable=True))
             action = self.actions[entry]
             action.setChecked(place == 1)
             action.setData(name)
@@ -227,18 +80,18 @@ class Menus(QObject):
 
     def _make_file_menu(self, window: QMainWindow) -> None:
         menu = self._add_menu("file", "&File")
-        self._fill(menu, _OPEN_PHOTO)
+        self._fill(menu, entries.OPEN_PHOTO)
         self.recent = menu.addMenu("Open &recent")
         self.samples = menu.addMenu("Open sa&mple photo")
         for submenu in (self.recent, self.samples):
             submenu.setToolTipsVisible(True)
             submenu.setEnabled(False)
-        self._fill(menu, *_FILE)
+        self._fill(menu, *entries.FILE)
         self._export = self.drop_downs["export"] = menu.addMenu("E&xport")
         self._export.setToolTipsVisible(True)
         self._after_figures = self._export.addSeparator()
-        self._fill(self._export, _EXPORT_ALL)
-        self._fill(menu, *_TRANSMITTER_AND_QUIT)
+        self._fill(self._export, entries.EXPORT_ALL)
+        self._fill(menu, *entries.TRANSMITTER_AND_QUIT)
         self.actions["quit"].triggered.connect(window.close)
 
     def add_figures(self, titles: Mapping[str, str], ask: Callable[[str], None]) -> None:
@@ -248,7 +101,7 @@ class Menus(QObject):
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
             action.triggered.connect(lambda _=False, name=name: ask(name))
-            action.setProperty(_SEARCH_WORDS, _FIGURE)
+            action.setProperty(_SEARCH_WORDS, entries.FIGURE)
 
     def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
         """Offer an animation of each of these sliders in the export menu."""
@@ -272,32 +125,34 @@ class Menus(QObject):
         menu = self._add_menu("edit", "&Edit")
         undo = undo_stack.createUndoAction(self, "&Undo")
         redo = undo_stack.createRedoAction(self, "&Redo")
-        undo.setShortcut(QKeySequence(_KEYS.Undo))
-        keys = (*QKeySequence.keyBindings(_KEYS.Redo), QKeySequence("Ctrl+Y"))  # on every system
+        undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
+        redo_keys = QKeySequence.keyBindings(QKeySequence.StandardKey.Redo)
+        keys = (*redo_keys, QKeySequence("Ctrl+Y"))  # on every system
         redo.setShortcuts(list({key.toString(): key for key in keys}.values()))
         menu.addActions([undo, redo])
         self.actions |= {"undo": undo, "redo": redo}
-        self._fill(menu.addMenu("Pi&n and compare"), *_PINS)
-        self._fill(menu, *_EDIT)
+        self._fill(menu.addMenu("Pi&n and compare"), *entries.PINS)
+        self._fill(menu, *entries.EDIT)
 
     def _make_photo_menu(self) -> None:
         menu = self._add_menu("photo", "&Photo")
         menu.addAction(self.actions["open_photo"])  # as in the file menu
-        self._fill(menu, *_PHOTO)
-        self.overlays = self._add_choice(menu, "show", OVERLAYS, _OVERLAYS, "Ctrl+Alt+{}")
+        self._fill(menu, *entries.PHOTO)
+        overlays = entries.OVERLAY_TEXTS
+        self.overlays = self._add_choice(menu, "show", OVERLAYS, overlays, "Ctrl+Alt+{}")
         menu.addSeparator()
         axes = menu.addMenu("S&can direction of the photo")
-        self.scan_axes = self._add_choice(axes, "scan", SCAN_AXES, _SCAN_AXES)
+        self.scan_axes = self._add_choice(axes, "scan", SCAN_AXES, entries.SCAN_AXIS_TEXTS)
 
     def _make_view_menu(self, window: QMainWindow, docks: Iterable[QDockWidget]) -> None:
         menu = self._view = self._add_menu("view", "&View")
         modes = menu.addMenu("&Mode")
         modes.setToolTipsVisible(True)
-        self.modes = self._add_choice(modes, "mode", MODES, _MODES, "Ctrl+{}")
-        self._fill(menu, *_LOOK)
+        self.modes = self._add_choice(modes, "mode", MODES, entries.MODE_TEXTS, "Ctrl+{}")
+        self._fill(menu, *entries.LOOK)
         theme = self.drop_downs["theme"] = menu.addMenu("&Theme")
-        self.themes = self._add_choice(theme, "theme", THEMES, _THEMES)
-        self._fill(menu, *_SIZES)
+        self.themes = self._add_choice(theme, "theme", THEMES, entries.THEME_TEXTS)
+        self._fill(menu, *entries.SIZES)
         FullScreen(window, self.actions["full_screen"])
         for dock in docks:
             self.add_dock(dock)

@@ -31,7 +31,7 @@ def test_impossible_actions_are_disabled_and_every_picture_and_plot_has_a_name(
     application: Application,
 ) -> None:
     by_text = {a.text(): a for menu in menus(application.window.menuBar()) for a in entries(menu)}
-    with_photo = ("&Close photo", "&Match", "&Apply", "Save match", "&Use this")
+    with_photo = ("&Close photo", "&Match", "&Apply", "Sa&ve match", "&Use this")
     for text in (*with_photo, "&Undo", "&Redo"):
         (entry,) = [action for key, action in by_text.items() if key.startswith(text)]
         assert not entry.isEnabled(), text

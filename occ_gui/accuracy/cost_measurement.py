@@ -11,10 +11,8 @@ from occ_gui.values.simulated import SimulationRequest
 from occ_model.effects.plan import plan_with
 from occ_model.errors import OccError
 from occ_model.results.accuracy import AccuracyPoint, EffectDifference
-from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
 from occ_model.simulation.stage_timer import StageTimer
-from occ_model.study.accuracy import accuracy, point_count
+from occ_model.study.accuracy import accuracy, move, point_count
 from occ_model.study.effect_differences import CompleteSimulation
 
 _MOVED = (
@@ -25,7 +23,6 @@ _MOVED = (
     "f_number",
     "readout_time",
 )  # the sliders whose moves are timed
-_MOVE = 1.003  # factor of a move
 _LEAST_MOVES, _PATIENCE = 3, 1.0  # fewest moves, and seconds after which no more begin
 
 
@@ -102,7 +99,7 @@ def _time_moves(request: SimulationRequest, report: Report) -> None:
         timed: set[frozenset[str]] = set()
         for place, variant in enumerate((settings, exact, bare), 1):
             try:  # another place for each plan: the first would prepare what others need
-                scene = _move(request.scene, name, _MOVE**place)
+                scene = move(request.scene, name, place)
             except OccError:  # the slider is at its end
                 continue
             included = frozenset(plan_with(scene, variant).included)
@@ -111,11 +108,6 @@ def _time_moves(request: SimulationRequest, report: Report) -> None:
                 report(None)
                 moved = replace(request, scene=scene, settings=variant)
                 report(time_move(moved, with_draft=variant is settings))
-
-
-def _move(scene: Scene, name: str, factor: float) -> Scene:
-    value, highest = float(scene.value(name)), quantity(name).slider[1]
-    return scene.replace(**{name: value * factor if value * factor <= highest else value / factor})
 
 
 class _CancellableTimer(StageTimer):

@@ -12,13 +12,14 @@ from fractions import Fraction
 from functools import partial
 from itertools import accumulate
 from operator import mul
+from statistics import median
 from time import perf_counter
 from typing import TypeVar
 
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
-from occ_model.camera.exposure import forget_exposures, lit_fraction
+from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import paper_view_of
@@ -28,6 +29,7 @@ from occ_model.light.sent import Light, light_of
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 from occ_model.results.frame import Plan
 from occ_model.scene.argument_checks import check_seed
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.render import observe, render
@@ -41,7 +43,8 @@ _EXACT_COLUMNS = 97  # number of columns whose reference is computed in rational
 Result = TypeVar("Result")
 
 _ENOUGH_SECONDS = 0.15
-_REPEATS = 5
+_MOVES = 5
+_MOVE = 1.003  # factor of a move
 
 
 def accuracy(
@@ -104,10 +107,10 @@ def _measure_integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint
         return rms(_profile(scene, lit[sample_columns]) - truth) * stretch
 
     for samples in SAMPLES:
-        seconds, lit = time_shortest(partial(sampled_lit_fraction, scene, samples))
+        seconds, lit = time_moves(partial(sampled_lit_fraction, samples=samples), scene)
         name = f"{samples} sample{'s' if samples > 1 else ''}"
         yield AccuracyPoint("integration", name, seconds, error(lit))
-    seconds, lit = time_shortest(partial(lit_fraction, scene))
+    seconds, lit = time_moves(lit_fraction, scene)
     yield AccuracyPoint("integration", CLOSED_FORM, seconds, error(lit))
 
 
@@ -137,7 +140,7 @@ def _measure_effects(
     current: bool = False,
 ) -> AccuracyPoint:
     error = complete.error_of(effects)
-    seconds, _ = time_shortest(partial(_render, scene, frozenset(effects), settings))
+    seconds, _ = time_moves(partial(_render, effects=frozenset(effects), settings=settings), scene)
     return AccuracyPoint("effects", name, seconds, error, current, tuple(effects))
 
 
@@ -161,13 +164,15 @@ def _measure_paths(
     region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
     truth = _observe(scene, plan(scene, 0.0, "profile"), settings)
-    seconds, columns = time_shortest(lambda: expose_columns(paper_view_of(scene), chosen))
+    seconds, columns = time_moves(lambda moved: expose_columns(paper_view_of(moved), chosen), scene)
     error = rms(columns.profile[seen] - truth) * chosen.stretch
     if panel_span(scene) is not None:
         yield AccuracyPoint("path", "profile path", seconds, error)
     by_image = plan_of_effects(scene, "profile", chosen.included)
     difference = _observe(scene, by_image, settings) - truth
-    seconds, _ = time_shortest(partial(_render, scene, frozenset(chosen.included), settings))
+    seconds, _ = time_moves(
+        partial(_render, effects=frozenset(chosen.included), settings=settings), scene
+    )
     yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch)
 
 
@@ -184,8 +189,8 @@ def _measure_drafts(
     truth = render(scene, tolerance=0.0, seed=seed).profile[seen]
     force = dict.fromkeys(chosen.included, True)
     for step in steps:
-        work = partial(render, scene, tolerance=np.inf, seed=seed, force=force, rows_step=step)
-        seconds, frame = time_shortest(work)
+        work = partial(render, tolerance=np.inf, seed=seed, force=force, rows_step=step)
+        seconds, frame = time_moves(work, scene)
         error = rms(frame.profile[seen] - truth) * chosen.stretch
         yield AccuracyPoint("draft", f"draft 1/{step}", seconds, error)
 
@@ -196,18 +201,25 @@ def draft_steps(scene: Scene) -> tuple[int, ...]:
     return tuple(step for step in DRAFT_STEPS if step * _MIN_DRAFT_ROWS <= rows)
 
 
-def time_shortest(work: Callable[[], Result]) -> tuple[float, Result]:
-    """Return the shortest time of several runs, and the result; slow work runs fewer times."""
-    best, spent = np.inf, 0.0
-    for _ in range(_REPEATS):
-        forget_exposures()  # as for a new scene
+def time_moves(work: Callable[[Scene], Result], scene: Scene) -> tuple[float, Result]:
+    """Return the median time after moves of the exposure's slider, and the scene's own result.
+
+    Slow work is timed for fewer moves. The scene itself would be faster than a move, because parts
+    of it are remembered, or slower, because others are prepared for the first time.
+    """
+    result, times = work(scene), list[float]()
+    while len(times) < _MOVES and sum(times) < _ENOUGH_SECONDS:
+        moved = move(scene, "exposure_time", len(times) + 1)
         start = perf_counter()
-        result = work()
-        seconds = perf_counter() - start
-        best, spent = min(best, seconds), spent + seconds
-        if spent > _ENOUGH_SECONDS:
-            break
-    return best, result
+        work(moved)
+        times.append(perf_counter() - start)
+    return median(times), result
+
+
+def move(scene: Scene, name: str, place: int) -> Scene:
+    """Return a scene after some small moves of a slider; raises OccError at its end."""
+    value, highest, factor = float(scene.value(name)), quantity(name).slider[1], _MOVE**place
+    return scene.replace(**{name: value * factor if value * factor <= highest else value / factor})
 
 
 _SAMPLES_AT_ONCE = 1_000_000

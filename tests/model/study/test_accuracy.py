@@ -19,6 +19,7 @@ from occ_model.study.accuracy import (
     exact_lit_fraction,
     point_count,
     sampled_lit_fraction,
+    time_moves,
 )
 
 SMALL = ("rows=80", "columns=400", "panel_width=0.1", "panel_height=0.08")
@@ -43,6 +44,23 @@ def test_the_count_before_measuring_is_that_of_all_parts(points: list[AccuracyPo
     assert list(dict.fromkeys(point.part for point in points)) == list(ACCURACY_PARTS)
     assert len(points) == point_count(small("phone-136us-real"))
     assert all(point.seconds > 0.0 for point in points)
+
+
+def test_a_time_is_the_median_after_moves_of_the_exposure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene, now, exposures = occ.Scene(), [0.0], list[float]()
+    durations = iter((5.0, 0.01, 0.02, 0.09, 0.025))  # the first, of the scene itself, is not timed
+
+    def work(moved: Scene) -> Scene:
+        now[0] += next(durations)
+        exposures.append(moved.camera.exposure_time)
+        return moved
+
+    monkeypatch.setattr("occ_model.study.accuracy.perf_counter", lambda: now[0])
+    monkeypatch.setattr("occ_model.study.accuracy._ENOUGH_SECONDS", 0.14)
+    assert time_moves(work, scene) == (pytest.approx(0.0225), scene)
+    assert len(set(exposures)) == 5
 
 
 @pytest.mark.parametrize(

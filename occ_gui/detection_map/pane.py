@@ -20,7 +20,6 @@ from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_omitted_effects
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
-from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.study.sweep.sweep import MeasuredPoints, rate_intervals
 
@@ -166,19 +165,18 @@ class DetectionMapController(QObject):
         if rates is None or x < 0:
             self._view.show_facts(None)
             return
-        index, sent = x * rates.shape[1] + y, int(rates.sent[x, y])
-        right = tuple(int(count) for count in rates.right[x, y])
-        ends = rate_intervals(SweepPoint(index, sent, right), max(1, int(rates.images[x, y])))
+        point, images = rates.point(x * rates.shape[1] + y), int(rates.images[x, y])
         counts = tuple(
             (name, count, low, high)
-            for name, count, (low, high) in zip(rates.decoders, right, ends, strict=True)
+            for name, count, (low, high) in zip(
+                rates.decoders, point.right, rate_intervals(point, images), strict=True
+            )
         )
+        most_bits = float(rates.most_bits(self._scenes.store.workspace.frame_rate)[x, y])
         self._view.show_facts(
             PointFacts(
-                rates.x_values[x], rates.y_values[y], counts, sent,
-                int(rates.images[x, y]), rates.notes.get(index, ""),
-                tuple(int(count) for count in rates.whole[x, y]),
-                float(rates.most_bits(self._scenes.store.workspace.frame_rate)[x, y]),
+                rates.x_values[x], rates.y_values[y], counts, point.sent, images, point.note,
+                point.whole, most_bits,
             )
         )  # fmt: skip
 

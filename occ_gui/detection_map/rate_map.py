@@ -118,6 +118,12 @@ class RateMap:
             if point.note and point.note not in (note := self.notes.get(point.index, "")):
                 self.notes[point.index] = f"{note} {point.note}".strip()
 
+    def point(self, index: int) -> SweepPoint:
+        """Return what is known of a point."""
+        place, note = divmod(index, len(self.y_values)), self.notes.get(index, "")
+        right, whole = (tuple(each[place].tolist()) for each in (self.right, self.whole))
+        return SweepPoint(index, int(self.sent[place]), right, note, whole)
+
     @property
     def known_count(self) -> int:
         return int(np.count_nonzero(self.images))

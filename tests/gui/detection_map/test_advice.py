@@ -16,7 +16,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.detection_map import advice_worker, map_schedule, search_controller as module
 from occ_gui.detection_map.advice_sentences import make_advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
-from occ_gui.detection_map.worker import make_rate_settings
 from occ_gui.widgets.answer import MoreButton
 from occ_model.commands.limits import format_row, sentences
 from occ_model.parallel.job import Job, JobResult
@@ -31,10 +30,8 @@ from occ_model.results.limits import (
     WorkingRange,
 )
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of
-from occ_model.study.sweep.sweep import measure_points
-from occ_model.study.working_range import working_range
 
 GOOD = Trial(14.7e3, 200, 200, 83.9, 100.0, 20, 20)
 INSIDE = Trial(14.55e3, 3810, 3810, 99.0, 100.0, 381, 381)
@@ -331,14 +328,3 @@ def test_the_buttons_of_the_cards_are_enabled_again_when_their_scene_returns(
         assert "14.55 kHz" in card.go.toolTip()
     card.go.click()
     assert advice_bench.scenes.scene == first.replace(switching_frequency=INSIDE.value)
-
-
-@pytest.mark.parametrize("frequency", [10e3, 17e3])
-def test_the_rate_of_banner_strip_and_map_is_that_of_the_advice(
-    small_scene: Scene, frequency: float
-) -> None:
-    scene = small_scene.replace(switching_frequency=frequency, exposure_time=110e-6)
-    settings = make_rate_settings(SimulationSettings(), 5, ("threshold",), True)
-    point = measure_points(scene, settings, ((0, {}),), 0, lambda: None).points[0]
-    own = working_range(scene, "switching_frequency", 99.0, settings).own
-    assert ((own.right,), own.sent) == (point.right, point.sent)

@@ -83,8 +83,11 @@ def test_the_map_is_the_sweeps_table_of_the_same_points_along_both_sliders(
     axes = {FREQUENCY: rates.x_values, DISTANCE: rates.y_values}
     table = occ.sweep(bench.scenes.scene, axes, images=IMAGES[-1], decoder=QUICK_DECODERS)
     assert rates.least_images == IMAGES[-1]
+    assert map_schedule.make_table(*not_none(bench.controller.complete)).rows == table.rows
     for decoder in QUICK_DECODERS:
         np.testing.assert_array_equal(rates.rates(decoder), table.rates(decoder))
+    rates.images[0, 0] = IMAGES[-2]
+    assert bench.controller.complete is None
     assert (rates.x_values[0], rates.x_values[-1]) == (500.0, 100e3)
     assert (rates.y_values[0], rates.y_values[-1]) == (0.2, 5.0)
 

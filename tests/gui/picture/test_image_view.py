@@ -220,31 +220,25 @@ def test_the_factor_of_the_difference_is_in_the_caption(
         qtbot.keyClick(view.gain, Qt.Key.Key_Down)
 
 
-def places_in(view: ImageView) -> AveragedImage:
-    """Find the simulated picture on the screen."""
-    items = view.simulation.box.childGroup.childItems()
-    return next(item for item in items if isinstance(item, AveragedImage))
-
-
 def test_the_camera_s_picture_is_shown_first_and_the_switch_shows_the_receiver_s_both_named(
     view: ImageView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     frame = snapshot_of().frame
     view.show_picture(Picture(frame))
-    assert places_in(view).image is frame.camera_image
+    assert pictures(view.simulation)[0].image is frame.camera_image
     assert view.simulation.caption.text() == "Camera's picture"
     assert view.switch.key() == "camera"
     assert not np.array_equal(frame.camera_image, frame.image)
     chosen = collect(view.picture_chosen)
     qtbot.keyClick(view.switch, Qt.Key.Key_Down)
     assert chosen == ["receiver"]
-    assert places_in(view).image is frame.image
+    assert pictures(view.simulation)[0].image is frame.image
     assert view.simulation.caption.text() == "Receiver's picture, enhanced by equalization"
     assert view.simulation.graphics.accessibleName() == view.simulation.caption.text()
     assert view.overlay.simulated is frame.image
     other = snapshot_of(enhancement="none").frame
     view.show_picture(Picture(other))
-    assert places_in(view).image is other.image
+    assert pictures(view.simulation)[0].image is other.image
     assert view.simulation.caption.text() == "Receiver's picture, not enhanced"
 
 

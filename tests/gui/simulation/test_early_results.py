@@ -104,8 +104,6 @@ def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
     # An early reading without pixels simulates all effects of the scene, without a plan.
     assert observables == ["image"]
 
-    assert observables == ["image"]
-
 
 @pytest.mark.parametrize("jpeg", [0, 80])
 def test_a_draft_and_the_verdict_on_it_are_painted_at_once(

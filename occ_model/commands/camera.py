@@ -5,7 +5,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.options import Commands, add_option, progress_bar
+from occ_model.commands.options import Commands, add_option, fraction_bar
 from occ_model.errors import ParameterError
 from occ_model.photo.camera.flash import measure_flash
 from occ_model.photo.camera.measure import MOST_PICTURES, measure_camera
@@ -65,13 +65,9 @@ def _by_mains(options: argparse.Namespace) -> CameraMeasurement:
             "two pictures of a room, or one",
             verb="is given",
         )
-    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
-        return measure_camera(
-            options.files,
-            quantity("mains_frequency").parse(options.mains),
-            scan_axis=options.scan_axis,
-            progress=lambda fraction: bar.update(fraction - bar.n),
-        )
+    mains = quantity("mains_frequency").parse(options.mains)
+    with fraction_bar() as progress:
+        return measure_camera(options.files, mains, scan_axis=options.scan_axis, progress=progress)
 
 
 def report_lines(measured: CameraMeasurement | FlashMeasurement) -> list[str]:

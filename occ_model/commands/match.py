@@ -4,6 +4,7 @@ import argparse
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from occ_model.commands.film_lines import add_tolerances
 from occ_model.commands.match_film import match_film
@@ -12,8 +13,8 @@ from occ_model.commands.options import (
     Commands,
     add_option,
     add_scene_options,
+    fraction_bar,
     is_stated,
-    progress_bar,
     scene_of,
 )
 from occ_model.errors import MatchError, ParameterError, one_line, quote
@@ -101,20 +102,9 @@ def _run(options: argparse.Namespace) -> int:
         return 0
     if options.lamps:
         return _run_lamps(photo, scene, options)
-    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
-        match = match_photo(
-            photo,
-            scene,
-            estimate=options.estimate,
-            sent=options.sent,
-            fit_gamma=options.fit_gamma,
-            region=region,
-            progress=lambda fraction: bar.update(fraction - bar.n),
-        )
-    for line in _report_lines(
-        match, _assumption_of_match(match, scene, options), photo.exposure_time
-    ):
-        print(line)
+    with fraction_bar() as progress:
+        match = match_photo(photo, scene, region=region, progress=progress, **_fit_options(options))
+    print("\n".join(_report_lines(match, scene, photo, options)))
     if options.out:
         write_scene_file(options.out, match.scene)
         print(f"{one_line(str(options.out))}: the fitted scene")
@@ -136,15 +126,8 @@ def _check_options(options: argparse.Namespace) -> None:
 
 
 def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
-    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
-        lamp_matches = match_lamps(
-            photo,
-            scene,
-            estimate=options.estimate,
-            sent=options.sent,
-            fit_gamma=options.fit_gamma,
-            progress=lambda fraction: bar.update(fraction - bar.n),
-        )
+    with fraction_bar() as progress:
+        lamp_matches = match_lamps(photo, scene, progress=progress, **_fit_options(options))
     if not lamp_matches:
         raise MatchError(
             "No lamp was found: no place is much brighter than the rest of the photo, and none has "
@@ -153,29 +136,29 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
     for number, (lamp, match) in enumerate(lamp_matches, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):
-            lines += _report_lines(
-                match, _assumption_of_match(match, scene, options), photo.exposure_time
-            )
+            lines += _report_lines(match, scene, photo, options)
         else:
             lines.append(str(match))
         print("\n  ".join(lines))
     return 0
 
 
-def _assumption_of_match(match: Match, scene: Scene, options: argparse.Namespace) -> str:
-    """Name the value on which estimated times depend; empty if the command line states it."""
-    if is_stated(known_parameter(options.estimate, scene.transmitter), options):
-        return ""
-    return assumption(match.known, getattr(match, match.known))
+def _fit_options(options: argparse.Namespace) -> dict[str, Any]:
+    """Return what a single photo's match and those of its lamps take of the command line."""
+    return {name: getattr(options, name) for name in ("estimate", "sent", "fit_gamma")}
 
 
-def _report_lines(match: Match, assumption: str, noted: float | None) -> list[str]:
-    """Describe a match in lines; ``noted`` is the exposure time in seconds by the camera."""
+def _report_lines(
+    match: Match, scene: Scene, photo: Photo, options: argparse.Namespace
+) -> list[str]:
+    """Describe a match, with the value on which times depend unless the command line states it."""
+    is_known = is_stated(known_parameter(options.estimate, scene.transmitter), options)
+    known = "" if is_known else assumption(match.known, getattr(match, match.known))
     verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
     return [
-        describe_match(match, assumption),
+        describe_match(match, known),
         *verdict,
-        *format_facts(match_facts(match, assumption, noted)),
+        *format_facts(match_facts(match, known, photo.exposure_time)),
     ]
 
 

@@ -2,7 +2,8 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NoReturn, TypeAlias
 
@@ -201,6 +202,13 @@ def progress_bar(**options: Any) -> Any:
     from tqdm import tqdm  # slow to import, and needed only by long commands
 
     return tqdm(file=sys.stderr, **{"disable": None, **options})
+
+
+@contextmanager
+def fraction_bar() -> Iterator[Callable[[float], object]]:
+    """Show a bar from 0 to 1; yield the function that sets it."""
+    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
+        yield lambda fraction: bar.update(fraction - bar.n)
 
 
 def print_above_bar(sentence: str) -> None:

@@ -3,6 +3,7 @@
 import os
 import signal
 import sys
+import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Future, ProcessPoolExecutor
@@ -117,16 +118,25 @@ def _work(job: Job, channel: int, run: int) -> JobResult:
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 """Environment variables that limit the threads of linear algebra."""
 
+_LONGEST_FOLDER = 70
+"""Maximum bytes of the temporary folder's path; a socket's is longer by 32 and limited to 103."""
+
 
 def process_context(preload: Sequence[str]) -> Any:
     """Choose how processes are started; ``preload``: modules to import, if possible only once."""
     # A process forked from one with threads copies locks that no thread will ever release. Workers
     # are therefore forked from a server without threads, or spawned if there is none.
-    method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+    has_server = "forkserver" in get_all_start_methods() and _socket_path_fits()
+    method = "forkserver" if has_server else "spawn"
     context: Any = get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload(list(preload))
     return context
+
+
+def _socket_path_fits() -> bool:
+    """Return whether the path of a server's socket in the temporary folder is short enough."""
+    return len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_FOLDER
 
 
 @contextmanager

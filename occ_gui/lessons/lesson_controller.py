@@ -308,5 +308,5 @@ def describe_changes(step: LessonStep, scene: Scene) -> str:
         stated.append(f"{len(changes) - _MOST_STATED_CHANGES} more")
     return (
         f"You have changed the scene: {' and '.join(stated)}. Picture, formula, check and report "
-        "belong to your scene, the numbers in the text to the lesson's."
+        "are of your scene; the numbers in the text are the lesson's."
     )

@@ -49,10 +49,9 @@ class MatchForm(QWidget):
         self._certain_before: Mapping[str, float] = {}  # values confirmed for earlier photos only
         self.sent = KeyedComboBox(
             "What was sent",
-            "What the LED in the photo sent: what the scene sends, a lamp of a given number of "
-            "cycles per second and any duty, or whatever can be read from the stripes.\n"
-            "Try the scene's light: it is used if it explains the stripes; otherwise, they are "
-            "read.",
+            "What the LED in the photo sent: what the scene sends, a lamp of a known frequency, or "
+            "what can be read from the stripes.\n"
+            "Try the scene's light: if it does not explain the stripes, they are read.",
             {
                 "auto": "Unknown: try the scene's light",
                 "scene": "What the scene sends",

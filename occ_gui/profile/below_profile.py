@@ -93,8 +93,8 @@ class ResidualPlot(QWidget):
 
     def _describe(self, comparison: Comparison, axis_limit: float) -> str:
         text = (
-            "Residual, photo minus simulation of the present scene: in this position, correlation "
-            f"{comparison.correlation:.4f} and RMSE {comparison.rmse:.2f} grey levels"
+            f"Residual, photo minus simulation: correlation {comparison.correlation:.4f}, RMSE "
+            f"{comparison.rmse:.2f} grey levels"
         )
         if comparison.largest_residual > axis_limit:
             text += f"; largest residual {comparison.largest_residual:.0f}, outside the axis"

@@ -52,7 +52,7 @@ class FlashMeasurement(LineReadout):
         """What the result rests on, in one sentence."""
         return (
             f"Assumed: the flash lasts {SECOND.format(self.flash, 4)} and is equally bright all "
-            "the time; an error of its length is one of the readout time."
+            "the time. If its length is wrong by 1 %, so is the readout time."
         )
 
     @property

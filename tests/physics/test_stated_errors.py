@@ -156,7 +156,7 @@ def test_edges_hidden_by_white_are_doubted() -> None:
     match = occ.match_photo(
         photo_of(photograph(replace(world, lamp=lamp))), told(world), sent="scene"
     )
-    assert any("White hides" in why for why in match.exposure_reasons)
+    assert any("Saturation hides" in why for why in match.exposure_reasons)
 
 
 def test_the_exposure_is_doubted_where_more_than_two_fifths_are_white() -> None:

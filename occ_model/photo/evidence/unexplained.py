@@ -9,8 +9,8 @@ def why_not_as_sent(varies: bool) -> str:
     if not varies:
         return NEVER_CHANGES
     return (
-        "What the scene sends explains the stripes at no timing: lit columns would be darker than "
-        "dark ones, or dark ones darker than black."
+        "What the scene sends does not explain the stripes, whenever it begins: lit columns would "
+        "be darker than dark ones, or dark ones darker than black."
     )
 
 
@@ -20,10 +20,9 @@ def why_unread(stripes: Stripes) -> str:
         longest, best = best_repetition(stripes.flattened)
         shown, limit = distinct_texts(best, LEAST_AUTOCORRELATION, 2)
         return (
-            f"No period is found in the stripes, so that what is sent cannot be read from them: "
-            f"after no shift of up to {longest} columns is their correlation with themselves above "
-            f"{shown}; at least {limit} is needed; come closer, raise the frequency, or say what "
-            "is sent."
+            f"The stripes do not repeat: shifted by up to {longest} columns, they correlate with "
+            f"themselves by {shown} at most; at least {limit} is needed. Come closer, raise the "
+            "frequency, or say what is sent."
         )
     return (
         f"The stripes repeat after {stripes.period:.1f} columns, but no sequence of chips read "

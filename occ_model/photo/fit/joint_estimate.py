@@ -209,9 +209,9 @@ def _exposure_doubts(seen: float) -> tuple[str, ...]:
     if seen >= _LEAST_EDGES:
         return ()
     return (
-        f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
-        f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed for the exposure "
-        "time. Expose less.",
+        f"Saturation hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are "
+        f"below it; at least {100.0 * _LEAST_EDGES:.0f} % are needed for the exposure time. Expose "
+        "less.",
     )
 
 

@@ -109,8 +109,8 @@ def _doubts_by_edges(cues: Cues) -> list[str]:
         found.append(_scatter_sentence(cues))
     if cues.bits < _LEAST_BITS:
         found.append(
-            f"Only {cues.edges} edges are in view: their even spacing is {cues.bits:.2g} bits of "
-            f"evidence; at least {_LEAST_BITS:.0f} are needed."
+            f"Only {cues.edges} edges are in view, which could be evenly spaced by chance: "
+            f"{cues.bits:.2g} bits of evidence; at least {_LEAST_BITS:.0f} are needed."
         )
     if cues.period < _LEAST_PERIOD:
         found.append(f"A period has {cues.period:.2g} columns; at least {_LEAST_PERIOD:.0f}.")

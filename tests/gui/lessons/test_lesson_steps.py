@@ -140,7 +140,7 @@ def test_a_step_states_what_is_changed_and_which_numbers_belong_to_which_scene(
     bench.scenes.change(readout_time=19e-6)
     assert changed.isVisible()
     assert "Readout time is 19 µs instead of 8 µs." in changed.text()
-    assert "check and report belong to your scene" in changed.text()
+    assert "check and report are of your scene" in changed.text()
     guide.step.reset.click()
     assert not changed.isVisible()
     bench.scenes.change(readout_time=19e-6)

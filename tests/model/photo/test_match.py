@@ -120,7 +120,7 @@ def test_chips_without_a_possible_fit_are_not_said_never_to_change(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(Candidates, "as_sent", lambda _: None)
-    with pytest.raises(occ.MatchError, match="explains the stripes at no timing"):
+    with pytest.raises(occ.MatchError, match="does not explain the stripes, whenever"):
         occ.match_photo(the_photo(), KNOWN, sent="scene")
 
 

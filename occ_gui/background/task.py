@@ -18,33 +18,6 @@ _POLL_MS = 50
 hanging_threads: list[QThread] = []
 """Threads with a plug-in that hangs, kept because Qt aborts the process if one is deleted."""
 
-
-class TaskThread:
-    _plugin_wait_ms = 0
-
-    def __init__(self, worker: QObject, name: str) -> None:
-        self._thread = QThread()
-        self._thread.setObjectName(name)
-        self._may_begin = True
-        worker.moveToThread(self._thread)
-
-    def begin(self) -> None:
-        """Start the thread, unless it was started or ended before."""
-        if self._may_begin:
-            self._may_begin = False
-            self._thread.start()
-
-    def end(self) -> None:
-        """Wait for the running work and end the thread; do not wait for a plug-in that hangs."""
-        self._may_begin = False
-        self._thread.quit()
-        while not self._thread.wait(_POLL_MS):
-            TaskThread._plugin_wait_ms += _POLL_MS if plugins.name_running_plugins() else 0
-            if TaskThread._plugin_wait_ms >= PATIENCE_MS and plugins.name_running_plugins():
-                hanging_threads.append(self._thread)
-                return
-
-
 _log = logging.getLogger(__name__)
 
 
@@ -59,7 +32,6 @@ def sentence_of(error: Exception, name: str, request: object) -> str:
 
 Request = TypeVar("Request")
 Result = TypeVar("Result")
-
 
 Report: TypeAlias = Callable[[Any], None]
 """A function that work calls with a part of its result, the fraction done, or None, which is not
@@ -132,6 +104,8 @@ class Task(QObject, Generic[Request, Result]):
 
     _begun = Signal(object)
 
+    _plugin_wait_ms = 0  # of all tasks
+
     def __init__(
         self, work: Callable[[Request, TaskReporter], Result], name: str, impatient: bool = False
     ) -> None:
@@ -140,7 +114,9 @@ class Task(QObject, Generic[Request, Result]):
         self._current_run: _Run | None = None
         self._next_run: _Run | None = None
         self._worker = _Worker(work, name)
-        self._thread = TaskThread(self._worker, name)
+        self._thread = QThread()
+        self._thread.setObjectName(name)
+        self._worker.moveToThread(self._thread)
         queued = Qt.ConnectionType.QueuedConnection
         self._begun.connect(self._worker.run, queued)
         self._worker.reported.connect(self._on_report, queued)
@@ -170,13 +146,20 @@ class Task(QObject, Generic[Request, Result]):
             self._current_run.abandon()
 
     def stop(self) -> None:
+        """End the thread after its running work; do not wait for a plug-in that hangs."""
         self._is_stopped = True
         self.cancel()
-        self._thread.end()
+        self._thread.quit()
+        while not self._thread.wait(_POLL_MS):
+            Task._plugin_wait_ms += _POLL_MS if plugins.name_running_plugins() else 0
+            if Task._plugin_wait_ms >= PATIENCE_MS and plugins.name_running_plugins():
+                hanging_threads.append(self._thread)
+                return
 
     def _begin(self) -> None:
         self._current_run, self._next_run = self._next_run, None
-        self._thread.begin()
+        if not self._thread.isRunning():
+            self._thread.start()
         self._begun.emit(self._current_run)
 
     @Slot(object, object)

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from gui.kinds import collect
-from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.background import task as tasks
-from occ_gui.background.task import Task, TaskReporter, TaskThread
+from occ_gui.background.task import Task, TaskReporter
 from occ_model import plugins
 
 PATIENCE_S = 10.0
@@ -218,79 +218,46 @@ def test_work_waits_until_what_it_has_reported_is_painted(qtbot: QtBot) -> None:
     assert order == ["a part", "painted", "goes on"]
 
 
-class Worker(QObject):
-    asked = Signal()
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.done_on: list[int] = []
-        self.asked.connect(self.work, Qt.ConnectionType.QueuedConnection)
-
-    @Slot()
-    def work(self) -> None:
-        self.done_on.append(threading.get_ident())
-
-
-def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -> None:
-    worker = Worker()
-    thread = TaskThread(worker, "work")
-    worker.asked.emit()
-    qtbot.wait(20)
-    assert worker.done_on == []
-    thread.begin()
-    qtbot.waitUntil(lambda: bool(worker.done_on))
-    assert threading.get_ident() not in worker.done_on
-    thread.end()
-    worker = Worker()
-    thread = TaskThread(worker, "work")
-    thread.end()
-    thread.begin()
-    worker.asked.emit()
-    qtbot.wait(20)
-    assert worker.done_on == []
+Busy = tuple[Task[None, None], threading.Event, list[str]]
 
 
 @pytest.fixture
-def busy(qtbot: QtBot) -> Iterator[tuple[TaskThread, threading.Event, list[str]]]:
-    """Return a thread with work that ends with an event, the event, and what was done."""
+def busy(qtbot: QtBot) -> Iterator[Busy]:
+    """Return a task whose work ends with an event, the event, and what was done."""
     done: list[str] = []
     begun, go_on = threading.Event(), threading.Event()
 
-    class Holding(Worker):
-        @Slot()
-        def work(self) -> None:
-            with plugins.at_work("The plug-in"):
-                begun.set()
-                go_on.wait()
-            done.append("plug-in")
+    def work(_request: None, _report: TaskReporter) -> None:
+        with plugins.at_work("The plug-in"):
+            begun.set()
+            go_on.wait()
+        done.append("plug-in")
 
-    worker = Holding()
-    thread = TaskThread(worker, "work")
-    thread.begin()
-    worker.asked.emit()
+    task: Task[None, None] = Task(work, "test of the plug-in")
+    task.ask(None)
     assert begun.wait(PATIENCE_S)
-    yield thread, go_on, done
+    yield task, go_on, done
     go_on.set()
     while tasks.hanging_threads:
         tasks.hanging_threads.pop().wait()
 
 
 def test_a_plug_in_that_does_not_come_back_is_left_behind(
-    busy: tuple[TaskThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
+    busy: Busy, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tasks, "PATIENCE_MS", 20)
-    thread, _, done = busy
-    thread.end()
+    task, _, done = busy
+    task.stop()
     assert done == []
     assert plugins.name_running_plugins() == ("The plug-in",)
 
 
 def test_a_plug_in_that_comes_back_in_time_is_waited_for(
-    busy: tuple[TaskThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
+    busy: Busy, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tasks, "PATIENCE_MS", 1e9)
-    thread, go_on, done = busy
+    task, go_on, done = busy
     threading.Timer(0.1, go_on.set).start()
-    thread.end()
+    task.stop()
     assert done == ["plug-in"]
     assert plugins.name_running_plugins() == ()

@@ -22,6 +22,7 @@ from occ_gui.accuracy.effect_rows import (
     make_rows,
 )
 from occ_gui.accuracy.effect_table import EffectTable
+from occ_gui.widgets.building import resize_font
 from occ_model.results.accuracy import (
     EffectCrop,
     EffectDifference,
@@ -160,6 +161,13 @@ def test_pending_switches_are_shown(
     assert cell(table, "led-edges", EFFECT) == "● → ○ LED rise and fall"
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
     assert cell(table, "sensor-noise", EFFECT) == "● Shot and read noise"
+
+
+def test_rows_grow_with_the_text(table: EffectTable, qtbot: QtBot) -> None:
+    low = table.rowHeight(0)
+    table.setFont(resize_font(table.font(), 2.0))
+    qtbot.waitUntil(lambda: table.rowHeight(0) > low)
+    assert table.rowHeight(0) > table.fontMetrics().height()
 
 
 def test_a_switch_reports_the_choice_for_its_effect_and_shows_forced_ones(

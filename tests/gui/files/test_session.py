@@ -223,13 +223,18 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
     assert SessionFile(tmp_path / "state").crashed is None
 
 
-def test_undo_restores_the_crashs_scene_behind_a_requested_one(
-    start: Starting, tmp_path: Path, small_scene: Scene
+@pytest.mark.parametrize("is_other", [False, True])
+def test_undo_restores_the_crashs_scene_behind_another_that_is_requested(
+    start: Starting, tmp_path: Path, small_scene: Scene, is_other: bool
 ) -> None:
-    lost, asked = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
+    asked = small_scene.replace(iso=99.0)
+    lost = small_scene.replace(iso=777.0) if is_other else asked
     crash(tmp_path / "state", lost)
     with start(asked=asked, fresh=True) as application:
         assert application.store.scene == asked
+        said = application.window.statusBar().currentMessage()
+        assert ("brings its scene back" in said) == is_other
+        assert "is restored" not in said
         application.store.undo_stack.undo()
         assert application.store.scene == lost
 

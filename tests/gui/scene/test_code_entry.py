@@ -124,7 +124,10 @@ def test_the_number_of_bits_limits_what_can_be_entered(form: CodeForm) -> None:
     assert "from 0 to 7" in form.entry.number.toolTip()
     form.enter_bits("011")
     assert form.texts() == (3, "011")
-    form.store.change(code=2**16 - 1, bits=16)
+    form.store.change(pattern="10")  # sent in place of the code, and named by the title
+    assert (form.entry.isVisible(), "lamp" in form.entry.title.text()) == (False, True)
+    form.store.change(code=2**16 - 1, bits=16, pattern="")
+    assert form.entry.isVisible()
     assert form.texts() == (65535, "1" * 16)
     assert form.codes == [3]
 

@@ -4,12 +4,13 @@ import pytest
 from gui.kinds import collect, show_widget
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.recording_form import RecordingForm
-from occ_gui.video.video_view import DataView
+from occ_gui.video.video_view import DataView, VideoView
 from occ_model.results.fact import Fact
 from occ_model.scene.recording import DECLARED
 from occ_model.scene.scene import Scene
@@ -121,3 +122,13 @@ def test_the_gap_is_stated_or_why_there_is_none(form: RecordingForm, film_scene:
     form.show_recording(occ.Recording(frame_rate=60.0))
     form.show_scene(film_scene)
     assert "Reading out 1600 columns" in form.gap.text()
+
+
+def test_the_pages_change_neither_the_place_of_their_tabs_nor_the_pictures(qtbot: QtBot) -> None:
+    view = show_widget(qtbot, VideoView(), 700, 520)
+    heights = set()
+    for page in range(view.pages.count()):
+        view.pages.setCurrentIndex(page)
+        QApplication.processEvents()
+        heights.add(view.pictures.height())
+    assert len(heights) == 1

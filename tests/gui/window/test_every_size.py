@@ -18,13 +18,11 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, make_lattice
 from occ_gui.values.choices import OVERLAYS
 from occ_gui.window.theme import SIZES as TEXT_SIZES
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.sweep_request import SweepPoint
-from occ_model.scene.scene import Scene
 
 TESTS = Path(__file__).parents[2]
 
@@ -107,29 +105,6 @@ def test_nothing_is_cut_off_squeezed_or_overlapped_beside_a_photo(
         qtbot.waitUntil(check)
     assert application.window.size() == LEAST
     application.view("profile").enhanced.setChecked(False)
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"exposure_time": 200e-6},  # without a band model
-        pytest.param({"switching_frequency": 500.0, "distance": 5.0}, marks=pytest.mark.whole),
-    ],
-    ids=str,
-)
-def test_the_window_opens_at_the_requested_size_for_any_scene(
-    qtbot: QtBot, small_scene: Scene, changes: dict[str, float]
-) -> None:
-    fresh = Application(Workspace(small_scene.replace(**changes)))
-    assert fresh.window.size() == USUAL
-    fresh.window.resize(LEAST)
-    fresh.window.show()
-    qtbot.waitUntil(lambda: fresh.is_idle)
-    QApplication.processEvents()
-    size = fresh.window.size()
-    fresh.window.close()
-    fresh.window.deleteLater()
-    assert size == LEAST
 
 
 @pytest.mark.own_window

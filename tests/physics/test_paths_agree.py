@@ -13,6 +13,18 @@ IN_DOUBT = (50, 105, 150, 160, 182)  # scenes where a rate of one of the decoder
 SETTLED = (1, 2, 3)  # others
 
 
+def every_second_column(preset: str, frequency: float) -> occ.Scene:
+    """Return a preset's scene with half the columns, read in the same time, and few rows."""
+    scene = occ.load_preset(preset)
+    return scene.replace(
+        rows=scene.camera.rows // 8,
+        columns=scene.camera.columns // 2,
+        readout_time=scene.camera.readout_time * 2,
+        panel_width=scene.transmitter.panel_width * 1.2,
+        switching_frequency=frequency,
+    )
+
+
 @pytest.mark.whole
 def test_studies_agree_with_pictures_for_every_decoder() -> None:
     pairs = list(compare_paths((*IN_DOUBT, *SETTLED), images=16, seed=2))
@@ -33,15 +45,7 @@ def test_studies_agree_with_pictures_for_every_decoder() -> None:
     ],
 )
 def test_a_study_s_rate_is_that_of_pictures(frequency: float) -> None:
-    # Every second column and a part of the rows, read in the same time.
-    scene = occ.load_preset("phone-136us")
-    scene = scene.replace(
-        rows=scene.camera.rows // 8,
-        columns=scene.camera.columns // 2,
-        readout_time=scene.camera.readout_time * 2,
-        panel_width=scene.transmitter.panel_width * 1.2,
-        switching_frequency=frequency,
-    )
+    scene = every_second_column("phone-136us", frequency)
     by_study = occ.success_rate(scene, images=20)
     (read,), _ = count_right_and_whole(scene, RateSettings(20, ("threshold",), 99, path="image"))
     assert abs(by_study - 100.0 * read / (20 * scene.transmitter.bits)) <= 10.0
@@ -56,13 +60,7 @@ def test_a_study_s_rate_is_that_of_pictures(frequency: float) -> None:
     ],
 )
 def test_a_sample_of_the_rows_has_the_rate_of_whole_pictures(frequency: float) -> None:
-    scene = occ.load_preset("phone-136us-real").replace(switching_frequency=frequency)
-    scene = scene.replace(
-        rows=scene.camera.rows // 8,
-        columns=scene.camera.columns // 2,
-        readout_time=scene.camera.readout_time * 2,
-        panel_width=scene.transmitter.panel_width * 1.2,
-    )
+    scene = every_second_column("phone-136us-real", frequency)
     rates = {
         path: np.array(
             [

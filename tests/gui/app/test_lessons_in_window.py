@@ -85,13 +85,8 @@ def test_a_step_about_a_photo_shows_its_verdict_and_treats_its_frequency_as_cert
     assert not photo.verdict.isVisible()
 
 
-def test_a_crash_during_a_lesson_leaves_the_users_own_state(
-    application: Application,
-    guide: LessonView,
-    user: User,
-    small_scene: Scene,
-    photo_file: Path,
-    tmp_path: Path,
+def test_a_crash_or_a_closed_window_during_a_lesson_leaves_the_users_own_state(
+    application: Application, guide: LessonView, user: User, photo_file: Path, tmp_path: Path
 ) -> None:
     session = application.session
     session.begin(SessionFile(tmp_path), names_scene=True)
@@ -122,27 +117,13 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert Scene.from_toml(record["scene"]).pose.distance == 2.0
-    session.end()
-
-
-def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
-    application: Application,
-    guide: LessonView,
-    user: User,
-    small_scene: Scene,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    records: list[tuple[Scene, str]] = []
-    session, store = application.session, application.store.store
-    monkeypatch.setattr(
-        session, "end", lambda: records.append((store.workspace.scene, store.workspace.decoder))
-    )
-    store.put(replace(store.workspace, decoder="matched"))
     guide.list.choices[0].click()
     user.wait_until_idle()
-    assert application.store.scene != small_scene
     application.window.close()
-    assert records == [(small_scene, "matched")]
+    record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
+    assert not record["in_use"]
+    assert Scene.from_toml(record["scene"]) == before.scene.replace(distance=2.0)
+    assert record["view"]["decoder"] == "matched"
 
 
 def test_a_lesson_keeps_the_number_of_visible_columns_while_the_scene_changes(

@@ -196,7 +196,7 @@ class LimitCard(QFrame):
 
     def show_searching(self) -> None:
         self._is_searching = True
-        self._show("waiting", "Other decoders are searched first.", None)
+        self._show("waiting", "Its search has not begun yet.", None)
         self.set_outdated(False)
 
     def show_progress(self, pictures: int | None) -> None:

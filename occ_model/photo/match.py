@@ -149,7 +149,7 @@ def _match_chips(photo: Photo, scene: Scene, how: _Settings, report: "_Progress"
     candidates = Candidates(
         stripes,
         scene,
-        _cameras(stripes, scene, averaging, fit_gamma, report.again),
+        _cameras(stripes, scene, averaging, fit_gamma),
         fit_gamma,
         how.estimate,
         photo.exposure_time,
@@ -204,14 +204,12 @@ def check_words(estimate: str, sent: str, averaging: str) -> None:
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
 
 
-def _cameras(
-    stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool, check: Callable[[], object]
-) -> list[CameraTone]:
+def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> list[CameraTone]:
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)
     low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
-    return camera_tones(scene, averagings, low, high, check)
+    return camera_tones(scene, averagings, low, high)
 
 
 def _hypotheses(

@@ -117,7 +117,9 @@ class Candidates:
             return None
         bits = max(found.bits, float(self.scene.transmitter.bits))
         # They differ so little that what explains them best is near: it need not be searched.
-        other = explain_from([found.fit.timing], self.stripes, chips, self.cameras, self.fit_gamma)
+        other = explain_from(
+            [found.fit.timing], self.stripes, chips, self.cameras, self.fit_gamma, self.check
+        )
         sent = f"{self._named(chips)} instead"
         return self._supposed(sent, other, bits=bits, was_read=True)
 

@@ -83,7 +83,7 @@ def explain(
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
         others = Search(stripes.flattened, chips).candidates(steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
-    return explain_from(_promising(candidates), stripes, chips, cameras, with_gamma)
+    return explain_from(_promising(candidates), stripes, chips, cameras, with_gamma, check)
 
 
 def explain_from(
@@ -91,17 +91,19 @@ def explain_from(
     stripes: Stripes,
     chips: ByteArray,
     cameras: Sequence[CameraTone],
-    with_gamma: bool = False,
+    with_gamma: bool,
+    check: Callable[[], object],
 ) -> Explanation | None:
     """Fit each camera's response from some timings, and keep the one with the least residual.
 
-    That of an equalized picture must have half the least residual of the others.
+    That of an equalized picture must have half the least residual of the others. What ``check``
+    raises ends the fits.
     """
     found: list[tuple[float, list[StripeFit], CameraTone]] = []
     for camera in cameras:
         if found and stripes.saturated <= CLIPPED_FRACTION:  # responses then differ little
             starts = [fit.timing for fit in found[0][1]]
-        model = StripeModel(stripes.profile, chips, camera.tone, starts[0].step)
+        model = StripeModel(stripes.profile, chips, camera.tone, starts[0].step, check)
         fits = _fits(model, starts, with_gamma)
         ratio = _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
         if fits:

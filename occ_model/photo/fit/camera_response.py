@@ -1,6 +1,6 @@
 """The camera's response: from a column's lit fraction to its value between two levels."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,37 +26,20 @@ class CameraTone:
 
 
 def camera_tones(
-    scene: Scene,
-    averagings: Sequence[str],
-    low: float,
-    high: float,
-    check: Callable[[], object] = lambda: None,
+    scene: Scene, averagings: Sequence[str], low: float, high: float
 ) -> list[CameraTone]:
     """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
-    Where the scene equalizes histograms, the response of an equalized picture is returned too. What
-    ``check`` raises ends the fit that asks for a response.
+    Where the scene equalizes histograms, the response of an equalized picture is returned too.
     """
     tones = []
     for averaging in averagings:
         black = low / high if low > _BLACK_LEVEL else 0.0
-        is_light = averaging == "light"
-        tone = _AveragedLight(black, check) if is_light else _PixelValues(check)
+        tone = _AveragedLight(black) if averaging == "light" else Tone()
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
             tones.append(CameraTone(averaging, "equalization", _Ranks(tone)))
     return tones
-
-
-@dataclass(frozen=True)
-class _PixelValues(Tone):
-    """The response where pixel values are averaged; ``check``: see :func:`camera_tones`."""
-
-    check: Callable[[], object]
-
-    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:
-        self.check()
-        return super().__call__(lit, gamma)
 
 
 @dataclass(frozen=True)
@@ -67,10 +50,8 @@ class _AveragedLight(Tone):
     """
 
     black: float
-    check: Callable[[], object]
 
     def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:
-        self.check()
         dark = self.black**gamma
         value = (dark + (1.0 - dark) * lit) ** (1.0 / gamma)
         return np.asarray((value - self.black) / (1.0 - self.black))

@@ -7,6 +7,7 @@ projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.photo.fit.damped_least_squares import minimized
-from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
+from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, solved
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
@@ -84,7 +85,8 @@ class StripeModel:
     """The model of one profile, for one sequence of chips and one tone.
 
     ``tone``: None for a profile of light, which is linear in the lit fractions. ``step``: chips per
-    column, roughly: the number of chips limits the degrees of freedom of the levels.
+    column, roughly: the number of chips limits the degrees of freedom of the levels. What ``check``
+    raises ends a fit.
     """
 
     def __init__(
@@ -93,8 +95,9 @@ class StripeModel:
         chips: ByteArray,
         tone: Tone | None,
         step: float,
+        check: Callable[[], object] = lambda: None,
     ) -> None:
-        self._profile = profile
+        self._profile, self._check = profile, check
         self._light = ChipLight(chips, len(profile))
         self._tone = tone or Tone()
         self._step = step
@@ -120,6 +123,7 @@ class StripeModel:
         return low, swing, np.minimum(low + swing * tone, WHITE)
 
     def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        self._check()
         lit = self._light.exposed(timing).lit
         tone = self._tone(lit, timing.gamma)
         levels = self._explained(tone, self._kept_profile)
@@ -129,10 +133,7 @@ class StripeModel:
     def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:
         """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
         kept = LitColumns(self._kept_shapes, tone[self._kept])
-        matrix = self._equations.matrix(self._weight, kept.lit)
-        # Where the response hardly varies the levels are undetermined: keep them small.
-        matrix.flat[:: len(matrix) + 1] += 1e-9 * len(self._weight)
-        return np.asarray(np.linalg.solve(matrix, kept.sums(data).T).T)
+        return solved(self._equations.matrix(self._weight, kept.lit), kept.sums(data))
 
     def _slopes(self, timing: Timing) -> FloatArray:
         """Return the residual's slopes over the timing's fields, shape (columns, 4).

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from occ_model.products import combined, dot, leading_direction, orthonormal, row_products
+from occ_model.products import (
+    combined,
+    dot,
+    leading_direction,
+    orthonormal,
+    quadratic_forms,
+    row_products,
+    solved_positive,
+)
 
 
 @pytest.mark.parametrize("length", [0, 1, 8191, 8192, 8193, 50_000])
@@ -38,3 +46,12 @@ def test_the_leading_direction_is_that_of_the_largest_eigenvalue(lead: float) ->
     found = leading_direction((turned * values) @ turned.T)
     assert abs(found @ turned[:, -1]) == pytest.approx(1.0, abs=1e-9)
     assert not leading_direction(np.zeros((3, 3))).any()
+
+
+def test_a_positive_matrix_is_solved_and_gives_its_quadratic_forms() -> None:
+    random = np.random.default_rng(5)
+    rows, vectors = random.normal(size=(150, 160)), random.normal(size=(40, 150))
+    matrix, wanted = rows @ rows.T, random.normal(size=150)
+    assert solved_positive(matrix, matrix @ wanted) == pytest.approx(wanted, abs=1e-6)
+    lengths = ((vectors @ rows) ** 2).sum(axis=1)
+    assert quadratic_forms(vectors, matrix) == pytest.approx(lengths)

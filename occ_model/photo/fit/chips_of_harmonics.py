@@ -201,7 +201,7 @@ def _ascended(
 
     -1 is the likeness of constant chips.
     """
-    count = len(first)
+    count, best = len(first), -np.inf
     chips = first.astype(np.float64)
     own, beside = np.diag(products), products[np.arange(count), np.arange(count) - 1]
     # Where no chip, one, or one and that before it changes: its likeness follows from what is new.
@@ -218,9 +218,12 @@ def _ascended(
         )
         on, along, energy = on + chips.sum(), along + chips @ towards, energy + chips @ pull
         varies = (on > 0.5) & (on < count - 0.5)
-        alike = np.where(varies, along / np.sqrt(np.maximum(energy, 1e-300)), -1.0)
+        # Of next to no energy rounding makes any likeness: that of no step but a higher one counts.
+        alike = np.where(varies, along / np.sqrt(np.maximum(energy, 1e-12 * own.sum())), -1.0)
+        best = max(best, float(alike[0]))
         most = int(alike.argmax())
-        if most == 0 or alike[most] <= alike[0] + _LEAST_GAIN:
+        if alike[most] <= best + _LEAST_GAIN:
             return chips.astype(np.uint8), float(alike[0])
-        changed = [(most - 1) % count] if most <= count else [most - count - 1, most - count - 2]
+        best = float(alike[most])
+        changed = [most - 1] if most <= count else [most - count - 1, most - count - 2]
         chips[changed] = 1.0 - chips[changed]

@@ -61,8 +61,8 @@ def fits_near(models: Sequence[JointModel], values: FloatArray) -> list[JointFit
             others = [model.with_usual(other) for other in others]
         best = model.fit(here, rounds=_ROUNDS)
         for start in others:
-            other = model.promising(start, _ROUNDS, "normal", _HOPELESS_RATIO * best.misfit)
-            best = best if other is None or other.misfit >= best.misfit else other
+            other = model.fit(start, _ROUNDS, hopeless=_HOPELESS_RATIO * best.misfit)
+            best = min(best, other, key=lambda fit: fit.misfit)
         found.append(best)
     return found
 
@@ -77,8 +77,8 @@ def of_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
     hopeless = _HOPELESS_RATIO * free.misfit
 
     def fits(starts: Sequence[FloatArray], rounds: int, shape: BlurShape) -> list[JointFit]:
-        tried = [model.promising(start, rounds, shape, hopeless) for start in starts]
-        return [fit for fit in tried if fit is not None]
+        tried = [model.fit(start, rounds, shape, hopeless) for start in starts]
+        return [fit for fit in tried if fit.misfit <= hopeless]
 
     width = float(free.values[1] / free.values[0]) ** 2 / 12.0 + float(free.values[7]) ** 2
     found = {

@@ -135,21 +135,11 @@ class JointModel:
         first: FloatArray,
         rounds: int = 12,
         shape: BlurShape = "normal",
+        hopeless: float = math.inf,
     ) -> JointFit:
-        """Fit from a first guess, by a shape of the blur."""
-        fit = self.promising(first, rounds, shape)
-        assert fit is not None  # noqa: S101 - no misfit is infinite
-        return fit
-
-    def promising(
-        self, first: FloatArray, rounds: int, shape: BlurShape, hopeless: float = math.inf
-    ) -> JointFit | None:
-        """Fit like :meth:`fit`; None, after a step, where the misfit is beyond what is hopeless."""
+        """Fit from a first guess; end after a step where the misfit is beyond what is hopeless."""
         index = np.flatnonzero(self._free)
         scaled, found, residual = self._minimized(first, index, rounds, shape, hopeless)
-        misfit = dot(residual, residual)
-        if misfit > hopeless:
-            return None
         values = scaled.values(found)
         slopes = self._slopes_of(scaled, found, index, shape)
         rates = scaled.rates(values)
@@ -163,7 +153,7 @@ class JointModel:
         if not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
             shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, shape))
-        return JointFit(values, covariance, misfit, float(prior @ prior), shift)
+        return JointFit(values, covariance, dot(residual, residual), float(prior @ prior), shift)
 
     def rough(
         self, first: FloatArray, fixed: Sequence[int], rounds: int, hopeless: float = math.inf

@@ -110,7 +110,6 @@ class StripeModel:
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self._kept])
         self._kept_profile = profile[self._kept]
-        self._weight = np.ones(len(self._kept_profile))
         # Slopes are needed where the residual has just been computed.
         self._at = lru_cache(maxsize=1)(self._fitted_at)
 
@@ -133,7 +132,7 @@ class StripeModel:
     def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:
         """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
         kept = LitColumns(self._kept_shapes, tone[self._kept])
-        return solved(self._equations.matrix(self._weight, kept.lit), kept.sums(data))
+        return solved(self._equations.matrix(np.ones_like(kept.lit), kept.lit), kept.sums(data))
 
     def _slopes(self, timing: Timing) -> FloatArray:
         """Return the residual's slopes over the timing's fields, shape (columns, 4).

@@ -115,3 +115,13 @@ def test_chips_of_a_long_exposure_come_back_by_descent_from_noisy_harmonics(
     assert all(one.explained >= two.explained for one, two in itertools.pairwise(found))
     distinct = {min(np.roll(one.chips, k).tobytes() for k in range(12)) for one in found}
     assert len(distinct) == len(found)
+
+
+@pytest.mark.parametrize(("harmonics", "count"), [(1, 12), (2, 12), (3, 24)])
+def test_a_descent_ends_where_so_few_harmonics_leave_chips_without_any(
+    harmonics: int, count: int
+) -> None:
+    """Rounding makes next to no energy look like any, again and again."""
+    random = np.random.default_rng(harmonics)
+    lines = random.normal(size=harmonics) + 1j * random.normal(size=harmonics)
+    assert all(one.explained < 1.0 + 1e-9 for one in chips_by_descent(lines, count))

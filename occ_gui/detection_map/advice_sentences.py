@@ -111,9 +111,9 @@ def _make_title(limits: Limits) -> str:
 def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
     place, detail = format_end(parameter, end), end_text(parameter, end)
     detail = f"{detail[:1].upper()}{detail[1:]}"
-    if end.inside is None:
+    if not end.is_sure:
         text = f"The {limit} that it reads is about {place}; no value within is sure to be read."
         return AdviceLine(text, detail=detail)
     bound = "at most " if limit in _LEAST else "at least "
     text = f"The {limit} that it reads is {bound if end.fails is None else ''}{place}."
-    return AdviceLine(text, (parameter, end.stated, place), detail=detail)
+    return AdviceLine(text, (parameter, end.value, place), detail=detail)

@@ -213,10 +213,10 @@ class LimitCard(QFrame):
             self._show("none", tip, None)
             return
         value = format_end(_PARAMETER, end)
-        if end.inside is None:
+        if not end.is_sure:
             value = f"about {value}"
         limit = f"at least {value}" if end.fails is None else value
-        self._show(limit, tip, None if end.inside is None else end.stated)
+        self._show(limit, tip, end.value if end.is_sure else None)
 
     def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""

@@ -20,12 +20,12 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import most_bits
-from occ_model.study.limits import SEARCHED_PARAMETERS, estimate_images
-from occ_model.study.working_range import READ_RATE
+from occ_model.study.limits import SEARCHED_PARAMETERS
+from occ_model.study.working_range import READ_RATE, estimate_range_images
 
 IMAGES = 20
 
-_USUAL_IMAGES = len(SEARCHED_PARAMETERS) * estimate_images(IMAGES, READ_RATE)
+_USUAL_IMAGES = len(SEARCHED_PARAMETERS) * estimate_range_images(IMAGES)
 """Usual number of images in a decoder's search, from which its progress is estimated."""
 
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)

@@ -180,11 +180,14 @@ def _range_lines(decoder: str, found: WorkingRange) -> list[str]:
     faults = [found.faults] if found.faults else []
     if found.failure is not None:
         return [found.failure, *faults]
-    name = found.parameter
+    name, gaps = found.parameter, format_gaps(found)
     lines = [f"The {decoder} decoder, {quantity(name).in_sentence}:"]
-    for interval in found.intervals:
+    for gap, interval in zip(["", *gaps], found.intervals, strict=True):
+        if gap:
+            lines.append(f"  gap from {gap}")
+        kind = "island, " if interval.is_island else ""
         ends = (interval.lowest, interval.highest)
-        lines += [f"  {format_end(name, end)}: {end_text(name, end)}" for end in ends]
+        lines += [f"  {kind}{format_end(name, end)}: {end_text(name, end)}" for end in ends]
     if found.most_chips is not None:
         lines.append(f"  {search_end_text(found)}")
     return lines + faults

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
-from occ_model.errors import one_line
+from occ_model.errors import inflect, one_line
 from occ_model.results.bit_errors import FRAMES_A_SECOND, bits_a_second
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import typed_form
@@ -33,32 +33,22 @@ class Trial:
 
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
-    """One end of an interval in which a decoder reads, confirmed by new images."""
+    """One end of an interval in which a decoder reads, found with images of its own."""
 
-    works: Trial
-    # A value beyond, whose 95 % interval is below the required rate; None at the end of the search
-    fails: Trial | None
-    # A value inside without a wrong bit, whose 95 % interval is above the required rate. At the end
-    # of the search it is ``works`` if no bit was wrong there; None if not found or not searched
-    inside: Trial | None = None
-    # Whether the end was found by bisection; otherwise it is known only to a step of the search
-    is_bisected: bool = False
-    # The 95 % interval of the true end; None if unknown
+    # What is stated: the limit of the 95 % interval that is nearer to the range; without one, the
+    # last value of the search that is read
+    value: float
+    works: Trial  # The images at a value inside or at the stated one
+    fails: Trial | None  # The images at a value beyond; None at the end of the search
+    # The 95 % interval of the true end, in the order outwards; None if known only to a step
     interval: tuple[float, float] | None = None
 
     @property
-    def value(self) -> float:
-        """The confirmed last value at which the decoder reads, limited to the interval."""
-        low, high = self.interval or (self.works.value, self.works.value)
-        return min(max(self.works.value, low), high)
-
-    @property
-    def stated(self) -> float:
-        """The value that is stated as the limit: the last one inside that is sure to be read.
-
-        It is the confirmed last value if none is known to be sure.
-        """
-        return self.value if self.inside is None else self.inside.value
+    def is_sure(self) -> bool:
+        """Whether the images show that the stated value is read."""
+        if self.fails is not None:
+            return self.interval is not None
+        return self.works.whole == self.works.images
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +57,8 @@ class ReadInterval:
 
     lowest: RangeEnd
     highest: RangeEnd
+    # Whether it is one of several and has only one or two values of the search
+    is_island: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,31 +202,26 @@ def format_value(parameter: str, value: float) -> str:
 
 def format_end(parameter: str, end: RangeEnd | None) -> str:
     """Format an end of a range as it is stated everywhere; ``"none"`` if nothing is read."""
-    return "none" if end is None else format_value(parameter, end.stated)
+    return "none" if end is None else format_value(parameter, end.value)
 
 
 def end_text(parameter: str, end: RangeEnd) -> str:
-    """State how an end of a range was confirmed, and its 95 % interval."""
-    if end.inside is None:
-        text = f"{_place_text(parameter, end)} it read {_rate_text(end.works)}"
-    else:
-        text = f"there it read every bit of {end.inside.images} images"
+    """State the 95 % interval of an end of a range, and how the end is known."""
     if end.fails is None:
-        return f"{text}; values beyond were not tried."
-    text += "; " if end.inside else ", "
-    if end.inside is not None:
-        works = format_value(parameter, end.works.value)
-        text += f"at {works} {_rate_text(end.works)}, "
-    text += f"at {format_value(parameter, end.fails.value)} {_rate_text(end.fails)}."
-    if end.interval is not None:
-        low, high = (format_value(parameter, value) for value in end.interval)
-        text += f" The end is between {low} and {high} (95 %)."
-    return text
+        return f"{_trial_text(parameter, end.works, end)}; values beyond were not tried."
+    trials = ", ".join(_trial_text(parameter, trial, end) for trial in (end.works, end.fails))
+    if end.interval is None:
+        return f"known to a step of the search: {trials}."
+    low, high = (format_value(parameter, value) for value in sorted(end.interval))
+    return f"the end is between {low} and {high} (95 %): {trials}."
 
 
-def _place_text(parameter: str, end: RangeEnd) -> str:
-    works = end.works.value
-    return "there" if end.value == works else f"at {format_value(parameter, works)}"
+def _trial_text(parameter: str, trial: Trial, end: RangeEnd) -> str:
+    value = format_value(parameter, trial.value)
+    place = "there" if value == format_end(parameter, end) else f"at {value}"
+    if trial.whole == trial.images:
+        return f"{place} it read every bit of {inflect(trial.images, 'image')}"
+    return f"{place} {_rate_text(trial)}"
 
 
 def format_gaps(working_range: WorkingRange) -> list[str]:
@@ -247,13 +234,22 @@ def format_gaps(working_range: WorkingRange) -> list[str]:
 
 
 def gaps_text(working_range: WorkingRange) -> str:
-    """State the gaps; empty without any."""
+    """State the gaps, and the islands between them; empty without any."""
     if not working_range.gaps:
         return ""
-    return (
+    name = working_range.parameter
+    islands = [
+        f"{format_end(name, each.lowest)} to {format_end(name, each.highest)}"
+        for each in working_range.intervals
+        if each.is_island
+    ]
+    sentences = [
         "It does not read everywhere between them: there are gaps from "
         f"{'; '.join(format_gaps(working_range))}."
-    )
+    ]
+    if islands:
+        sentences.append(f"Islands, in which it reads, are from {'; '.join(islands)}.")
+    return " ".join(sentences)
 
 
 def search_end_text(working_range: WorkingRange) -> str:
@@ -274,8 +270,8 @@ def search_sentences(limits: Limits) -> list[str]:
     if not limits.frequency.intervals and not limits.exposure.intervals:
         return [step_sentence]
     return [
-        f"Each end was confirmed with at least {limits.images} images that were not used to find "
-        "it; the 95 % intervals are based on the number of images.",
+        f"Each end rests on at least {limits.images} images that were not used to choose it. "
+        "What is stated is the limit of its 95 % interval at which the most is read.",
         step_sentence,
     ]
 

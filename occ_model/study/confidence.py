@@ -77,7 +77,7 @@ _REFUTING_PROBABILITY = 0.025  # of wrongly rejecting a rate: one side of a 95 %
 _STAKES = (0.03, 0.1, 0.3)  # fractions of the maximum bet: small ones detect small deficits
 
 
-def count_until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
+def count_until_refuted(counts: Iterable[float], bits: int, least: float) -> list[float] | None:
     """Return counts of correct bits until they refute the fraction ``least``; None if none do.
 
     A bet on each image that fewer bits are read, at fair odds if the fraction is reached,

@@ -2,7 +2,7 @@
 
 The searches, see :mod:`occ_model.study.working_range`, are independent: two processes find the same
 answer in half the time. All decoders read the same pictures, so one process searches along a
-parameter for all of them; the ends of a decoder are confirmed before the next decoder's search.
+parameter for all of them.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from occ_model.errors import ParameterError, quote
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.results.decoding import PAPER_DECODER
-from occ_model.results.limits import Advice, Limits, RangeEnd, TheoryLimits, WorkingRange
+from occ_model.results.limits import Advice, Limits, TheoryLimits, WorkingRange
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
@@ -24,7 +24,6 @@ from occ_model.study import theory
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.cause.suspects import reads_two_headers
 from occ_model.study.success_rate import check_rate
-from occ_model.study.sure_ends import confirm_end, estimate_end_images, pair_ends, replace_ends
 from occ_model.study.working_range import READ_RATE, estimate_range_images, working_range
 
 if TYPE_CHECKING:
@@ -50,9 +49,8 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     Each answer is a list of intervals, because the success rate need not fall steadily: stripes
     come back beyond a null. Values are scanned in steps of 3.6 %; a gap as wide in which half of
     the pictures are lost is found in 97 of 100 searches. The outermost ends and those of the
-    scene's own interval are found by bisection, and each end is confirmed with images that were not
-    used to find it. A bisected end has a 95 % interval, see
-    :mod:`occ_model.study.sure_ends`.
+    scene's own interval have 95 % intervals, see :mod:`occ_model.study.range_end`, of which the
+    limit nearer to the range is stated. Each end rests on images that were not used to choose it.
 
     Parameters
     ----------
@@ -111,20 +109,13 @@ MOST_PROCESSES = 2  # one for each parameter
 _POLL_SECONDS = 0.1  # between two polls of other processes
 
 
-def estimate_images(images: int, rate: float) -> int:
-    """Return how many images a decoder's search along a parameter usually reads."""
-    return estimate_range_images(images) + estimate_end_images(rate)
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class _Task:
-    """A search along a parameter, or for one of the ends that it has found."""
+    """A search along a parameter."""
 
     search: "_DecoderSearch"
     name: str  # of the parameter
-    function: Callable[..., Any]
-    arguments: tuple[Any, ...]
-    end: int | None = None  # which of the parameter's ends
+    arguments: tuple[Scene, str, float, RateSettings]
 
     @property
     def description(self) -> str:
@@ -136,38 +127,21 @@ class _DecoderSearch:
 
     def __init__(self, scene: Scene, rate: float, settings: RateSettings) -> None:
         self._scene, self._rate, self._settings = scene, rate, settings
-        self.waiting = [self._task(working_range, name) for name in SEARCHED_PARAMETERS]
-        self._ranges: dict[str, WorkingRange] = {}
-        self._ends: dict[str, list[RangeEnd | None]] = {}
-
-    def _task(self, function: Callable[..., Any], name: str, *further: Any, **which: int) -> _Task:
-        arguments = (self._scene, name, self._rate, self._settings, *further)
-        return _Task(self, name, function, arguments, **which)
+        self.waiting = [
+            _Task(self, name, (scene, name, rate, settings)) for name in SEARCHED_PARAMETERS
+        ]
+        self.ranges: dict[str, WorkingRange] = {}
 
     def take_next(self, name: str) -> _Task | None:
-        """Take a task that waits: for an end if there is one, else best along a parameter."""
-        order = [task.end is None and 1 + (task.name != name) for task in self.waiting]
+        """Take a task that waits, best along a parameter."""
+        order = [task.name != name for task in self.waiting]
         return self.waiting.pop(order.index(min(order))) if order else None
 
-    def take_result(self, task: _Task, result: Any) -> None:
-        if task.end is not None:
-            self._ends[task.name][task.end] = result
-            return
-        pairs = pair_ends(result)
-        self._ranges[task.name], self._ends[task.name] = result, [None] * len(pairs)
-        self.waiting += [
-            self._task(confirm_end, task.name, pair, end=end) for end, pair in enumerate(pairs)
-        ]
-
     def found(self) -> Limits | None:
-        """Return the limits if all ends have been found."""
-        ranges = []
-        for name in SEARCHED_PARAMETERS:
-            ends = [end for end in self._ends.get(name, ()) if end is not None]
-            if name not in self._ranges or len(ends) < len(self._ends[name]):
-                return None
-            ranges.append(replace_ends(self._ranges[name], ends))
-        settings = self._settings
+        """Return the limits if both ranges have been found."""
+        if len(self.ranges) < len(SEARCHED_PARAMETERS):
+            return None
+        settings, ranges = self._settings, (self.ranges[name] for name in SEARCHED_PARAMETERS)
         return Limits(
             self._scene, settings.decoders[0], self._rate, settings.images, settings.seed, *ranges
         )
@@ -190,7 +164,7 @@ class _SearchRunner:
         self._heartbeat, self._progress = heartbeat, progress
         self._read = 0
         self._expected = sum(
-            estimate_images(each.arguments[3].images, each.arguments[2])
+            estimate_range_images(each.arguments[3].images)
             for search in searches
             for each in search.waiting
         )
@@ -208,7 +182,7 @@ class _SearchRunner:
                 yield from self._run_in(pools)
         while (task := self._take_next(SEARCHED_PARAMETERS[0])) is not None:
             beat = partial(self._on_image, task.description)
-            task.search.take_result(task, task.function(*task.arguments, beat))
+            task.search.ranges[task.name] = working_range(*task.arguments, beat)
             yield from self._take_found()
 
     def _run_in(self, pools: "Sequence[tuple[ProcessPool, str]]") -> Iterator[Limits]:
@@ -225,7 +199,7 @@ class _SearchRunner:
                 self._report(next(iter(running.values()))[0].description)
                 for future in done:
                     task, pool = running[future]
-                    task.search.take_result(task, _unwrap_result(future.result()))
+                    task.search.ranges[task.name] = _unwrap_result(future.result())
                     del running[future]
                     idle.append(pool)
                 yield from self._take_found()
@@ -255,7 +229,7 @@ class _SearchRunner:
 
 def _submit(pool: "ProcessPool", task: _Task) -> "Future[JobResult]":
     try:
-        return pool.submit(Job(task.function, task.arguments), 0, 1)
+        return pool.submit(Job(working_range, task.arguments), 0, 1)
     except Exception:
         task.search.waiting.insert(0, task)
         raise

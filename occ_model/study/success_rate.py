@@ -2,7 +2,7 @@
 
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
 
@@ -21,7 +21,7 @@ from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
-from occ_model.study.signals.batch import Observation, simulate_images
+from occ_model.study.signals.batch import Observation
 from occ_model.study.signals.pictures import image_of, observe_images
 from occ_model.transmitter.scheme import check_code
 
@@ -113,19 +113,18 @@ def right_bits_of_images(
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
     at_once: int = 1,
-    is_kept: bool = True,
     first: int = 0,
 ) -> Iterator[tuple[int, ...]]:
     """Yield the number of bits that each decoder reads correctly, image by image.
 
-    ``at_once``: images that are read first, more if more are asked for. ``is_kept``: whether the
-    images are kept for other decoders. ``first``: number of the first image.
+    ``at_once``: images that are read first, more if more are asked for. ``first``: number of the
+    first image.
     """
     check_size(scene.camera)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     pictures = _pictures_of(scene, settings)
     for numbers in _batches(settings, first, at_once):
-        observations = _observe_cached(pictures, numbers, is_kept)
+        observations = _observe_cached([(pictures, number) for number in numbers])
         scenes = [scene] * len(observations)
         results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
         for of_image in zip(*results, strict=True):
@@ -177,41 +176,47 @@ def right_bits_of_scenes(
 
 def simulate_ahead(scenes: Sequence[Scene], settings: RateSettings, first: int, last: int) -> None:
     """Simulate some images of several scenes at once, for decoders that will read them."""
-    if settings.path == "image":
-        return
-    missing = [
-        (pictures, number)
-        for pictures in (_pictures_of(scene, settings) for scene in scenes)
-        for number in range(first, last)
-        if (pictures, number) not in _observed
-    ]
-    images = [
-        image_of(pictures.scene, _plan_cached(pictures), pictures.seed, number)
-        for pictures, number in missing
-    ]
-    _keep(missing, simulate_images(images))
+    if settings.path != "image":
+        pictures = (_pictures_of(scene, settings) for scene in scenes)
+        _observe_cached([(each, number) for each in pictures for number in range(first, last)])
+
+
+@dataclass(frozen=True, slots=True)
+class ImageSeries:
+    """Some images of a scene, by their numbers, in a study of its own seed."""
+
+    scene: Scene
+    seed: int
+    numbers: range
 
 
 def read_ahead(
-    scenes: Sequence[Scene], settings: RateSettings, numbers: range, heartbeat: Heartbeat
+    series: Sequence[ImageSeries],
+    settings: RateSettings,
+    heartbeat: Heartbeat,
+    *,
+    is_kept: bool = True,
 ) -> Iterator[list[int]]:
-    """Yield how many bits a decoder reads correctly in some images of each scene.
+    """Yield how many bits a decoder reads correctly in the images of each series.
 
-    The images of several scenes are simulated and read at once.
+    The images of several series are simulated and read at once.
     """
     (decoder,) = settings.decoders
-    at_once = max(_MOST_AT_ONCE // len(numbers), 1)
-    for start in range(0, len(scenes), at_once):
-        part = scenes[start : start + at_once]
-        simulate_ahead(part, settings, numbers.start, numbers.stop)
-        observations: list[Observation | None] = []
-        for scene in part:
-            observations += _observe_cached(_pictures_of(scene, settings), numbers, is_kept=True)
-        results = iter(_read([scene for scene in part for _ in numbers], observations, decoder))
-        for scene in part:
-            sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+    remaining = iter(series)
+    for first in remaining:
+        at_once = max(_MOST_AT_ONCE // len(first.numbers), 1)
+        part = [first, *islice(remaining, at_once - 1)]
+        keys = [
+            (_pictures_of(each.scene, replace(settings, seed=each.seed)), number)
+            for each in part
+            for number in each.numbers
+        ]
+        observations = _observe_cached(keys, is_kept)
+        results = iter(_read([pictures.scene for pictures, _ in keys], observations, decoder))
+        for each in part:
+            sent = np.array(each.scene.transmitter.payload_bits, dtype=np.uint8)
             counts = []
-            for result in islice(results, len(numbers)):
+            for result in islice(results, len(each.numbers)):
                 heartbeat()
                 counts.append(_count_right_bits(result, sent))
             yield counts
@@ -246,35 +251,33 @@ def _plan_cached(pictures: _StudyPictures) -> Plan:
 _observed: OrderedDict[tuple[_StudyPictures, int], Observation | None] = OrderedDict()
 
 
-def _keep(
-    keys: Iterable[tuple[_StudyPictures, int]], observations: Iterable[Observation | None]
-) -> None:
-    for key, observation in zip(keys, observations, strict=True):
-        _observed[key] = observation
-        if len(_observed) > _MOST_KEPT:
-            _observed.popitem(last=False)
-
-
 def forget_images() -> None:
     """Clear the cache, so that the next images are simulated."""
     _observed.clear()
 
 
 def _observe_cached(
-    pictures: _StudyPictures, numbers: Sequence[int], is_kept: bool
-) -> tuple[Observation | None, ...]:
-    """Return the signals of some pictures, simulated if they are not kept from before."""
-    keys = {number: (pictures, number) for number in numbers}
-    found = {number: _observed[key] for number, key in keys.items() if key in _observed}
-    missing = [number for number in numbers if number not in found]
-    if missing:
-        chosen = _plan_cached(pictures)
-        images = [image_of(pictures.scene, chosen, pictures.seed, number) for number in missing]
-        observations = list(observe_images(images, pictures.path, chosen))
-        if is_kept:
-            _keep([keys[number] for number in missing], observations)
-        found |= zip(missing, observations, strict=True)
-    return tuple(found[number] for number in numbers)
+    keys: Sequence[tuple[_StudyPictures, int]], is_kept: bool = True
+) -> list[Observation | None]:
+    """Return the signals of pictures, simulated at once if they are not kept from before."""
+    found = {key: _observed[key] for key in keys if key in _observed}
+    missing = [key for key in keys if key not in found]
+    path = keys[0][0].path if keys else "auto"
+    at_once = 1 if path == "image" else max(len(missing), 1)  # whole pictures have their own plans
+    for start in range(0, len(missing), at_once):
+        part = missing[start : start + at_once]
+        plans = [_plan_cached(pictures) for pictures, _ in part]
+        images = [
+            image_of(pictures.scene, plan, pictures.seed, number)
+            for (pictures, number), plan in zip(part, plans, strict=True)
+        ]
+        found |= zip(part, observe_images(images, path, plans[0]), strict=True)
+    if is_kept:
+        for key in missing:
+            _observed[key] = found[key]
+            if len(_observed) > _MOST_KEPT:
+                _observed.popitem(last=False)
+    return [found[key] for key in keys]
 
 
 def _count_right_bits(result: DecodeResult, sent: ByteArray) -> int:

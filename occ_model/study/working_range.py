@@ -5,16 +5,15 @@ own value and shortened where a decoder would take too long. A scan tries values
 factor ``STEP``. The success rate need not fall monotonically: at low frequencies too few packets
 fit into the picture, and beyond a null the stripes come back. The answer is therefore a list of
 intervals. The outermost ends, and those of the interval that contains the scene's own value or is
-nearest to it, are bisected to a factor ``END_RATIO``; the others are known to a step of the scan.
+nearest to it, have 95 % intervals, see :mod:`occ_model.study.range_end`; the others are known to a
+step of the scan.
 
 Most images are simulated where the rate is uncertain. A value fails as soon as further images
 cannot reach the rate, and is accepted after ``FEW_IMAGES`` that reach it. A gap as wide as a step
 is thus missed if all of them are read in it. A gap of one or two values is listed if up to
-``GAP_IMAGES`` images refute the rate at one of them, and an island if they do at none.
-Values on both sides of an end are then tried with images of another seed, which were not used to
-choose them. An end that these images contradict is moved until the value beyond it fails with
-confidence: its 95 % interval lies below the rate. No image is simulated twice. The confidence of
-the value inside an end is computed in :mod:`occ_model.study.sure_ends`.
+``GAP_IMAGES`` images refute the rate at one of them, and an island if they do at none. The images
+of the ends have other seeds, so that they were not used to choose them: an end that is known to a
+step, and that they contradict, is moved inwards.
 """
 
 import math
@@ -33,14 +32,15 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import count_until_refuted, trial_of
-from occ_model.study.success_rate import read_ahead, right_bits_of_images
+from occ_model.study.range_end import MOST_PROVEN, Bracket, EndSearch
+from occ_model.study.success_rate import ImageSeries, read_ahead, right_bits_of_images
 
 STEP = 1.036  # ratio of neighbouring values in the scan
-END_RATIO = 1.003  # ratio of the values on both sides of an end at which bisection stops
 READ_RATE = 99.0  # success rate in percent from which a scene counts as read
 FEW_IMAGES = 5  # images that suffice to accept a value, unless it is reported
 GAP_IMAGES = 60  # most images at a value that is not read between others that are, or reversely
 _NARROW = 2  # most values of a gap or an island that is doubted
+_END_IMAGES = 250  # usual images about an end with a 95 % interval
 
 
 def working_range(
@@ -56,30 +56,17 @@ def working_range(
     return replace(result, faults=str(faults))
 
 
+def rough_range(scene: Scene, name: str, rate: float, settings: RateSettings) -> WorkingRange:
+    """Return what one image at each value of the scan shows, without any confirmation."""
+    return _RangeSearch(scene, name, rate, settings, lambda: None).find_roughly()
+
+
 def estimate_range_images(images: int) -> int:
     """Return the usual number of images of a search, from which its progress is estimated."""
-    coarse = 100 * FEW_IMAGES // 2 + 15 + images
-    ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(END_RATIO))) * FEW_IMAGES + 8 * images
-    return coarse + ends
+    return 100 * FEW_IMAGES // 2 + 15 + images + _END_IMAGES
 
 
-def right_bits_at(
-    scene: Scene,
-    name: str,
-    value: float,
-    settings: RateSettings,
-    heartbeat: Heartbeat,
-    *,
-    first: int = 0,
-    is_kept: bool = True,
-) -> Iterator[int]:
-    """Yield the number of bits read correctly in each image at a value, computed on demand."""
-    at = scene.replace(**{name: value})
-    counts = right_bits_of_images(at, settings, heartbeat, is_kept=is_kept, first=first)
-    return (right for (right,) in counts)
-
-
-class ImageCounts:
+class _ImageCounts:
     """The numbers of bits read correctly in the images at a value, computed once, on demand."""
 
     def __init__(self, remaining: Iterator[int], known: Sequence[int] = ()) -> None:
@@ -125,38 +112,45 @@ class _RangeSearch:
         high = min(high, slow)
         self._low, self._high = min(low, self._scene_value), max(high, self._scene_value)
         self._values = self._coarse_values()
-        self._confirmation_settings = replace(settings, seed=derive_seed(settings.seed))
         self._known: dict[float, list[int]] = {}  # right bits of the first images, by value
-        self._images: dict[tuple[float, int], ImageCounts] = {}
+        self._images: dict[float, _ImageCounts] = {}
         self._refuted: set[int] = set()
         self._refuted_values: dict[float, bool] = {}
+        self._ends = EndSearch(self._measure_lost, rate, settings.images)
+        self._found: dict[tuple[int, int, int, bool], RangeEnd | None] = {}
 
     def find(self) -> WorkingRange:
         values = self._values
-        searched_ends = (values[0], values[-1])
         self._scan()
-        scene_trial = self._try_all_images(self._scene_value, self._settings)
+        scene_trial = self._try_all_images(self._scene_value)
         while True:
-            runs = self._find_runs()
+            runs = self._find_runs(self._find_read_values())
             intervals = [self._find_interval(run, runs) for run in runs]
             read_intervals = tuple(interval for interval in intervals if interval is not None)
             if len(read_intervals) == len(runs):
                 break
+        found = WorkingRange(
+            self._name, (values[0], values[-1]), STEP, scene_trial, read_intervals,
+            most_chips=self._most_chips,
+        )  # fmt: skip
         if read_intervals:
-            return WorkingRange(
-                self._name,
-                searched_ends,
-                STEP,
-                scene_trial,
-                read_intervals,
-                most_chips=self._most_chips,
-            )
+            return found
         best = max((self._try(value) for value in values), key=lambda trial: trial.rate)
-        best = self._try_all_images(best.value, self._settings)
-        failure = self._describe_failure(searched_ends, best)
-        return WorkingRange(
-            self._name, searched_ends, STEP, scene_trial, (), failure, best, self._most_chips
-        )
+        best = self._try_all_images(best.value)
+        return replace(found, failure=self._describe_failure(found.searched, best), best=best)
+
+    def find_roughly(self) -> WorkingRange:
+        """Return the values of the scan of which the first image is read."""
+        self._read_ahead(self._values, range(1))
+        trials = [trial_of(value, self._known[value], self._bits) for value in self._values]
+        runs = self._find_runs([self._is_read(trial) for trial in trials])
+        intervals = []
+        for run in runs:
+            lowest, highest = (RangeEnd(trials[at].value, trials[at], trials[at]) for at in run)
+            intervals.append(ReadInterval(lowest, highest))
+        searched = self._values[0], self._values[-1]
+        own = trials[self._values.index(self._scene_value)]
+        return WorkingRange(self._name, searched, STEP, own, tuple(intervals))
 
     def _scan(self) -> None:
         """Read the first image of all values at once, and the next few where it is read."""
@@ -168,10 +162,25 @@ class _RangeSearch:
 
     def _read_ahead(self, values: Sequence[float], numbers: range) -> None:
         if numbers:
-            scenes = [self._scene.replace(**{self._name: value}) for value in values]
-            read = read_ahead(scenes, self._settings, numbers, self._heartbeat)
+            seed = self._settings.seed
+            series = [
+                ImageSeries(self._scene.replace(**{self._name: value}), seed, numbers)
+                for value in values
+            ]
+            read = read_ahead(series, self._settings, self._heartbeat)
             for value, counts in zip(values, read, strict=True):
                 self._known.setdefault(value, []).extend(counts)
+
+    def _measure_lost(self, values: Sequence[float], images: int) -> Iterator[list[float]]:
+        """Yield the fractions of lost bits in further images at values, which no scan has read."""
+        series = []
+        for value in values:
+            first = len(self._ends.lost.get(value, ()))
+            scene = self._scene.replace(**{self._name: value})
+            seed = _seed_at(value, self._settings.seed)
+            series.append(ImageSeries(scene, seed, range(first, first + images)))
+        for counts in read_ahead(series, self._settings, self._heartbeat, is_kept=False):
+            yield [1.0 - right / self._bits for right in counts]
 
     def _find_read_values(self) -> list[bool]:
         """Return which values of the scan are read; narrow gaps only if images refute the rate."""
@@ -191,17 +200,15 @@ class _RangeSearch:
     def _is_refuted(self, value: float) -> bool:
         """Return whether images at a value refute that the rate is reached."""
         if value not in self._refuted_values:
-            counts = self._take_images(value, self._settings, GAP_IMAGES)
+            counts = self._take_images(value, GAP_IMAGES)
             is_refuted = count_until_refuted(counts, self._bits, self._rate / 100.0) is not None
             self._refuted_values[value] = is_refuted
         return self._refuted_values[value]
 
-    def _find_runs(self) -> list[tuple[int, int]]:
+    def _find_runs(self, is_read: Sequence[bool]) -> list[tuple[int, int]]:
         """Return the indices of the first and the last coarse value of each interval."""
         runs: list[tuple[int, int]] = []
-        for index, is_read in enumerate(self._find_read_values()):
-            if not is_read:
-                continue
+        for index in np.flatnonzero(is_read).tolist():
             if runs and runs[-1][1] == index - 1:
                 runs[-1] = (runs[-1][0], index)
             else:
@@ -212,18 +219,16 @@ class _RangeSearch:
         self, run: tuple[int, int], runs: list[tuple[int, int]]
     ) -> ReadInterval | None:
         """Return an interval; None if one of its ends is refuted, which is noted."""
-        first, last = run
+        place = runs.index(run)
+        before = runs[place - 1][1] if place else -1
+        after = runs[place + 1][0] if place + 1 < len(runs) else len(self._values)
         is_nearest = run == min(runs, key=self._distance_from_scene)
-        lowest = self._find_end(first, first - 1, is_nearest or run == runs[0])
-        highest = self._find_end(last, last + 1, is_nearest or run == runs[-1])
+        first, last = run
+        lowest = self._find_end(first, last, before, is_nearest or run == runs[0])
+        highest = self._find_end(last, first, after, is_nearest or run == runs[-1])
         if lowest is None or highest is None:
             return None
-        return ReadInterval(*(
-            replace(end, inside=None)
-            if end.inside and not lowest.value <= end.inside.value <= highest.value
-            else end
-            for end in (lowest, highest)
-        ))  # fmt: skip
+        return ReadInterval(lowest, highest, is_island=last - first < _NARROW and len(runs) > 1)
 
     def _distance_from_scene(self, run: tuple[int, int]) -> float:
         """Return an interval's distance from the scene's own value, as a logarithm."""
@@ -243,125 +248,75 @@ class _RangeSearch:
         # Few digits, so that a reported value can be typed in again.
         return [*(float(f"{value:.5g}") for value in between.tolist()), end]
 
-    def _find_end(self, index: int, index_outside: int, is_bisected: bool) -> RangeEnd | None:
-        """Find the end next to the outermost coarse value that is read; None if it is refuted."""
-        inside = inner = self._values[index]
-        outside = outermost = (
-            self._values[index_outside] if 0 <= index_outside < len(self._values) else None
-        )
-        if outside is not None and is_bisected:
-            inside, outside = self._bisect(inside, outside)
-        confirmation = self._confirm(inside, inner)
-        if confirmation is None:
-            self._refuted.add(index)
-            return None
-        trial, outer_trial = confirmation
-        if (
-            outside is not None
-            and outermost is not None
-            and (outer_trial is None or not self._fails_with_confidence(outer_trial))
-        ):
-            outer_trial = self._find_failing(
-                outside, self._find_last_unread(index_outside, index_outside - index)
-            )
-        if outer_trial is None:
-            return RangeEnd(trial, None, trial if trial.whole == trial.images else None)
-        return RangeEnd(trial, outer_trial, is_bisected=is_bisected)
+    def _find_end(self, index: int, opposite: int, beyond: int, is_sought: bool) -> RangeEnd | None:
+        """Find the end next to a coarse value that is read; None if it is refuted.
 
-    def _find_last_unread(self, index: int, direction: int) -> float:
-        """Return the last coarse value of a gap in a direction from one of its values."""
-        while (
-            0 <= index + direction < len(self._values)
-            and not self._is_read(self._try(self._values[index + direction]))
-        ):  # fmt: skip
-            index += direction
-        return self._values[index]
-
-    def _bisect(self, inside: float, outside: float) -> tuple[float, float]:
-        """Bisect, by ratio, between a value that is read and one that is not."""
-        start, images = inside, FEW_IMAGES
-        while True:
-            while max(inside, outside) / min(inside, outside) > END_RATIO:
-                middle = float(f"{math.sqrt(inside * outside):.5g}")
-                if middle in (inside, outside):
-                    break
-                is_read = self._is_read(self._try(middle, images))
-                inside, outside = (middle, outside) if is_read else (inside, middle)
-            if inside == start or self._is_read(self._try(inside, self._settings.images)):
-                return inside, outside
-            # Where the rate falls slowly, few images mislead: repeat with all images.
-            inside, outside, images = start, inside, self._settings.images
-
-    def _confirm(self, inside: float, inner: float) -> tuple[Trial, Trial | None] | None:
-        """Return the nearest value that new images confirm, and the last one that they refute."""
-        refuted, step = None, END_RATIO
-        while True:
-            trial = self._try(inside, self._settings.images, self._confirmation_settings)
-            if self._is_read(trial):
-                return trial, refuted and self._try_all_images(
-                    refuted.value, self._confirmation_settings
-                )
-            if inside == inner:
-                return None
-            refuted = trial
-            inside, step = move_towards(inside, inner, step), step * step
-
-    def _find_failing(self, value: float, end: float) -> Trial:
-        """Return the nearest value beyond an end that fails with confidence in new images.
-
-        If none does up to the end of the gap, return that end, with the images that were used to
-        choose it if the new ones are read.
+        ``opposite``: the value at the other end of the interval. ``beyond``: the next value that is
+        read, or one past the last value. ``is_sought``: whether a 95 % interval is sought.
         """
-        step = END_RATIO
-        while True:
-            trial = self._try_all_images(value, self._confirmation_settings)
-            if self._fails_with_confidence(trial):
-                return trial
-            if value == end:
-                return (
-                    trial
-                    if not self._is_read(trial)
-                    else self._try_all_images(value, self._settings)
-                )
-            value, step = move_towards(value, end, step), step * step
+        key = index, opposite, beyond, is_sought
+        if key not in self._found:
+            self._found[key] = self._confirm_end(*key)
+        if self._found[key] is None:
+            self._refuted.add(index)
+        return self._found[key]
 
-    def _try_all_images(self, value: float, settings: RateSettings) -> Trial:
+    def _confirm_end(
+        self, index: int, opposite: int, beyond: int, is_sought: bool
+    ) -> RangeEnd | None:
+        values, direction = self._values, 1 if beyond > index else -1
+        inside, next_index = values[index], index + direction
+        if not 0 <= next_index < len(values):
+            works = self._try_at_end(inside)
+            return RangeEnd(inside, works, None) if self._is_read(works) else None
+        if is_sought:
+            last_lost = values[beyond - direction]
+            end = self._ends.find(Bracket(inside, values[next_index], values[opposite], last_lost))
+            if end is not None:
+                works, fails = self._try_at_end(end.sure), self._try_at_end(end.refuted)
+                interval = end.interval if self._rate <= MOST_PROVEN else None
+                return RangeEnd(end.interval[0], works, fails, interval)
+        works = self._try_at_end(inside)
+        if not self._is_read(works):
+            return None
+        return RangeEnd(inside, works, self._try_at_end(values[next_index]))
+
+    def _try_at_end(self, value: float) -> Trial:
+        """Return the trial at a value, of all images at least: they were not used to choose it."""
+        missing = self._settings.images - len(self._ends.lost.get(value, ()))
+        if missing > 0:
+            self._ends.take([value], missing)
+        counts = [round((1.0 - lost) * self._bits) for lost in self._ends.lost[value]]
+        return trial_of(value, counts, self._bits)
+
+    def _try_all_images(self, value: float) -> Trial:
         """Return a trial of all images, because no interval holds for a count that stops early."""
-        return trial_of(value, list(self._take_images(value, settings)), self._bits)
+        return trial_of(value, list(self._take_images(value)), self._bits)
 
-    def _try(
-        self, value: float, enough: int = FEW_IMAGES, settings: RateSettings | None = None
-    ) -> Trial:
+    def _try(self, value: float) -> Trial:
         """Count correct bits until enough images reach the rate or it can no longer be reached."""
         images, bits = self._settings.images, self._bits
         counts: list[int] = []
-        for right in self._take_images(value, settings or self._settings):
+        for right in self._take_images(value):
             counts.append(right)
             image_count, right_bits = len(counts), sum(counts)
             if 100.0 * (right_bits + (images - image_count) * bits) < self._rate * images * bits:
                 break
-            if image_count >= enough and 100.0 * right_bits >= self._rate * image_count * bits:
+            if image_count >= FEW_IMAGES and 100.0 * right_bits >= self._rate * image_count * bits:
                 break
-        return trial_of(value, counts, self._bits)
+        return trial_of(value, counts, bits)
 
-    def _take_images(
-        self, value: float, settings: RateSettings, most: int | None = None
-    ) -> Iterator[int]:
-        key = value, settings.seed
-        if key not in self._images:
-            enough = replace(settings, images=max(settings.images, GAP_IMAGES))
-            known = self._known.get(value, ()) if settings is self._settings else ()
-            remaining = right_bits_at(
-                self._scene, self._name, value, enough, self._heartbeat, first=len(known)
-            )
-            self._images[key] = ImageCounts(remaining, known)
-        return islice(self._images[key], most or settings.images)
+    def _take_images(self, value: float, most: int | None = None) -> Iterator[int]:
+        if value not in self._images:
+            at = self._scene.replace(**{self._name: value})
+            enough = replace(self._settings, images=max(self._settings.images, GAP_IMAGES))
+            known = self._known.get(value, ())
+            read = right_bits_of_images(at, enough, self._heartbeat, first=len(known))
+            self._images[value] = _ImageCounts((right for (right,) in read), known)
+        return islice(self._images[value], most or self._settings.images)
 
     def _is_read(self, trial: Trial) -> bool:
         return 100.0 * trial.right >= self._rate * trial.sent
-
-    def _fails_with_confidence(self, trial: Trial) -> bool:
-        return trial.high < self._rate
 
     def _describe_failure(self, searched: tuple[float, float], best: Trial) -> str:
         write = self._parameter.format
@@ -382,13 +337,9 @@ def _narrow_runs(is_read: Sequence[bool], wanted: bool) -> list[range]:
     ]
 
 
-def move_towards(value: float, end: float, ratio: float) -> float:
-    """Move a value towards an end by a ratio, but not beyond the end."""
-    moved = value * ratio if end > value else value / ratio
-    moved = float(f"{moved:.5g}")
-    return end if (moved - end) * (value - end) <= 0.0 else moved
+def _seed_at(value: float, seed: int) -> int:
+    """Return the seed of the images about an end at a value.
 
-
-def derive_seed(seed: int) -> int:
-    """Return the seed of images that are independent of those of a seed."""
-    return int(np.random.SeedSequence([seed, 1]).generate_state(1)[0])
+    Images with the same seed start at the same parts of a packet, and would be lost together.
+    """
+    return int(np.random.SeedSequence([seed, 2, *value.as_integer_ratio()]).generate_state(1)[0])

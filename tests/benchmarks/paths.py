@@ -86,7 +86,7 @@ def compare_pictures() -> None:
     """Print the study's rate and the fraction of whole pictures that are read."""
     scene = occ.load_preset("phone-136us")
     end = occ.limits(scene).frequency.highest
-    inside = [end.inside.value] if end is not None and end.inside is not None else []
+    inside = [end.value] if end is not None else []
     print("| frequency | success rate by the study | of 20 whole pictures, bits right |")
     print("|---|---|---|")
     for frequency in (*inside, 14.2e3, 14.3e3, 14.4e3, 14.5e3, 14.6e3, 14.68e3):

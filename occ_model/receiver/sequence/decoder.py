@@ -85,14 +85,15 @@ def _read(signal: FloatArray, scene: Scene) -> Reading[DecodeResult]:
         return replace(result, failure=refusal)
     code = find_code_words(transmitter, timing.memory)
     fit, light = yield from _fit(signal, scene, timing, code.words)
-    result = _add_steps(result, fit, light)
+    ratios = fit.ratios()
+    result = _add_steps(result, fit, light, ratios)
     if transmitter.pattern:
         return replace(
             result,
             failure="A raw chip pattern is sent, which contains no packets; "
             f"{len(fit.chips.values)} chips were read.",
         )
-    return _read_payload(result, fit, scene, code.header)
+    return _read_payload(result, fit, ratios, scene, code.header)
 
 
 def _explain_refusal(timing: RowTiming, rows: int, scene: Scene) -> str | None:
@@ -155,7 +156,9 @@ def _improve_rounds(
     return fit, light
 
 
-def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeResult:
+def _add_steps(
+    result: DecodeResult, fit: SequenceFit, light: Light, ratios: FloatArray
+) -> DecodeResult:
     lit_fraction = fit.brightness.lit_fraction(light.values)
     count = len(lit_fraction)
     positions = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
@@ -168,7 +171,7 @@ def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeRe
         chip_length=1.0 / fit.timing.step,
         chips=fit.chips.values[is_visible],
         chip_starts=starts[is_visible],
-        chip_likelihoods=probability(fit.ratios())[is_visible],
+        chip_likelihoods=probability(ratios)[is_visible],
         correlation=dot(centred, model) / energy if energy > 0.0 else 0.0,
         light=lit_fraction,
         light_model=fit.model,
@@ -176,12 +179,16 @@ def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeRe
 
 
 def _read_payload(
-    result: DecodeResult, fit: SequenceFit, scene: Scene, header: tuple[int, ...]
+    result: DecodeResult,
+    fit: SequenceFit,
+    ratios: FloatArray,
+    scene: Scene,
+    header: tuple[int, ...],
 ) -> DecodeResult:
     """Read the payload if it is certain enough."""
-    ratios = np.where(fit.chips.values == 1, 1.0, -1.0) * fit.ratios()
+    signed_ratios = np.where(fit.chips.values == 1, ratios, -ratios)
     scheme = scheme_of(scene.transmitter)
-    frame = read_frame(ratios, scheme, header)
+    frame = read_frame(signed_ratios, scheme, header)
     result = add_bits(result, replace(frame.framed, headers=()), scene)
     result = replace(result, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
     failure = result.failure

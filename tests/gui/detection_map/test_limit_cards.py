@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on, list_texts
+from gui.detection_map.test_advice import BAD, CERTAIN, GOOD, INSIDE, advice_on, list_texts
 from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
@@ -68,16 +68,16 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
     button = cards.cards["threshold"].go
     assert button.text() == "Go"  # to what the card states
     button.click()
-    assert destinations == [("switching_frequency", INSIDE.value, "threshold")]
+    assert destinations == [("switching_frequency", CERTAIN[0], "threshold")]
 
 
 def test_a_limit_without_an_end_is_marked_and_without_a_destination_the_button_is_disabled(
     cards: LimitCards, small_scene: Scene
 ) -> None:
-    cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))
+    cards.show_advice(with_end(small_scene, RangeEnd(INSIDE.value, INSIDE, None)))
     assert cards.cards["threshold"].value.text() == "at least 14.55 kHz"
     card = cards.cards["threshold"]
-    cards.show_advice(with_end(small_scene, RangeEnd(GOOD, BAD)))
+    cards.show_advice(with_end(small_scene, RangeEnd(GOOD.value, GOOD, BAD)))
     assert not card.go.isEnabled()
     assert card.value.text() == "about 14.7 kHz"
 

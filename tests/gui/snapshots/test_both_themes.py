@@ -66,9 +66,10 @@ def test_the_cards_of_the_limits_look_as_stored(gallery: Gallery, theme: str) ->
     cards = LimitCards(("threshold", "matched", "equalizer"))
     cards.setStyleSheet(style_sheet(palette_of(theme)))
     gallery.show(cards, 760, 84)
-    read = RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0), trial(14.1e3, 100))
+    read = RangeEnd(14.1e3, trial(14.1e3, 100), trial(14.3e3, 0), (14.1e3, 14.2e3))
     cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.")
-    ends = RangeEnd(trial(3.5e3, 100), None), RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0))
+    fails = trial(14.3e3, 0)
+    ends = RangeEnd(3.5e3, trial(3.5e3, 100), None), RangeEnd(14.2e3, trial(14.2e3, 100), fails)
     cards.cards["threshold"].show_range(
         WorkingRange(
             "switching_frequency", (500.0, 100e3), 1.15, trial(10e3, 100), (ReadInterval(*ends),)

@@ -3,9 +3,9 @@
 import math
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
-from functools import cache
-from itertools import islice
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -17,21 +17,16 @@ from worker_calls import PickledJobs
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
-from occ_model.results.limits import RangeEnd, WorkingRange, end_text, format_value
+from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory, working_range as module
-from occ_model.study.confidence import count_until_refuted, interval_of_pictures
+from occ_model.study.confidence import count_until_refuted
 from occ_model.study.limits import advice_of, limits_of
 from occ_model.study.observation import panel_span
-from occ_model.study.sure_ends import (
-    MOST_IMAGES_OUTSIDE,
-    PICTURES,
-    confirm_end,
-    images_to_prove,
-    pair_ends,
-)
-from occ_model.study.working_range import END_RATIO, FEW_IMAGES, STEP
+from occ_model.study.range_end import END_RATIO, Bracket, EndSearch, images_to_prove
+from occ_model.study.success_rate import ImageSeries
+from occ_model.study.working_range import FEW_IMAGES, STEP
 
 SCENE = Scene()
 
@@ -44,11 +39,12 @@ def replace_reading(
     monkeypatch: pytest.MonkeyPatch, right_bits_of_images: Callable[..., Iterator[tuple[int]]]
 ) -> None:
     def read_ahead(
-        scenes: list[Scene], settings: RateSettings, numbers: range, heartbeat: object
+        series: list[ImageSeries], settings: RateSettings, heartbeat: object, **_: bool
     ) -> Iterator[list[int]]:
-        for scene in scenes:
-            right = right_bits_of_images(scene, settings, heartbeat, first=numbers.start)
-            yield [count for (count,) in islice(right, len(numbers))]
+        for each in series:
+            these = replace(settings, seed=each.seed, images=each.numbers.stop)
+            right = right_bits_of_images(each.scene, these, heartbeat, first=each.numbers.start)
+            yield [count for (count,) in right]
 
     monkeypatch.setattr(module, "right_bits_of_images", right_bits_of_images)
     monkeypatch.setattr(module, "read_ahead", read_ahead)
@@ -88,7 +84,6 @@ def correct_within(*ranges: tuple[float, float]) -> Callable[[float, int, int], 
 
 
 def search_range(scene: Scene, name: str = "switching_frequency", **how: Any) -> WorkingRange:
-    """Search along one parameter, without the intervals of its ends, which take far longer."""
     settings = RateSettings(how.get("images", 3), ("threshold",), how.get("seed", 1))
     return module.working_range(scene, name, 90.0, settings)
 
@@ -101,20 +96,19 @@ def ends(range_end: RangeEnd) -> tuple[float, float]:
     max_examples=amount(10, 60), suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(low=st.floats(600.0, 40e3), ratio=st.floats(1.2, 2.0), own=st.floats(500.0, 100e3))
-def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
+def test_both_ends_of_an_interval_are_found(
     decoding: Decoding, low: float, ratio: float, own: float
 ) -> None:
     high = low * ratio
     decoding(correct_within((low, high)))
-    found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
+    found = search_range(SCENE.replace(switching_frequency=own), images=1)
     for range_end, truth in ((found.lowest, low), (found.highest, high)):
         works, fails = ends(range_end)
         assert min(works, fails) <= truth <= max(works, fails)
-        assert max(works, fails) / min(works, fails) <= END_RATIO
-        assert range_end.inside is not None
-        assert low <= range_end.inside.value <= high
-        assert range_end.interval[0] <= truth <= range_end.interval[1]
-        assert range_end.interval[1] / range_end.interval[0] <= END_RATIO**3
+        assert low <= works <= high
+        first, last = sorted(range_end.interval)
+        assert last / first <= 1.02
+        assert range_end.value == range_end.interval[0]
 
 
 @pytest.mark.parametrize("own", [700.0, 5e3, 40e3])
@@ -132,20 +126,18 @@ def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_one_are_e
             works, fails = ends(range_end)
             assert min(works, fails) <= wanted <= max(works, fails)
             is_outermost = wanted in (truth[0][0], truth[-1][1])
-            assert (max(works, fails) / min(works, fails) <= END_RATIO) == (
-                is_exact or is_outermost
-            )
+            assert (range_end.interval is not None) == (is_exact or is_outermost)
     assert found.own.rate == 100.0
     assert found.highest is found.intervals[-1].highest
 
 
-def test_an_end_is_confirmed_by_images_that_were_not_used_to_choose_it(decoding: Decoding) -> None:
+def test_an_end_is_found_with_images_that_were_not_used_to_choose_it(decoding: Decoding) -> None:
     # Reading ends at 12 kHz in the images used to choose the end, and at 11 kHz in all others.
     decoding(lambda frequency, _, seed: frequency <= (12e3 if seed == 1 else 11e3))
     range_end = occ.limits(SCENE, images=20).frequency.highest
     works, fails = ends(range_end)
-    assert works <= 11e3 < fails <= 12e3 * END_RATIO
-    assert (range_end.works.whole, range_end.fails.whole) == (20, 0)
+    assert works <= 11e3 < fails <= 12e3
+    assert (range_end.works.rate, range_end.fails.whole) == (100.0, 0)
 
 
 def test_a_range_that_reaches_the_search_limit_states_it(decoding: Decoding) -> None:
@@ -186,16 +178,6 @@ def test_the_papers_decoder_reads_from_two_packets_to_the_null() -> None:
     assert 0.95 * null_exposure < longest.value < 1.01 * null_exposure
 
 
-def test_an_end_rests_on_reproducible_success_rates() -> None:
-    scene = occ.load_preset("phone-136us")
-    range_end = search_range(scene, images=2, seed=5).highest
-    for trial in (range_end.works, range_end.fails):
-        at = scene.replace(switching_frequency=trial.value)
-        assert occ.success_rate(at, 2, seed=module.derive_seed(5)) == trial.rate
-        assert (trial.low, trial.high) == interval_of_pictures(trial.right, trial.sent, 2)
-    assert range_end.fails.rate < 90.0 <= range_end.works.rate
-
-
 def test_a_value_is_given_up_once_further_images_cannot_reach_the_rate(decoding: Decoding) -> None:
     read = decoding(lambda frequency, *_: frequency < 20e3)
     range_end = occ.limits(SCENE, images=20).frequency.highest
@@ -205,8 +187,7 @@ def test_a_value_is_given_up_once_further_images_cannot_reach_the_rate(decoding:
     far = {images for frequency, images in by_frequency.items() if frequency > 21e3}
     assert far == {1}
     # What is reported rests on all images: no count has been stopped by its own result.
-    assert min(by_frequency[value] for value in ends(range_end)) >= 20
-    assert range_end.fails.sent == range_end.works.sent == 200
+    assert min(range_end.works.images, range_end.fails.images) >= 20
 
 
 def test_an_end_that_more_images_contradict_is_moved(decoding: Decoding) -> None:
@@ -222,7 +203,8 @@ def test_each_end_is_read_in_all_images_even_if_the_first_ones_mislead(decoding:
     for range_end, truth in ((found.lowest, 2e3), (found.highest, 10e3)):
         works, fails = ends(range_end)
         assert min(works, fails) <= truth <= max(works, fails)
-        assert (range_end.works.images, range_end.works.rate) == (20, 100.0)
+        assert range_end.works.images >= 20
+        assert range_end.works.rate == 100.0
 
 
 def test_the_command_states_the_bits_received_per_second(
@@ -243,22 +225,27 @@ def omit_own_frequency(read: "Counter[tuple[float, int]]") -> "Counter[tuple[flo
     return Counter({at: images for at, images in read.items() if at[0] != own})
 
 
-def test_no_image_of_a_value_is_simulated_twice(decoding: Decoding) -> None:
+def test_no_image_is_simulated_twice(decoding: Decoding, monkeypatch: pytest.MonkeyPatch) -> None:
+    read: Counter[tuple[float, int, int]] = Counter()
+
     # The rate falls slowly, so all values are uncertain.
-    read = decoding(lambda frequency, image, _: image >= (frequency - 10e3) / 2e3)
-    occ.limits(SCENE, rate=60.0, images=20)
-    assert max(omit_own_frequency(read).values()) == 20
+    def falling(frequency: float, image: int, seed: int) -> float:
+        read[frequency, image, seed] += 1
+        return float(image % 20 >= (frequency - 10e3) / 2e3)
+
+    decoding(falling)
+    search_range(SCENE.replace(switching_frequency=5e3), images=20)
+    assert max(read.values()) == 1
 
 
 def test_few_images_suffice_if_the_rate_falls_abruptly(decoding: Decoding) -> None:
     read = decoding(lambda frequency, *_: 4e3 <= frequency <= 20e3)
     occ.limits(SCENE, images=20)
-    images = list(omit_own_frequency(read).values())
-    # All images at each end: the coarse value, the end with both seeds, and the value beyond.
-    assert images.count(20) <= 8
-    sure = images_to_prove(99.0)
-    assert {*images} <= {1, FEW_IMAGES, PICTURES, 20, sure}
-    assert images.count(sure) == 2
+    by_seed: Counter[bool] = Counter()
+    for (_, seed), images in omit_own_frequency(read).items():
+        by_seed[seed == 1] += images
+    assert by_seed[True] < 1 * 103 + FEW_IMAGES * 50  # of a scan of 150 values, 47 of them read
+    assert by_seed[False] < 2 * 250
 
 
 def test_two_processes_find_the_same_limits_as_one(
@@ -302,9 +289,9 @@ def test_progress_rises_from_0_to_1_and_states_what_is_searched(decoding: Decodi
     assert fractions == sorted(fractions)
     assert fractions[-1] == 1.0
     assert len(said) > 60
-    assert said[0][1] == "switching frequency, threshold decoder"
-    search_range = [what for _, what in said[:-1]]
-    assert search_range.index("exposure time, threshold decoder") > 20
+    searched = [what for _, what in said[:-1]]
+    assert searched[0] == "switching frequency, threshold decoder"
+    assert searched.index("exposure time, threshold decoder") > 20
 
 
 def test_for_a_scene_that_is_too_slow_the_range_lies_above_it() -> None:
@@ -314,7 +301,7 @@ def test_for_a_scene_that_is_too_slow_the_range_lies_above_it() -> None:
     found = search_range(slow, images=1)
     assert found.lowest.value > 2e3 * STEP
     null = theory.null_frequency(slow)
-    assert 0.95 * null < found.highest.value < 1.01 * null
+    assert 0.93 * null < found.highest.value < 1.01 * null
 
 
 def test_advice_contains_both_ends_found_and_the_limits_of_theory(decoding: Decoding) -> None:
@@ -341,54 +328,66 @@ def test_advice_contains_both_ends_found_and_the_limits_of_theory(decoding: Deco
 
 @pytest.mark.parametrize("rate", [50.0, 90.0, 99.0, 99.5])
 def test_no_more_images_are_requested_than_prove_a_rate(rate: float) -> None:
+    """Whatever is lost more often than allowed would lose one of them with 95 %."""
     images = images_to_prove(rate)
-    assert interval_of_pictures(images, images, images)[0] >= rate
-    assert interval_of_pictures(images - 1, images - 1, images - 1)[0] < rate
+    assert (rate / 100.0) ** images <= 0.05 < (rate / 100.0) ** (images - 1)
 
 
 def test_no_number_of_images_proves_that_all_are_read(decoding: Decoding) -> None:
-    assert (images_to_prove(100.0), images_to_prove(99.9)) == (0, 0)
     decoding(correct_within((0.0, 20e3)))
     range_end = occ.limits(SCENE, rate=100.0).frequency.highest
-    assert (range_end.inside, range_end.interval) == (None, None)
+    assert range_end.interval is None
+    assert not range_end.is_sure
+    assert range_end.value <= 20e3 < range_end.fails.value <= 20e3 * END_RATIO
 
 
-def falling_rate() -> Callable[[float, int, int], float]:
-    """Return a decoding that loses 1 % at 10 kHz, and more with the frequency's logarithm."""
-
-    @cache
-    def misses(frequency: float, seed: int) -> list[bool]:
-        missed = 0.01 + 2.0 * math.log(frequency / 10e3)
-        random = np.random.default_rng([seed, round(frequency * 1e3)])
-        return (random.random(1000) < missed).tolist()
-
-    return lambda frequency, image, seed: 1.0 - misses(frequency, seed)[image]
+def logistic(width: float) -> Callable[[float], float]:
+    """Return the fraction that is lost by the logarithm of the value, 1 % of it at 0."""
+    return lambda at: 1.0 / (1.0 + 99.0 * math.exp(min(-at / width, 700.0)))
 
 
-def test_the_stated_interval_of_an_end_contains_it(decoding: Decoding) -> None:
-    decoding(falling_rate())
-    found = []
-    for seed in range(amount(80, 200)):
-        settings = RateSettings(20, ("threshold",), seed)
-        along = module.working_range(SCENE, "switching_frequency", 99.0, settings)
-        highest = pair_ends(along)[-1]
-        found.append(confirm_end(SCENE, along.parameter, 99.0, settings, highest, lambda: None))
-    intervals = [end.interval for end in found if end.interval is not None]
-    assert len(intervals) >= 0.99 * len(found)
-    held = sum(low <= 10e3 <= high for low, high in intervals)
-    assert 0.92 * len(found) <= held <= 0.99 * len(found)
-    # The value with 381 images read and the one that fails in 200 are 2 to 5 % apart.
-    assert np.median([high / low for low, high in intervals]) < 1.018
-    # The last values that twenty images accept are not the ends: they lie beyond the true one.
-    assert sum(end.works.value > 10e3 for end in found) > 0.3 * len(found)
-    # No stated end lies outside its own interval.
-    assert all(end.interval is None or min(end.interval) <= end.value <= max(end.interval)
-               for end in found)  # fmt: skip
-    refuted = [end for end in found if end.value != end.works.value]
-    assert 0 < len(refuted) < len(found)
-    name = "switching_frequency"
-    for end in refuted:
-        assert f"at {format_value(name, end.works.value)} " in end_text(name, end)
+LOSSES: dict[str, Callable[[float], float]] = {
+    "steep": logistic(5e-4),
+    "gradual": logistic(0.02),
+    "straight": lambda at: min(max(0.01 + 2.0 * at, 0.0), 1.0),
+    "normal": lambda at: NormalDist().cdf(NormalDist().inv_cdf(0.01) + at / 0.02),
+    "half of them at once": lambda at: 0.5 * (at >= 0.0),
+    "sudden, in part": lambda at: 0.0 if at < -0.001 else min(0.01 + 10.0 * max(at, 0.0), 0.3),
+}
+
+
+@pytest.mark.parametrize("name", LOSSES)
+@pytest.mark.parametrize("inwards", [1.0, -1.0])
+def test_the_interval_of_an_end_contains_it_in_95_of_100_searches(
+    name: str, inwards: float
+) -> None:
+    """However losses set in; the last has a rate of 99 % exactly over a tenth of a percent."""
+    loss, studies = LOSSES[name], amount(60, 400)
+    held = sought = 0
+    for study in range(studies):
+        random = np.random.default_rng([study, 20_261, inwards > 0.0])
+
+        def measure(
+            values: Sequence[float], images: int, random: np.random.Generator = random
+        ) -> list[list[float]]:
+            lost = [loss(-inwards * math.log(value / 1e4)) for value in values]
+            return [(random.random(images) < each).astype(float).tolist() for each in lost]
+
+        def at(place: float) -> float:
+            return 1e4 * math.exp(-inwards * place)
+
+        place = -0.6 + random.uniform(0.0, math.log(STEP))
+        while not any(measure([at(place + math.log(STEP))], FEW_IMAGES)[0]):
+            place += math.log(STEP)
+        bracket = Bracket(at(place), at(place + math.log(STEP)), at(-0.6), at(0.6))
+        found = EndSearch(measure, 99.0, 20).find(bracket)
+        if found is None:
+            continue
+        first, last = sorted(found.interval)
+        sought += 1
+        held += first <= 1e4 <= last * (1.0 + 1e-12)
+    assert sought >= 0.95 * studies
+    assert held >= 0.95 * sought - 2.5 * math.sqrt(0.95 * 0.05 * sought)
 
 
 def test_a_rate_that_is_reached_is_rejected_in_at_most_one_of_forty_studies() -> None:
@@ -396,10 +395,7 @@ def test_a_rate_that_is_reached_is_rejected_in_at_most_one_of_forty_studies() ->
 
     def count_refuting_images(rate: float, studies: int) -> list[int]:
         """Return how many images each study took that rejects 99 %."""
-        read = (
-            np.where(random.random(MOST_IMAGES_OUTSIDE) < rate, 10, 0).tolist()
-            for _ in range(studies)
-        )
+        read = (np.where(random.random(200) < rate, 10, 0).tolist() for _ in range(studies))
         found = [count_until_refuted(counts, 10, 0.99) for counts in read]
         return [len(one) for one in found if one is not None]
 
@@ -494,7 +490,7 @@ def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[s
 def test_the_bits_of_a_payload_are_counted_as_sent() -> None:
     scene = SCENE.replace(payload="text:Hi", line_code="manchester", framing="preamble")
     end = search_range(scene, images=1).highest
-    assert (end.works.right, end.works.sent) == (16, 16)
+    assert end.works.right == end.works.sent == 16 * end.works.images
 
 
 def test_the_rate_at_the_scenes_own_values_is_that_of_its_own_code(
@@ -539,7 +535,7 @@ def searches_with_a_gap(
         decoding(fraction)
         settings = RateSettings(20, ("threshold",), 100 + trial)
         found = module.working_range(SCENE, "switching_frequency", 99.0, settings)
-        gaps = [(end.value, following.value) for end, following in found.gaps]
+        gaps = [(end.works.value, following.works.value) for end, following in found.gaps]
         yield any(low < 1.04 * first and high > first for low, high in gaps)
 
 

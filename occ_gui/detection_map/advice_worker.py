@@ -1,12 +1,31 @@
 """Jobs that search for limits, for worker processes; nothing here needs Qt."""
 
+from dataclasses import dataclass
+
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.bit_errors import MostBits
-from occ_model.results.limits import Advice
+from occ_model.results.limits import Advice, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of, limits
 from occ_model.study.most_bits import most_bits
+from occ_model.study.success_rate import check_rate
+from occ_model.study.working_range import rough_range
+
+
+@dataclass(frozen=True, slots=True)
+class RoughAnswer:
+    """The frequencies that a decoder reads, from one picture at each."""
+
+    decoder: str
+    frequencies: WorkingRange
+
+
+def advise_roughly(
+    scene: Scene, settings: RateSettings, decoder: str, rate: float, _heartbeat: Heartbeat
+) -> RoughAnswer:
+    check_rate(scene, settings)
+    return RoughAnswer(decoder, rough_range(scene, "switching_frequency", rate, settings))
 
 
 def advise(

@@ -84,6 +84,10 @@ class LimitCards(QWidget):
             if decoder in self.cards:
                 self.cards[decoder].show_progress(count)
 
+    def show_rough(self, decoder: str, frequencies: WorkingRange) -> None:
+        if decoder in self.cards:
+            self.cards[decoder].show_rough(frequencies)
+
     def show_advice(self, advice: Advice) -> None:
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
@@ -130,6 +134,7 @@ class LimitCard(QFrame):
         self._destination: float | None = None
         self._is_outdated = self._is_searching = False
         self._is_beside: bool | None = None
+        self._rough = ""
         self.name = paragraph()
         self.value = QLabel()
         self.range = ElidedLabel(separator="; ")
@@ -195,7 +200,7 @@ class LimitCard(QFrame):
         self._show("?" if reason else "", reason or "Not searched for yet.", None)
 
     def show_searching(self) -> None:
-        self._is_searching = True
+        self._is_searching, self._rough = True, ""
         self._show("waiting", "Its search has not begun yet.", None)
         self.set_outdated(False)
 
@@ -203,8 +208,15 @@ class LimitCard(QFrame):
         """Show how many pictures the running search has tried; None: it has not begun."""
         if self._is_searching and pictures is not None:
             tried = f"{inflect(pictures, 'picture')} tried"
-            self._show("searching", "Searching for the highest frequency that is read.", None)
+            tip = "Searching for the highest frequency that is read."
+            self._show(self._rough or "searching", tip, None)
             self.range.set_full_text(tried)
+
+    def show_rough(self, frequencies: WorkingRange) -> None:
+        """Show what one picture at each frequency says, until the search is complete."""
+        if self._is_searching and frequencies.highest is not None:
+            self._rough = f"roughly {format_end(_PARAMETER, frequencies.highest)}"
+            self.show_progress(0)
 
     def show_limit(self, end: RangeEnd | None, tip: str) -> None:
         """Show the upper end of the range, or that nothing is read."""

@@ -9,13 +9,19 @@ from PySide6.QtCore import QObject, QTimer
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.advice_view import AdviceView
-from occ_gui.detection_map.advice_worker import advise, search_most_bits
+from occ_gui.detection_map.advice_worker import (
+    RoughAnswer,
+    advise,
+    advise_roughly,
+    search_most_bits,
+)
 from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.worker import find_omitted_effects, make_rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.bit_errors import MostBits
+from occ_model.results.limits import Advice
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
@@ -138,11 +144,13 @@ class AdviceRequest:
         return replace(self, scene=scene)
 
     def jobs(self, rank: int) -> Iterator[Job]:
-        for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
-            settings = make_rate_settings(
-                self.settings, IMAGES, (decoder,), self.with_image_effects
-            )
-            yield Job(advise, (self.scene, settings, decoder, READ_RATE), counter, rank)
+        """Yield rough searches of all decoders, and then the thorough ones."""
+        for function in (advise_roughly, advise):
+            for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
+                settings = make_rate_settings(
+                    self.settings, IMAGES, (decoder,), self.with_image_effects
+                )
+                yield Job(function, (self.scene, settings, decoder, READ_RATE), counter, rank)
 
 
 class AdvisorController(SearchController):
@@ -151,11 +159,17 @@ class AdvisorController(SearchController):
     def __init__(
         self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: AdviceView
     ) -> None:
-        callbacks = pane.show_advice, pane.show_advice_ended
+        callbacks = self._show_answer, pane.show_advice_ended
         super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *callbacks)
         self._pane = pane
         self._with_image_effects = True
         scenes.settings.changed.connect(self._follow_change)
+
+    def _show_answer(self, answer: Advice | RoughAnswer) -> None:
+        if isinstance(answer, RoughAnswer):
+            self._pane.cards.show_rough(answer.decoder, answer.frequencies)
+        else:
+            self._pane.show_advice(answer)
 
     def use_image_effects(self, used: bool) -> None:
         """Set whether image effects are simulated or left out."""
@@ -182,7 +196,8 @@ class AdvisorController(SearchController):
 
     def _show_progress(self, heartbeats: Sequence[int]) -> None:
         fraction = min(sum(heartbeats) / (_USUAL_IMAGES * len(DECODERS)), 0.99)
-        tried = [count - 1 if count else None for count in heartbeats]
+        # Both jobs of a decoder count once when they begin; pictures of the rough one do not.
+        tried = [max(count - 2, 0) if count else None for count in heartbeats]
         self._pane.show_advice_progress(fraction, dict(zip(DECODERS, tried, strict=True)))
 
     def _show_outdated(self, outdated: bool) -> None:

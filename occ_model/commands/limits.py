@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 
 from occ_model.commands.options import (
     Commands,
@@ -42,7 +43,7 @@ from occ_model.study import theory
 from occ_model.study.limits import advice_of, check_search, limits_of
 from occ_model.study.most_bits import DECODERS as MOST_BITS_DECODERS, most_bits
 from occ_model.study.success_rate import check_rate
-from occ_model.study.working_range import READ_RATE
+from occ_model.study.working_range import READ_RATE, rough_range
 
 _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
 
@@ -94,13 +95,15 @@ def _print_limits(options: argparse.Namespace, scene: Scene) -> int:
     check_rate(scene, settings)
     for line in _heading_lines(scene, options):
         print(line, flush=True)
-    with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
+    answers: list[Limits] = []
+    with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False) as bar:
+        rough = "" if bar.disable else _rough_text(scene, settings, options.rate)
+        bar.set_description_str(rough)
 
         def show(fraction: float, what: str) -> None:
-            bar.set_description_str(what, refresh=False)
+            bar.set_description_str(what if answers else rough, refresh=False)
             bar.update(round(100.0 * fraction) - bar.n)
 
-        answers = []
         for limits in limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show):
             answers.append(limits)
             bar.write(format_row(limits, options.fps), file=sys.stdout)
@@ -109,6 +112,14 @@ def _print_limits(options: argparse.Namespace, scene: Scene) -> int:
         print(line)
     reads = any(limits.highest_frequency and limits.longest_exposure for limits in answers)
     return 0 if reads else EXIT_FAILURE
+
+
+def _rough_text(scene: Scene, settings: RateSettings, rate: float) -> str:
+    """State roughly which frequencies the first decoder reads, while its limits are sought."""
+    name, first = "switching_frequency", settings.decoders[:1]
+    found = rough_range(scene, name, rate, replace(settings, decoders=first))
+    ends = (format_end(name, end) for end in (found.lowest, found.highest))
+    return f"{first[0]} roughly {' to '.join(ends)}"
 
 
 _COLUMNS = (

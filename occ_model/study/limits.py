@@ -96,12 +96,8 @@ def limits_of(
 ) -> Iterator[Limits]:
     """Yield the limits of several decoders as soon as they are found, as :func:`limits` does."""
     required_rate = check_search(rate, jobs)
-    searches = []
-    for decoder in settings.decoders:
-        decoder_settings = replace(settings, decoders=(decoder,))
-        check_rate(scene, decoder_settings)
-        searches.append(_DecoderSearch(scene, required_rate, decoder_settings))
-    return _SearchRunner(searches, heartbeat, progress).run(jobs)
+    check_rate(scene, settings)
+    return _SearchRunner(scene, required_rate, settings, heartbeat, progress).run(jobs)
 
 
 SEARCHED_PARAMETERS = ("switching_frequency", "exposure_time")
@@ -109,42 +105,16 @@ MOST_PROCESSES = 2  # one for each parameter
 _POLL_SECONDS = 0.1  # between two polls of other processes
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, slots=True)
 class _Task:
-    """A search along a parameter."""
+    """A search along a parameter for one decoder."""
 
-    search: "_DecoderSearch"
     name: str  # of the parameter
-    arguments: tuple[Scene, str, float, RateSettings]
+    decoder: str
 
     @property
     def description(self) -> str:
-        return f"{PARAMETERS[self.name].in_sentence}, {self.arguments[3].decoders[0]} decoder"
-
-
-class _DecoderSearch:
-    """What is to be searched for a decoder, and what has been found."""
-
-    def __init__(self, scene: Scene, rate: float, settings: RateSettings) -> None:
-        self._scene, self._rate, self._settings = scene, rate, settings
-        self.waiting = [
-            _Task(self, name, (scene, name, rate, settings)) for name in SEARCHED_PARAMETERS
-        ]
-        self.ranges: dict[str, WorkingRange] = {}
-
-    def take_next(self, name: str) -> _Task | None:
-        """Take a task that waits, best along a parameter."""
-        order = [task.name != name for task in self.waiting]
-        return self.waiting.pop(order.index(min(order))) if order else None
-
-    def found(self) -> Limits | None:
-        """Return the limits if both ranges have been found."""
-        if len(self.ranges) < len(SEARCHED_PARAMETERS):
-            return None
-        settings, ranges = self._settings, (self.ranges[name] for name in SEARCHED_PARAMETERS)
-        return Limits(
-            self._scene, settings.decoders[0], self._rate, settings.images, settings.seed, *ranges
-        )
+        return f"{PARAMETERS[self.name].in_sentence}, {self.decoder} decoder"
 
 
 class _SearchRunner:
@@ -156,18 +126,21 @@ class _SearchRunner:
 
     def __init__(
         self,
-        searches: Sequence[_DecoderSearch],
+        scene: Scene,
+        rate: float,
+        settings: RateSettings,
         heartbeat: Heartbeat,
         progress: Callable[[float, str], object],
     ) -> None:
-        self._searches = list(searches)
+        self._scene, self._rate, self._settings = scene, rate, settings
         self._heartbeat, self._progress = heartbeat, progress
+        self._waiting = [
+            _Task(name, decoder) for decoder in settings.decoders for name in SEARCHED_PARAMETERS
+        ]
+        self._decoders = list(settings.decoders)  # whose limits are not complete
+        self._ranges: dict[_Task, WorkingRange] = {}
         self._read = 0
-        self._expected = sum(
-            estimate_range_images(each.arguments[3].images)
-            for search in searches
-            for each in search.waiting
-        )
+        self._expected = len(self._waiting) * estimate_range_images(settings.images)
 
     def run(self, jobs: int) -> Iterator[Limits]:
         """Yield the limits of each decoder, by so many processes."""
@@ -182,7 +155,7 @@ class _SearchRunner:
                 yield from self._run_in(pools)
         while (task := self._take_next(SEARCHED_PARAMETERS[0])) is not None:
             beat = partial(self._on_image, task.description)
-            task.search.ranges[task.name] = working_range(*task.arguments, beat)
+            self._ranges[task] = working_range(*self._arguments(task), beat)
             yield from self._take_found()
 
     def _run_in(self, pools: "Sequence[tuple[ProcessPool, str]]") -> Iterator[Limits]:
@@ -191,7 +164,7 @@ class _SearchRunner:
             while True:
                 while idle and (task := self._take_next(idle[0][1])) is not None:
                     pool = idle.pop(0)
-                    running[_submit(pool[0], task)] = task, pool
+                    running[self._submit(pool[0], task)] = task, pool
                 if not running:
                     return
                 done, _ = wait(running, timeout=_POLL_SECONDS, return_when=FIRST_COMPLETED)
@@ -199,24 +172,41 @@ class _SearchRunner:
                 self._report(next(iter(running.values()))[0].description)
                 for future in done:
                     task, pool = running[future]
-                    task.search.ranges[task.name] = _unwrap_result(future.result())
+                    self._ranges[task] = _unwrap_result(future.result())
                     del running[future]
                     idle.append(pool)
                 yield from self._take_found()
         finally:  # what lost processes have not done
-            for task, _ in running.values():
-                task.search.waiting.insert(0, task)
+            self._waiting[:0] = [task for task, _ in running.values()]
+
+    def _arguments(self, task: _Task) -> tuple[Scene, str, float, RateSettings]:
+        settings = replace(self._settings, decoders=(task.decoder,))
+        return self._scene, task.name, self._rate, settings
+
+    def _submit(self, pool: "ProcessPool", task: _Task) -> "Future[JobResult]":
+        try:
+            return pool.submit(Job(working_range, self._arguments(task)), 0, 1)
+        except Exception:
+            self._waiting.insert(0, task)
+            raise
 
     def _take_next(self, name: str) -> _Task | None:
-        tasks = (search.take_next(name) for search in self._searches)
-        return next((task for task in tasks if task is not None), None)
+        """Take a task of the first decoder that has one, best along a parameter."""
+        if not self._waiting:
+            return None
+        wanted = _Task(name, self._waiting[0].decoder)
+        return self._waiting.pop(self._waiting.index(wanted) if wanted in self._waiting else 0)
 
     def _take_found(self) -> Iterator[Limits]:
-        while self._searches and (found := self._searches[0].found()) is not None:
-            self._searches.pop(0)
-            if not self._searches:
+        settings = self._settings
+        while self._decoders:
+            tasks = [_Task(name, self._decoders[0]) for name in SEARCHED_PARAMETERS]
+            if not self._ranges.keys() >= {*tasks}:
+                return
+            decoder, ranges = self._decoders.pop(0), (self._ranges[task] for task in tasks)
+            if not self._decoders:
                 self._progress(1.0, "")
-            yield found
+            yield Limits(self._scene, decoder, self._rate, settings.images, settings.seed, *ranges)
 
     def _on_image(self, description: str) -> None:
         self._read += 1
@@ -225,14 +215,6 @@ class _SearchRunner:
     def _report(self, description: str) -> None:
         self._heartbeat()
         self._progress(min(self._read / self._expected, 0.99), description)
-
-
-def _submit(pool: "ProcessPool", task: _Task) -> "Future[JobResult]":
-    try:
-        return pool.submit(Job(working_range, task.arguments), 0, 1)
-    except Exception:
-        task.search.waiting.insert(0, task)
-        raise
 
 
 def _unwrap_result(result: JobResult) -> Any:

@@ -67,7 +67,8 @@ class EndSearch:
 
     def __init__(self, measure: Measure, rate: float, images: int) -> None:
         self._measure, self._rate = measure, rate
-        self._each, self._proof = max(images // 2, _LEAST_IMAGES), images_to_prove(rate)
+        self._each = max(images // 2, _LEAST_IMAGES)
+        self._proof = max(images_to_prove(rate), 5 * images)
         self.lost: dict[float, list[float]] = {}
         """The fractions of lost bits by value."""
 
@@ -78,7 +79,7 @@ class EndSearch:
     def find(self, bracket: Bracket) -> FoundEnd | None:
         """Find an end; None if there is no value inside at which all pictures are read."""
         inside = self._narrow(bracket.read, bracket.lost)
-        sure = self._find_sure(inside, bracket.innermost, max(self._proof // 3, 1))
+        sure = self._find_sure(inside, bracket.innermost, self._proof // 3)
         for count in range(_ROUNDS + 2):
             if sure is None:
                 break

@@ -25,8 +25,8 @@ from occ_model.study.signals.batch import Observation
 from occ_model.study.signals.pictures import image_of, observe_images
 from occ_model.transmitter.scheme import check_code
 
-_MOST_KEPT = 2000
-"""Pictures whose signals are kept for the next decoder, enough for a search along a parameter."""
+_MOST_KEPT = 3000
+"""Pictures whose signals are kept for the next decoder, enough for the searches of limits."""
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 
@@ -194,8 +194,6 @@ def read_ahead(
     series: Sequence[ImageSeries],
     settings: RateSettings,
     heartbeat: Heartbeat,
-    *,
-    is_kept: bool = True,
 ) -> Iterator[list[int]]:
     """Yield how many bits a decoder reads correctly in the images of each series.
 
@@ -211,7 +209,7 @@ def read_ahead(
             for each in part
             for number in each.numbers
         ]
-        observations = _observe_cached(keys, is_kept)
+        observations = _observe_cached(keys)
         results = iter(_read([pictures.scene for pictures, _ in keys], observations, decoder))
         for each in part:
             sent = np.array(each.scene.transmitter.payload_bits, dtype=np.uint8)
@@ -257,7 +255,7 @@ def forget_images() -> None:
 
 
 def _observe_cached(
-    keys: Sequence[tuple[_StudyPictures, int]], is_kept: bool = True
+    keys: Sequence[tuple[_StudyPictures, int]],
 ) -> list[Observation | None]:
     """Return the signals of pictures, simulated at once if they are not kept from before."""
     found = {key: _observed[key] for key in keys if key in _observed}
@@ -272,11 +270,10 @@ def _observe_cached(
             for (pictures, number), plan in zip(part, plans, strict=True)
         ]
         found |= zip(part, observe_images(images, path, plans[0]), strict=True)
-    if is_kept:
-        for key in missing:
-            _observed[key] = found[key]
-            if len(_observed) > _MOST_KEPT:
-                _observed.popitem(last=False)
+    for key in missing:
+        _observed[key] = found[key]
+        if len(_observed) > _MOST_KEPT:
+            _observed.popitem(last=False)
     return [found[key] for key in keys]
 
 

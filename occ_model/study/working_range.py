@@ -57,7 +57,7 @@ def working_range(
 
 
 def rough_range(scene: Scene, name: str, rate: float, settings: RateSettings) -> WorkingRange:
-    """Return what one image at each value of the scan shows, without any confirmation."""
+    """Return what one image at each value of the scan shows, without narrow gaps and islands."""
     return _RangeSearch(scene, name, rate, settings, lambda: None).find_roughly()
 
 
@@ -143,7 +143,12 @@ class _RangeSearch:
         """Return the values of the scan of which the first image is read."""
         self._read_ahead(self._values, range(1))
         trials = [trial_of(value, self._known[value], self._bits) for value in self._values]
-        runs = self._find_runs([self._is_read(trial) for trial in trials])
+        is_read = [self._is_read(trial) for trial in trials]
+        for wanted in (True, False):
+            for narrow in _narrow_runs(is_read, wanted):
+                for index in narrow:
+                    is_read[index] = not wanted
+        runs = self._find_runs(is_read)
         intervals = []
         for run in runs:
             lowest, highest = (RangeEnd(trials[at].value, trials[at], trials[at]) for at in run)
@@ -179,7 +184,7 @@ class _RangeSearch:
             scene = self._scene.replace(**{self._name: value})
             seed = _seed_at(value, self._settings.seed)
             series.append(ImageSeries(scene, seed, range(first, first + images)))
-        for counts in read_ahead(series, self._settings, self._heartbeat, is_kept=False):
+        for counts in read_ahead(series, self._settings, self._heartbeat):
             yield [1.0 - right / self._bits for right in counts]
 
     def _find_read_values(self) -> list[bool]:

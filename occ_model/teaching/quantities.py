@@ -49,7 +49,7 @@ def _threshold_limit(scene: Scene) -> float:
     from occ_model.study.success_rate import check_rate
     from occ_model.study.working_range import READ_RATE, working_range
 
-    # `limits` takes ten times as long, as it also searches exposure times and confirms each end.
+    # `limits` takes longer, as it also searches exposure times.
     settings = RateSettings(5, ("threshold",))
     check_rate(scene, settings)
     highest = working_range(scene, "switching_frequency", READ_RATE, settings).highest

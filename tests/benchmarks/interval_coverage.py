@@ -1,77 +1,104 @@
-"""Print how many of the studies' 95 % intervals hold the truth.
+"""Print how many of the 95 % intervals of ends hold the end, in studies at ten ends.
 
-python tests/benchmarks/interval_coverage.py --studies 40 --images 20 --seed 0
+python tests/benchmarks/interval_coverage.py --studies 40 --seed 0
 
-The true rate is asked for at ten edges of working ranges. Each study reads pictures of its own; the
-true rate is that of as many others as there are in all studies of an edge, twice.
+Each study searches about an end with a scan and pictures of its own. The true end is where the rate
+of the pictures of all studies, which falls outwards, crosses the required one.
 """
 
 import argparse
+import math
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 
 import numpy as np
+from scipy.optimize import isotonic_regression
 
 import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
-from occ_model.study.confidence import interval_of_pictures
-from occ_model.study.success_rate import right_bits_of_images
+from occ_model.study.range_end import Bracket, EndSearch
+from occ_model.study.success_rate import ImageSeries, read_ahead
+from occ_model.study.working_range import FEW_IMAGES, READ_RATE, STEP
 
-EDGES: tuple[tuple[str, str, float], ...] = (
-    ("phone-136us", "threshold", 3.3e3),
-    ("phone-136us", "threshold", 14.23e3),
-    ("phone-136us", "matched", 1.75e3),
-    ("phone-136us", "equalizer", 14.2e3),
-    ("phone-136us", "equalizer", 34.6e3),
-    ("phone-136us", "sequence", 1.78e3),
-    ("phone-68us", "threshold", 3.3e3),
-    ("tablet-122us", "equalizer", 2.7e3),
-    ("tablet-61us", "threshold", 31.5e3),
-    ("tablet-61us", "matched", 1.52e3),
+FREQUENCY, EXPOSURE = "switching_frequency", "exposure_time"
+ENDS: tuple[tuple[str, str, str, float, int], ...] = (
+    ("phone-136us", "threshold", FREQUENCY, 3.59e3, -1),
+    ("phone-136us", "threshold", FREQUENCY, 14.0e3, 1),
+    ("phone-136us", "threshold", EXPOSURE, 191.5e-6, 1),
+    ("phone-136us", "matched", FREQUENCY, 1.89e3, -1),
+    ("phone-68us", "threshold", FREQUENCY, 3.58e3, -1),
+    ("tablet-122us", "equalizer", FREQUENCY, 3.1e3, -1),
+    ("tablet-61us", "threshold", FREQUENCY, 31.2e3, 1),
+    ("phone-136us-real", "equalizer", FREQUENCY, 3.58e3, -1),
+    ("phone-136us-real", "threshold", FREQUENCY, 13.5e3, 1),
+    ("tablet-122us-real", "threshold", FREQUENCY, 15.1e3, 1),
 )
-"""Preset, decoder and frequency, at which 10 to 90 % of the bits are read."""
+"""Preset, decoder, parameter, about where the end is, and whether it is the highest (1)."""
+
+Study = tuple[tuple[float, float] | None, dict[float, list[float]]]
 
 
-def right_of_each(edge: int, images: int, seed: int) -> np.ndarray:
-    """Count the right bits of each picture at an edge."""
-    preset, decoder, frequency = EDGES[edge]
-    scene = occ.load_preset(preset).replace(switching_frequency=frequency)
-    settings = RateSettings(images, (decoder,), seed)
-    return np.array([right for (right,) in right_bits_of_images(scene, settings)])
+def study_end(end: int, seed: int) -> Study:
+    """Return the interval of an end, and the fractions of lost bits by value."""
+    preset, decoder, name, about, outwards = ENDS[end]
+    scene, settings = occ.load_preset(preset), RateSettings(20, (decoder,))
+    random = np.random.default_rng([end, seed])
+    bits = scene.transmitter.payload_length
 
-
-def count_rates(studies: int, images: int, seed: int, processes: ProcessPoolExecutor) -> None:
-    print("| preset | decoder | frequency | true rate | intervals that hold it |")
-    print("|---|---|---|---|---|")
-    total, bits, held = studies * images, 10, 0
-    jobs = [
-        [
-            processes.submit(right_of_each, edge, size, seed + place)
-            for place, size in enumerate((2 * total, *[images] * studies))
+    def measure(values: Sequence[float], images: int) -> list[list[float]]:
+        series = [
+            ImageSeries(scene.replace(**{name: value}), int(random.integers(2**32)), range(images))
+            for value in values
         ]
-        for edge in range(len(EDGES))
-    ]
-    for (preset, decoder, frequency), (truth, *counts) in zip(EDGES, jobs, strict=True):
-        rate = 100.0 * float(truth.result().mean()) / bits
-        ends = [
-            interval_of_pictures(int(count.result().sum()), images * bits, images)
-            for count in counts
-        ]
-        hold = sum(low <= rate <= high for low, high in ends)
-        held += hold
-        cells = (preset, decoder, f"{frequency / 1e3:g} kHz", f"{rate:.1f} %")
-        print(f"| {' | '.join(cells)} | {hold} of {studies} |", flush=True)
-    print(f"| all | | | | {100.0 * held / len(EDGES) / studies:.1f} % |")
+        counts = read_ahead(series, settings, lambda: None)
+        return [[1.0 - right / bits for right in each] for each in counts]
+
+    step = STEP**outwards
+    innermost = value = about / step**4 * float(step ** random.uniform())
+    while not any(measure([value * step], FEW_IMAGES)[0]):
+        value *= step
+    search = EndSearch(measure, READ_RATE, settings.images)
+    found = search.find(Bracket(value, value * step, innermost, value * step**5))
+    return found.interval if found else None, search.lost
+
+
+def true_end(lost: dict[float, list[float]], outwards: int) -> float:
+    values = sorted((value for value in lost if lost[value]), reverse=outwards < 0)
+    means, images = [np.mean(lost[value]) for value in values], [len(lost[v]) for v in values]
+    rising = isotonic_regression(means, weights=images).x
+    place = int(np.argmax(rising > 1.0 - READ_RATE / 100.0))
+    pair = slice(place - 1, place + 1)
+    at = np.interp(1.0 - READ_RATE / 100.0, rising[pair], np.log(values)[pair])
+    return math.exp(float(at))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--studies", type=int, default=40)
-    parser.add_argument("--images", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0, help="of the first; others follow")
     parser.add_argument("--jobs", type=int, default=2)
     asked = parser.parse_args()
+    print("| preset | decoder | end | intervals that hold it | median width | images |")
+    print("|---|---|---|---|---|---|")
+    total = held = 0
     with ProcessPoolExecutor(asked.jobs) as processes:
-        count_rates(asked.studies, asked.images, asked.seed, processes)
+        for end, (preset, decoder, _, _, outwards) in enumerate(ENDS):
+            seeds = range(asked.seed, asked.seed + asked.studies)
+            studies = list(processes.map(partial(study_end, end), seeds))
+            pooled: dict[float, list[float]] = {}
+            for _, lost in studies:
+                for value, fractions in lost.items():
+                    pooled.setdefault(value, []).extend(fractions)
+            truth = true_end(pooled, outwards)
+            intervals = [sorted(interval) for interval, _ in studies if interval]
+            hold = sum(low <= truth <= high for low, high in intervals)
+            total, held = total + len(intervals), held + hold
+            width = 100.0 * float(np.median([high / low - 1.0 for low, high in intervals]))
+            images = sum(map(len, pooled.values())) / len(studies)
+            cells = preset, decoder, f"{truth:.5g}", f"{hold} of {len(intervals)}"
+            print(f"| {' | '.join(cells)} | {width:.2f} % | {images:.0f} |", flush=True)
+    print(f"| all | | | {100.0 * held / total:.1f} % of {total} | | |")
 
 
 if __name__ == "__main__":

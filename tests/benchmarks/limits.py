@@ -3,8 +3,7 @@
 python tests/benchmarks/limits.py
 python tests/benchmarks/limits.py --preset phone-136us --decoder threshold
 
-How surely the ends are known is not searched, which takes several times as long. ``--total`` does
-so, and prints the processor time of the command ``limits`` until the first decoder's limits are
+``--total`` prints the processor time of the command ``limits`` until the first decoder's limits are
 known and until all are, with the images that it reads.
 ``--cessation`` prints, for each exposure of the paper beyond the band model, each enhancement and
 some noise, the highest frequency at which 99 % of the bits are read by the paper's decoder.
@@ -61,7 +60,7 @@ def line(preset: str, decoder: str) -> str:
 
 
 def total(preset: str, decoders: Sequence[str]) -> str:
-    """Search for the limits of decoders, and how surely they are known, in one process."""
+    """Search for the limits of decoders in one process."""
     scene, settings = occ.load_preset(preset), RateSettings(IMAGES, tuple(decoders), SEED)
     beats = count()
     start = time.process_time()

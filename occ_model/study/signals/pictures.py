@@ -7,7 +7,6 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.effects.effect import paper_view_of
-from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import SignalPath
@@ -45,23 +44,15 @@ def picture_itself(scene: Scene, plan: Plan, seed: int) -> Image:
 
 
 def observe_images(
-    images: Sequence[Image],
-    path: SignalPath,
-    plan: Plan,
-    heartbeat: Heartbeat = lambda: None,
+    images: Sequence[Image], path: SignalPath, plan: Plan
 ) -> Iterator[Observation | None]:
     """Simulate the signals that decoders read; None where a picture shows no panel.
 
     ``path``: ``"image"`` simulates whole pictures with a plan's effects, any other a batch.
     """
     if path != "image":
-        for observation in simulate_images(images):
-            heartbeat()
-            yield observation
-        return
-    for image in images:
-        heartbeat()
-        yield _observe_whole(image, plan)
+        return simulate_images(images)
+    return (_observe_whole(image, plan) for image in images)
 
 
 def _observe_whole(image: Image, plan: Plan) -> Observation | None:

@@ -116,7 +116,6 @@ def test_six_ways_give_the_same_rate(
     of_map = measure_points(sweep.scene, sweep.settings, cell, 0, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)
     monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
-    monkeypatch.setattr(module, "END_RATIO", 1e9)
     own = working_range(scene, "switching_frequency", 99.0, counts).own
     scene_file, table = tmp_path / "scene.toml", tmp_path / "rates.csv"
     scene_file.write_text(elsewhere.to_toml(), encoding="utf-8")

@@ -93,6 +93,9 @@ def advice_bench(
     """Ask for advice, and wait for it."""
     map_bench.workers = inline_workers
     monkeypatch.setattr(advice_worker, "limits", find_limits)
+    monkeypatch.setattr(
+        advice_worker, "rough_range", lambda scene, *_: find_limits(scene).frequency
+    )
     monkeypatch.setattr(map_bench.pane.map, "set_visible", lambda _: None)  # not tested here
     map_bench.see("map")
     map_bench.view.advise.click()

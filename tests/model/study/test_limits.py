@@ -39,7 +39,7 @@ def replace_reading(
     monkeypatch: pytest.MonkeyPatch, right_bits_of_images: Callable[..., Iterator[tuple[int]]]
 ) -> None:
     def read_ahead(
-        series: list[ImageSeries], settings: RateSettings, heartbeat: object, **_: bool
+        series: list[ImageSeries], settings: RateSettings, heartbeat: object
     ) -> Iterator[list[int]]:
         for each in series:
             these = replace(settings, seed=each.seed, images=each.numbers.stop)
@@ -85,7 +85,7 @@ def correct_within(*ranges: tuple[float, float]) -> Callable[[float, int, int], 
 
 def search_range(scene: Scene, name: str = "switching_frequency", **how: Any) -> WorkingRange:
     settings = RateSettings(how.get("images", 3), ("threshold",), how.get("seed", 1))
-    return module.working_range(scene, name, 90.0, settings)
+    return module.working_range(scene, name, how.get("rate", 90.0), settings)
 
 
 def ends(range_end: RangeEnd) -> tuple[float, float]:
@@ -101,13 +101,14 @@ def test_both_ends_of_an_interval_are_found(
 ) -> None:
     high = low * ratio
     decoding(correct_within((low, high)))
-    found = search_range(SCENE.replace(switching_frequency=own), images=1)
+    found = search_range(SCENE.replace(switching_frequency=own), images=20, rate=99.0)
     for range_end, truth in ((found.lowest, low), (found.highest, high)):
         works, fails = ends(range_end)
         assert min(works, fails) <= truth <= max(works, fails)
         assert low <= works <= high
         first, last = sorted(range_end.interval)
-        assert last / first <= 1.02
+        assert first / END_RATIO <= truth <= last * END_RATIO
+        assert last / first <= END_RATIO**2
         assert range_end.value == range_end.interval[0]
 
 
@@ -166,7 +167,7 @@ def test_if_nothing_is_read_a_sentence_states_it(decoding: Decoding) -> None:
 
 def test_the_papers_decoder_reads_from_two_packets_to_the_null() -> None:
     scene = occ.load_preset("phone-136us")
-    found = search_range(scene, images=1)
+    found = search_range(scene, images=20)
     works, fails = ends(found.highest)
     null = theory.null_frequency(scene)
     # Below the null, equalizing the weak stripes amplifies the noise.
@@ -188,13 +189,6 @@ def test_a_value_is_given_up_once_further_images_cannot_reach_the_rate(decoding:
     assert far == {1}
     # What is reported rests on all images: no count has been stopped by its own result.
     assert min(range_end.works.images, range_end.fails.images) >= 20
-
-
-def test_an_end_that_more_images_contradict_is_moved(decoding: Decoding) -> None:
-    # Beyond 11 kHz every tenth image is not read.
-    decoding(lambda frequency, image, _: frequency <= 11e3 or image % 10 != 9)
-    works, fails = ends(occ.limits(SCENE, images=20).frequency.highest)
-    assert works <= 11e3 < fails
 
 
 def test_each_end_is_read_in_all_images_even_if_the_first_ones_mislead(decoding: Decoding) -> None:

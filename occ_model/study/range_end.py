@@ -87,7 +87,8 @@ class EndSearch:
             interval = interval_of_end(self.lost, self._rate, sure, refuted)
             ratio = _ratio(*interval)
             if ratio <= (_WIDE_RATIO if count == _ROUNDS else END_RATIO) or count > _ROUNDS:
-                return FoundEnd(interval, sure, refuted)
+                inner = sorted((interval[0], bracket.innermost, bracket.outermost))[1]
+                return FoundEnd((inner, interval[1]), sure, refuted)
             if count == _ROUNDS:
                 sure = self._find_sure(sure, bracket.innermost, self._proof)
             else:

@@ -233,6 +233,9 @@ class _RangeSearch:
         highest = self._find_end(last, first, after, is_nearest or run == runs[-1])
         if lowest is None or highest is None:
             return None
+        if lowest.value > highest.value:
+            self._refuted |= {first, last}
+            return None
         return ReadInterval(lowest, highest, is_island=last - first < _NARROW and len(runs) > 1)
 
     def _distance_from_scene(self, run: tuple[int, int]) -> float:

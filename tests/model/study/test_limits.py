@@ -122,6 +122,7 @@ def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_one_are_e
     assert len(found.intervals) == len(truth)
     assert len(found.gaps) == 2
     for interval, (low, high) in zip(found.intervals, truth, strict=True):
+        assert interval.lowest.value <= interval.highest.value
         is_exact = low <= own <= high
         for range_end, wanted in ((interval.lowest, low), (interval.highest, high)):
             works, fails = ends(range_end)

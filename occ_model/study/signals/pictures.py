@@ -1,7 +1,7 @@
 """The pictures of a study: their start times and noise from seeds, in batches or as a whole."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -45,7 +45,7 @@ def picture_itself(scene: Scene, plan: Plan, seed: int) -> Image:
 
 def observe_images(
     images: Sequence[Image], path: SignalPath, plan: Plan
-) -> Iterator[Observation | None]:
+) -> Iterable[Observation | None]:
     """Simulate the signals that decoders read; None where a picture shows no panel.
 
     ``path``: ``"image"`` simulates whole pictures with a plan's effects, any other a batch.

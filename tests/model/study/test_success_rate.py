@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -119,7 +119,7 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
 ) -> None:
     simulated: list[Image] = []
 
-    def simulate(images: Sequence[Image], *others: Any) -> Iterator[Observation | None]:
+    def simulate(images: Sequence[Image], *others: Any) -> Iterable[Observation | None]:
         simulated.extend(images)
         return observe_images(images, *others)
 

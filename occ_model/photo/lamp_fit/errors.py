@@ -9,6 +9,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.lamp_fit.cues import Cues
 from occ_model.photo.lamp_fit.fit import LampFit
 from occ_model.photo.lamp_fit.model import PERIOD, PLACE, RAMP, WIDTH
+from occ_model.photo.lamp_fit.readings import StripeReading
 
 _EDGE_ERROR, _EDGES_BEFORE = 0.03, 4.0
 """Prior deviation in columns by which processing moves an edge, and its weight in edges. These, and
@@ -27,6 +28,10 @@ class ReadingErrors:
     place: float
     width: float
     ramp: float
+
+    def of_shape(self, one: StripeReading) -> tuple[float, float]:
+        """Return the errors of a reading's duty and exposure."""
+        return (self.width, self.ramp) if one.is_width_of_pulses else (self.ramp, self.width)
 
 
 def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:

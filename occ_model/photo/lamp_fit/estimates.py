@@ -1,0 +1,105 @@
+"""Estimate a lamp's frequency or the readout time, its duty and the exposure from its stripes."""
+
+import math
+from dataclasses import dataclass
+
+from occ_model.photo.lamp_fit.read_lamp import LampReading
+from occ_model.photo.lamp_fit.readings import StripeReading, readings_of
+from occ_model.photo.lamp_fit.verdict import floor_limit
+
+_SAME = 2.0  # deviations within which two duties are the same
+_NOTE_ERROR = math.log(1.3)  # logarithm of how far a noted exposure may be from a lamp's
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampEstimates:
+    """What stripes say of a lamp whose frequency, or the readout time, is known.
+
+    Parameters
+    ----------
+    estimate
+        ``"readout_time"`` or ``"lamp_frequency"``, whichever is not known.
+    frequency, readout
+        In hertz and in seconds a line.
+    known_duty
+        As a fraction of a period; None if it is read from the stripes.
+    noted
+        The exposure time in seconds that the camera noted, or None.
+    chosen, others
+        The duty and exposure, and others that make the same stripes.
+    """
+
+    reading: LampReading
+    estimate: str
+    frequency: float
+    readout: float
+    known_duty: float | None
+    noted: float | None
+    chosen: StripeReading
+    others: tuple[StripeReading, ...]
+
+    @property
+    def duty(self) -> float:
+        return self.chosen.duty if self.known_duty is None else self.known_duty
+
+    @property
+    def exposure_time(self) -> float:
+        return self.chosen.exposure / self.frequency
+
+    @property
+    def start_time(self) -> float:
+        """The time in seconds from the lamp's lighting up to the first column's exposure."""
+        place = self.reading.column + self.reading.place.region.first_column
+        centred = 0.5 * self.duty - 0.5 * self.chosen.exposure - place / self.reading.period
+        return centred % 1.0 / self.frequency
+
+    @property
+    def uncertainties(self) -> dict[str, float]:
+        """Standard deviations by the names of the scene's parameters, in SI units."""
+        errors, period = self.reading.errors, 1.0 / self.frequency
+        of_duty, of_exposure = errors.of_shape(self.chosen)
+        of_place = errors.place * self.reading.step * self.readout
+        value = self.readout if self.estimate == "readout_time" else self.frequency
+        found = {
+            "exposure_time": of_exposure * period,
+            "start_time": math.hypot(of_place, 0.5 * math.hypot(of_duty, of_exposure) * period),
+            self.estimate: errors.period / self.reading.fit.wave.period * value,
+        }
+        return found if self.known_duty is not None else {**found, "duty": of_duty}
+
+
+def estimate_lamp(
+    reading: LampReading,
+    *,
+    frequency: float,
+    readout: float,
+    estimate: str,
+    known_duty: float | None,
+    noted: float | None,
+) -> LampEstimates:
+    """Estimate the lamp's frequency, or the readout time, from the other one.
+
+    Of the duties and exposures that make the stripes, the floor and what is known choose.
+    """
+    if estimate == "readout_time":
+        readout = 1.0 / (frequency * reading.period)
+    else:
+        estimate, frequency = "lamp_frequency", 1.0 / (readout * reading.period)
+    floor, most = reading.fit.floor, floor_limit(reading.cues)
+
+    def away(one: StripeReading) -> float:
+        known = 0.0
+        if known_duty is not None:
+            known = (one.duty - known_duty) / (_SAME * reading.errors.of_shape(one)[0])
+        elif noted is not None:
+            known = math.log(one.exposure / (noted * frequency)) / _NOTE_ERROR
+        return math.hypot((one.floor - floor) / most, known)
+
+    first, *rest = sorted(readings_of(reading.width, reading.ramp), key=away)
+    apart = _SAME * max(reading.errors.of_shape(first))
+    others = tuple(
+        one
+        for one in rest
+        if away(one) < away(first) + 1.0 and abs(one.exposure - first.exposure) > apart
+    )
+    return LampEstimates(reading, estimate, frequency, readout, known_duty, noted, first, others)

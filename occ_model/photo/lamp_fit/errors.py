@@ -1,4 +1,7 @@
-"""Standard deviations of what is read from a lamp's stripes."""
+"""Standard deviations of what is read from a lamp's stripes.
+
+Numbers were set on simulated lamps.
+"""
 
 import math
 from dataclasses import dataclass
@@ -11,12 +14,11 @@ from occ_model.photo.lamp_fit.fit import LampFit
 from occ_model.photo.lamp_fit.model import PERIOD, PLACE, RAMP, WIDTH
 from occ_model.photo.lamp_fit.readings import StripeReading
 
-_EDGE_ERROR, _EDGES_BEFORE = 0.03, 4.0
-"""Prior deviation in columns by which processing moves an edge, and its weight in edges. These, and
-the numbers below, were set on 420 simulated lamps."""
-_VIEW_ERROR = 0.01  # columns, of all periods in view together
-_WIDTH_ERROR, _RAMP_ERROR = 0.07, 0.1  # columns, by blur and sharpening that the model lacks
-_TONE_ERROR = 0.006  # of the ramp, by tone curves that the model lacks
+_SPREAD = 0.35  # weight of the variances by noise and by edges
+_FEW_EDGES = 14.0  # edges of which each tells the others' spread half as well as many do
+_PERIOD_SHIFT, _WIDTH_SHIFT, _RAMP_SHIFT = 8.0, 8.0, 14.0
+"""Columns by which all edges alike may be off, if the levels' misfit were all of their swing."""
+_TONE_ERROR = 0.0045  # of the ramp, for each deviation of the tone curve from a usual one
 _UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
 
 
@@ -38,50 +40,71 @@ def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     """Return the errors of a fit.
 
     ``hidden_group``: columns that may have been read together, at least 1. Steeper edges than that
-    may lie anywhere within.
+    may lie anywhere between the places within a group at which others were seen.
     """
     wave = fit.wave
-    scale = _scale(cues)
-    deviations = scale * np.sqrt(np.maximum(np.diag(fit.covariance), 0.0))
-    of_group = _UNKNOWN * max(0.0, hidden_group - wave.ramp_columns - 2.0 * wave.blur)
-    of_view = math.hypot(_VIEW_ERROR, of_group) / len(fit.profile.values)
-    width, ramp = _shape_errors(fit, scale, of_group)
+    free = _free_part(fit, hidden_group)
+    hidden = _UNKNOWN * max(0.0, hidden_group * free - wave.ramp_columns - 2.0 * wave.blur)
+    period, place, width, ramp = np.sqrt([_variance(fit, each) for each in _directions(fit)])
+    of_view = math.hypot(_PERIOD_SHIFT * cues.unexplained * free**2, hidden)
+    of_tone = math.hypot(_TONE_ERROR * fit.model.tension(fit.values) * wave.ramp_columns, hidden)
+    smaller = min(wave.width, 1.0 - wave.width)
+
+    def of_shape(deviation: float, shift: float, most: float) -> float:
+        of_columns = math.hypot(shift * cues.unexplained, of_tone) / wave.period
+        return min(math.hypot(deviation, of_columns), most)
+
     return ReadingErrors(
-        period=wave.period * math.hypot(float(deviations[PERIOD]), of_view),
-        place=math.hypot(float(deviations[PLACE]), of_group),
-        width=width,
-        ramp=ramp,
+        period=wave.period * math.hypot(period, of_view / len(fit.profile.values)),
+        place=math.hypot(place, hidden),
+        width=of_shape(width, _WIDTH_SHIFT, _UNKNOWN),
+        ramp=of_shape(ramp, _RAMP_SHIFT, _UNKNOWN * smaller),
     )
 
 
-def _scale(cues: Cues) -> float:
-    """Return by which factor edges deviate more from even spacing than by their noise, at least 1.
+def _directions(fit: LampFit) -> FloatArray:
+    """Return the slopes of the period's logarithm, place, width and ramp over the parameters.
 
-    A few edges determine it badly, so that it is combined with a prior.
+    Width and ramp are fractions of a period.
     """
-    freedom = max(cues.edges - 3, 1)
-    before = cues.scatter_noise**2 + _EDGE_ERROR**2
-    variance = freedom * cues.scatter**2 + _EDGES_BEFORE * before
-    deviation = math.sqrt(variance / (freedom + _EDGES_BEFORE))
-    return max(1.0, deviation / max(cues.scatter_noise, 1e-9))
+    width, ramp = fit.wave.width, fit.wave.ramp
+    slope, smaller = width * (1.0 - width), min(width, 1.0 - width)
+    slopes = np.zeros((4, len(fit.values)))
+    slopes[[0, 1, 2], [PERIOD, PLACE, WIDTH]] = 1.0, 1.0, slope
+    slopes[3, WIDTH] = ramp * slope if width < 0.5 else -ramp * slope
+    slopes[3, RAMP] = smaller * ramp * (1.0 - ramp)
+    return slopes
 
 
-def _shape_errors(fit: LampFit, scale: float, of_group: float) -> tuple[float, float]:
-    """Return the deviations of width and ramp, as fractions of a period."""
-    wave = fit.wave
-    width, ramp = wave.width, wave.ramp
-    smaller = min(width, 1.0 - width)
-    slope = width * (1.0 - width)
-    by_width = np.array([slope, 0.0])
-    sign = 1.0 if width < 0.5 else -1.0
-    by_ramp = np.array([sign * ramp * slope, smaller * ramp * (1.0 - ramp)])
-    covariance: FloatArray = fit.covariance[np.ix_([WIDTH, RAMP], [WIDTH, RAMP])]
-    of_tone = _TONE_ERROR * wave.ramp_columns
-    of_width, of_ramp = (
-        math.sqrt(
-            scale**2 * max(float(each @ covariance @ each), 0.0)
-            + (of_processing**2 + of_tone**2 + of_group**2) / wave.period**2
-        )
-        for each, of_processing in ((by_width, _WIDTH_ERROR), (by_ramp, _RAMP_ERROR))
-    )
-    return min(of_width, _UNKNOWN), min(of_ramp, _UNKNOWN * smaller)
+def _variance(fit: LampFit, direction: FloatArray) -> float:
+    """Return the variance of a combination of parameters, by noise and by each edge's own errors.
+
+    What processing does to an edge, its columns share: an edge's residuals are added first (the
+    estimate of Liang and Zeger, Biometrika 73:13, 1986).
+    """
+    responses = fit.responses @ direction
+    halves = 2.0 * (fit.profile.columns - fit.wave.place) / fit.wave.period
+    edges = np.floor(halves).astype(int) - math.floor(halves[0])
+    shifts = np.bincount(edges, weights=responses * fit.unfitted)
+    shares = np.bincount(edges, weights=responses**2)
+    total = float(shares.sum())
+    if total == 0.0:
+        return float(direction @ fit.covariance @ direction)
+    effective = total**2 / float(shares @ shares)
+    both = float(shifts @ shifts) + float(direction @ fit.covariance @ direction)
+    return _SPREAD * both * (1.0 + _FEW_EDGES / effective)
+
+
+def _free_part(fit: LampFit, group: float) -> float:
+    """Return the largest part of a group of columns in which no rising, or no falling, edge lies.
+
+    The smaller of the two.
+    """
+    wave, last = fit.wave, len(fit.profile.values) - 1
+    found = [1.0]
+    for side in (-0.5, 0.5):
+        first = (wave.place + side * wave.width * wave.period) % wave.period
+        places = np.sort(np.arange(first, last, wave.period) / group % 1.0)
+        if len(places):
+            found.append(float(np.diff(places, append=places[0] + 1.0).max()))
+    return min(found)

@@ -7,8 +7,10 @@ from occ_model.photo.lamp_fit.read_lamp import LampReading
 from occ_model.photo.lamp_fit.readings import StripeReading, readings_of
 from occ_model.photo.lamp_fit.verdict import floor_limit
 
+DUTY_ERROR = 0.02  # what tone curves outside the model add to the error of a duty that is known
 _SAME = 2.0  # deviations within which two duties are the same
-_NOTE_ERROR = math.log(1.3)  # logarithm of how far a noted exposure may be from a lamp's
+_NOTE_ERROR, _FAR_NOTE = math.log(1.3), math.log(1.6)
+"""Logarithms of how far a noted exposure may be from a lamp's, and from where that is doubted."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -45,6 +47,19 @@ class LampEstimates:
     @property
     def exposure_time(self) -> float:
         return self.chosen.exposure / self.frequency
+
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether a known duty or a noted exposure agrees with the light between the stripes."""
+        is_known = self.noted is not None and not self.is_far_from_note
+        off = abs(self.chosen.floor - self.reading.fit.floor)
+        return (is_known or self.known_duty is not None) and off <= floor_limit(self.reading.cues)
+
+    @property
+    def is_far_from_note(self) -> bool:
+        """Whether the camera noted another exposure time."""
+        noted = self.noted
+        return noted is not None and abs(math.log(self.exposure_time / noted)) > _FAR_NOTE
 
     @property
     def start_time(self) -> float:
@@ -90,7 +105,8 @@ def estimate_lamp(
     def away(one: StripeReading) -> float:
         known = 0.0
         if known_duty is not None:
-            known = (one.duty - known_duty) / (_SAME * reading.errors.of_shape(one)[0])
+            error = math.hypot(reading.errors.of_shape(one)[0], DUTY_ERROR)
+            known = (one.duty - known_duty) / (_SAME * error)
         elif noted is not None:
             known = math.log(one.exposure / (noted * frequency)) / _NOTE_ERROR
         return math.hypot((one.floor - floor) / most, known)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -39,18 +40,20 @@ _FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # of each round, after which the nois
 _LEAST_GAIN = 0.02
 _MOST_TRIES = 7
 _MOST_CORRELATION = 0.8
+_LEAST_FREEDOM = 0.2  # of a column, whose residual a fit follows
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class LampFit:
     """The model's best parameters for a profile."""
 
     profile: LampProfile
     model: Levels
     values: FloatArray
-    covariance: FloatArray
+    inverse: FloatArray  # Of the products of the slopes and beliefs
     noise: FloatArray  # Shape (columns,): standard deviation of each value
-    score: float  # Logarithm of the evidence, up to a constant
+    inflation: float = 1.0  # Of variances, as the noise of neighbouring columns is alike
+    score: float = 0.0  # Logarithm of the evidence, up to a constant
 
     @property
     def wave(self) -> Wave:
@@ -63,6 +66,26 @@ class LampFit:
     @property
     def gamma(self) -> float:
         return math.exp(self.values[GAMMA])
+
+    @property
+    def covariance(self) -> FloatArray:
+        return self.inflation * self.inverse
+
+    @cached_property
+    def _slopes(self) -> FloatArray:
+        return _weighted(self.profile, self.model, self.values, self.noise)[0]
+
+    @cached_property
+    def responses(self) -> FloatArray:
+        """The change of each parameter by a residual of one deviation, shape (columns, n)."""
+        return np.asarray(self._slopes @ self.inverse)
+
+    @property
+    def unfitted(self) -> FloatArray:
+        """Residuals in deviations, as if the fit had not followed them, shape (columns,)."""
+        leverages = np.einsum("ij,ij->i", self.responses, self._slopes)
+        freedom = np.maximum(1.0 - leverages, _LEAST_FREEDOM)
+        return np.asarray(self.residual / (self.noise * np.sqrt(freedom)))
 
     @property
     def gamma_error(self) -> float:
@@ -152,7 +175,7 @@ def _fit(
         values = _minimize(profile, model, values, noise, most)
         parts = _noise_parts(profile, model.levels(values), noise, len(values))
     noise = _noise(profile, model.levels(values), parts)
-    return _described(LampFit(profile, model, values, np.empty(0), noise, 0.0))
+    return _described(LampFit(profile, model, values, np.empty(0), noise))
 
 
 def _start(profile: LampProfile, model: Levels, period: float) -> FloatArray:
@@ -237,15 +260,23 @@ def _equations(
     profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the products of the slopes, and the gradient."""
-    levels, slopes = model.slopes(values)
-    off = _off(profile, levels) / noise
-    slopes = slopes / noise[:, None]
-    slopes[profile.clipped & (off == 0.0)] = 0.0
+    slopes, off = _weighted(profile, model, values, noise)
     beliefs, of_beliefs = model.beliefs(values)
     both = products_of(np.column_stack([slopes, off])) + products_of(
         np.column_stack([of_beliefs, beliefs])
     )
     return both[:-1, :-1], both[:-1, -1]
+
+
+def _weighted(
+    profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the slopes of the levels, and how far these are off, both in deviations."""
+    levels, slopes = model.slopes(values)
+    off = _off(profile, levels) / noise
+    slopes = slopes / noise[:, None]
+    slopes[profile.clipped & (off == 0.0)] = 0.0
+    return slopes, off
 
 
 def _described(fit: LampFit) -> LampFit:
@@ -266,5 +297,5 @@ def _described(fit: LampFit) -> LampFit:
     stiff = np.linalg.slogdet(model.bending.T @ model.bending + 1e-3 * np.eye(len(values) - COUNT))
     score = likelihood / inflation - 0.5 * float(beliefs @ beliefs)
     score += 0.5 * float(stiff[1] - np.linalg.slogdet(products)[1])
-    covariance = np.asarray(inflation * np.linalg.inv(products), dtype=np.float64)
-    return replace(fit, covariance=covariance, score=score)
+    inverse = np.asarray(np.linalg.inv(products), dtype=np.float64)
+    return replace(fit, inverse=inverse, inflation=inflation, score=score)

@@ -120,7 +120,9 @@ def _described(found: LampEstimates, photo: Photo, scene: Scene, errors: dict[st
         correlation=float(np.corrcoef(stripes.flattened, flat)[0, 1]),
         other_exposures=tuple(sorted(each.exposure / found.frequency for each in found.others)),
         reasons=(
-            *reading.reasons(has_note=found.noted is not None), *unsure, *doubts_by_duty(found),
+            *reading.reasons(is_confirmed=found.is_confirmed),
+            *unsure,
+            *doubts_by_duty(found),
         ),
         lines_at_once=reading.lines_at_once,
         exposure_reasons=(

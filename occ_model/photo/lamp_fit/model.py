@@ -73,6 +73,11 @@ class Levels:
     def tone(self, values: FloatArray) -> Tone:
         return Tone(math.exp(values[GAMMA]), math.exp(values[TOE]), values[BEND])
 
+    def tension(self, values: FloatArray) -> float:
+        """Return how far the tone curve is from what was believed before, in deviations."""
+        believed = {each: self.priors[each] for each in (GAMMA, TOE, BEND)}
+        return math.hypot(*((values[at] - mean) / off for at, (mean, off) in believed.items()))
+
     def levels(self, values: FloatArray) -> FloatArray:
         light = self._light(values, self.wave(values).values(self.columns))[0]
         return self._processed(values, self.tone(values).levels(light))

@@ -80,8 +80,8 @@ class LampReading:
         places = self._of_photo(self.fit.profile.columns)
         return np.asarray(np.interp(np.arange(self.place.region.columns), places, values))
 
-    def reasons(self, *, has_note: bool) -> list[str]:
-        return doubts(self.cues, self.gap, self.other_period, has_note)
+    def reasons(self, *, is_confirmed: bool) -> list[str]:
+        return doubts(self.cues, self.gap, self.other_period, is_confirmed=is_confirmed)
 
 
 def read_lamp(

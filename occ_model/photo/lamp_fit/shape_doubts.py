@@ -4,14 +4,10 @@ import math
 
 from occ_model.errors import distinct_texts
 from occ_model.photo.lamp_fit.cues import Cues
-from occ_model.photo.lamp_fit.estimates import LampEstimates
+from occ_model.photo.lamp_fit.estimates import DUTY_ERROR, LampEstimates
 from occ_model.scene.units import PERCENT, SECOND
 
-_FAR_NOTE = math.log(1.6)  # logarithm of a ratio to the noted exposure that is doubted
-_MOST_DEVIATIONS, _DUTY_ERROR = 3.0, 0.02
-"""Deviations between a known duty and that of the stripes above which it is doubtful, and what tone
-curves outside the model add to them."""
-
+_MOST_DEVIATIONS = 3.0  # between a known duty and that of the stripes, above which it is doubtful
 _LEAST_RAMP, _LEAST_PERIOD = 1.0, 10.0  # columns from which duty and exposure are sure
 _RAMP_BY_NOISE = 200.0  # columns, for columns that differ from the model by the stripes' height
 _MOST_WHITE = 0.15  # of the columns, up to which duty and exposure are sure
@@ -21,7 +17,7 @@ def doubts_by_duty(found: LampEstimates) -> list[str]:
     """Doubt a known duty that is not that of the stripes."""
     known, duty = found.known_duty, found.chosen.duty
     error, _ = found.reading.errors.of_shape(found.chosen)
-    if known is None or abs(duty - known) <= _MOST_DEVIATIONS * math.hypot(error, _DUTY_ERROR):
+    if known is None or abs(duty - known) <= _MOST_DEVIATIONS * math.hypot(error, DUTY_ERROR):
         return []
     return [
         f"The stripes have a duty of {PERCENT.format_estimate(duty, error)}; the scene "
@@ -61,7 +57,7 @@ def doubts_by_readings(found: LampEstimates) -> list[str]:
             f"{' or '.join(words).capitalize()}: these make the same stripes, and the photo {why}. "
             "If the duty is known, state that the scene's light is sent."
         )
-    if noted is not None and abs(math.log(found.exposure_time / noted)) > _FAR_NOTE:
+    if noted is not None and found.is_far_from_note:
         doubts.append(
             f"The exposure time found, {seconds}, is far from the one that the camera noted, "
             f"{SECOND.format(noted, 3)}."

@@ -4,12 +4,15 @@ from occ_model.errors import distinct_texts
 from occ_model.photo.lamp_fit.cues import Cues
 
 _MOST_FLOOR, _FLOOR_PART = 0.06, 0.15  # of the stripes' height, and of the floor that is expected
-_MOST_BLUR, _BLUR_PART = 1.0, 0.25  # columns, and of the ramp
+_MOST_BLUR, _BLUR_PART = 0.85, 0.15  # columns, and of the ramp
+_LEAST_EXPOSURE, _LEAST_TOLD = 0.01, 16.0
+"""Least ramp as a part of the period, and columns of a period from which it is told: cameras expose
+for a line at least, and edges of things have no ramp but by blur."""
 _MOST_DRIFT, _MOST_ROWS_SCATTER = 0.2, 0.35  # columns
 _DRIFT_DEVIATIONS = 2.5
 _MOST_SCATTER, _SCATTER_PART, _SCATTER_DEVIATIONS = 0.12, 0.002, 2.6
-_LEAST_BITS = 9.0
-_GAMMAS = (1.2, 4.5)
+_LEAST_BITS = 7.0
+_GAMMAS = (0.9, 6.0)
 _LEAST_PERIOD = 4.0  # columns
 _MOST_MISFIT = 0.06  # of the swing
 _MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # of the swing; of lamps 0.06 at most
@@ -48,26 +51,26 @@ def refusals(cues: Cues) -> list[str]:
     return found
 
 
-def doubts(cues: Cues, gap: float, other: float | None, has_note: bool) -> list[str]:
+def doubts(cues: Cues, gap: float, other: float | None, *, is_confirmed: bool) -> list[str]:
     """Return why a fit is doubtful; empty if it is sure.
 
-    ``gap``: evidence over that of the next best period, ``other`` in columns. ``has_note``: whether
-    an exposure time is noted.
+    ``gap``: evidence over that of the next best period, ``other`` in columns.
+    ``is_confirmed``: whether a noted exposure or a known duty agrees with the stripes.
     """
-    found = [*_doubts_by_light(cues, has_note), *_doubts_by_edges(cues)]
+    found = [*_doubts_by_light(cues, is_confirmed), *_doubts_by_edges(cues, is_confirmed)]
     if gap < _LEAST_GAP and other is not None:
         found.append(f"A period of {other:.4g} columns explains the stripes nearly as well.")
     return found
 
 
-def _doubts_by_light(cues: Cues, has_note: bool) -> list[str]:
+def _doubts_by_light(cues: Cues, is_confirmed: bool) -> list[str]:
     found = []
     if cues.floor > floor_limit(cues):
         found.append(_floor_sentence(cues))
-    if cues.floor_expected and not has_note:
+    if cues.floor_expected and not is_confirmed:
         found.append(
-            "Between the stripes there is light, as with an exposure of a period or more, and the "
-            "photo notes no exposure time."
+            "Between the stripes there is light, as with an exposure of a period or more, and "
+            "neither a noted exposure time nor a known duty says so."
         )
     if cues.floor_expected >= _LIT_GAPS and (
         cues.edges <= _FEW_LOW_EDGES or cues.white > _MOST_WHITE
@@ -91,7 +94,7 @@ def _doubts_by_light(cues: Cues, has_note: bool) -> list[str]:
     return found
 
 
-def _doubts_by_edges(cues: Cues) -> list[str]:
+def _doubts_by_edges(cues: Cues, is_confirmed: bool) -> list[str]:
     found = []
     if cues.blur > (most := _blur_limit(cues)):
         found.append(f"The stripes are blurred over {cues.blur:.2g} columns; at most {most:.2g}.")
@@ -104,6 +107,14 @@ def _doubts_by_edges(cues: Cues) -> list[str]:
         found.append(
             f"Rows of the lamp disagree by {cues.rows_scatter:.2g} columns on where the stripes "
             f"are; at most {_MOST_ROWS_SCATTER:.2g}."
+        )
+    is_steep = cues.period > _LEAST_TOLD and cues.ramp < _LEAST_EXPOSURE * cues.period
+    if is_steep and not is_confirmed:
+        part, least = 100.0 * cues.ramp / cues.period, 100.0 * _LEAST_EXPOSURE
+        found.append(
+            f"The stripes' edges last {part:.2g} % of a period, as those of things that do not "
+            f"blink; those of a lamp last {least:.0f} % or more, unless a noted exposure time or a "
+            "known duty says otherwise."
         )
     if cues.scatter > _scatter_limit(cues):
         found.append(_scatter_sentence(cues))

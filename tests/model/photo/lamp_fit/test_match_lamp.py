@@ -203,6 +203,30 @@ def test_the_errors_of_sharp_edges_hold_where_lines_may_be_read_together() -> No
     assert error / found.readout_time > 2e-3
 
 
+def test_sharp_edges_at_one_place_within_columns_leave_the_period_less_known() -> None:
+    random, columns, stated = np.random.default_rng(3), 150, []
+    for period in (12.0, 12.37):
+        on = (np.arange(columns) + 0.2) % period < 0.5 * period
+        light = 0.6 * np.tile(on, (24, 1)) + random.normal(0.0, 0.004, (24, columns))
+        found = occ.match_photo(photo_of(srgb(np.clip(light, 0.0, 1.0))), SCENE)
+        error = found.uncertainties["readout_time"]
+        assert is_near(found.readout_time, readout_of(period), error, 3.0)
+        stated.append(error / found.readout_time)
+    assert stated[0] > 1.5 * stated[1], stated
+
+
+@pytest.mark.parametrize(("duty", "verdict"), [(0.4, "sure"), (0.33, "doubtful")])
+def test_light_between_the_stripes_is_explained_by_the_lamps_duty(
+    duty: float, verdict: str
+) -> None:
+    photo = stripes(exposure=1.3)
+    found = occ.match_photo(photo, SCENE.replace(duty=duty), sent="scene")
+    assert found.verdict == verdict
+    assert occ.match_photo(photo, SCENE).verdict == "doubtful"
+    if verdict == "sure":
+        assert found.exposure_time * FREQUENCY == pytest.approx(1.3, abs=0.05)
+
+
 def test_a_known_duty_that_is_not_the_stripes_own_is_doubted() -> None:
     photo = stripes()
     own, other = (

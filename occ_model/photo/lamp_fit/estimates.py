@@ -50,10 +50,10 @@ class LampEstimates:
 
     @property
     def is_confirmed(self) -> bool:
-        """Whether a known duty or a noted exposure agrees with the light between the stripes."""
-        is_known = self.noted is not None and not self.is_far_from_note
-        off = abs(self.chosen.floor - self.reading.fit.floor)
-        return (is_known or self.known_duty is not None) and off <= floor_limit(self.reading.cues)
+        """Whether a noted exposure, or a known duty and its floor, agrees with the stripes."""
+        if self.known_duty is None:
+            return self.noted is not None and not self.is_far_from_note
+        return abs(self.chosen.floor - self.reading.fit.floor) <= floor_limit(self.reading.cues)
 
     @property
     def is_far_from_note(self) -> bool:

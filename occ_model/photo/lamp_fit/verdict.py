@@ -5,7 +5,7 @@ from occ_model.photo.lamp_fit.cues import Cues
 
 _MOST_FLOOR, _FLOOR_PART = 0.06, 0.15  # of the stripes' height, and of the floor that is expected
 _MOST_BLUR, _BLUR_PART = 0.85, 0.15  # columns, and of the ramp
-_LEAST_EXPOSURE, _LEAST_TOLD = 0.01, 16.0
+_LEAST_EXPOSURE, _LEAST_TOLD = 0.005, 16.0
 """Least ramp as a part of the period, and columns of a period from which it is told: cameras expose
 for a line at least, and edges of things have no ramp but by blur."""
 _MOST_DRIFT, _MOST_ROWS_SCATTER = 0.2, 0.35  # columns
@@ -113,7 +113,7 @@ def _doubts_by_edges(cues: Cues, is_confirmed: bool) -> list[str]:
         part, least = 100.0 * cues.ramp / cues.period, 100.0 * _LEAST_EXPOSURE
         found.append(
             f"The stripes' edges last {part:.2g} % of a period, as those of things that do not "
-            f"blink; those of a lamp last {least:.0f} % or more, unless a noted exposure time or a "
+            f"blink; those of a lamp last {least:.1f} % or more, unless a noted exposure time or a "
             "known duty says otherwise."
         )
     if cues.scatter > _scatter_limit(cues):

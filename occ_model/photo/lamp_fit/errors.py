@@ -16,7 +16,7 @@ from occ_model.photo.lamp_fit.readings import StripeReading
 
 _SPREAD = 0.35  # weight of the variances by noise and by edges
 _FEW_EDGES = 14.0  # edges of which each tells the others' spread half as well as many do
-_PERIOD_SHIFT, _WIDTH_SHIFT, _RAMP_SHIFT = 8.0, 8.0, 14.0
+_PERIOD_SHIFT, _SHAPE_SHIFT = 8.0, 12.0
 """Columns by which all edges alike may be off, if the levels' misfit were all of their swing."""
 _TONE_ERROR = 0.0045  # of the ramp, for each deviation of the tone curve from a usual one
 _UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
@@ -39,26 +39,22 @@ class ReadingErrors:
 def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     """Return the errors of a fit.
 
-    ``hidden_group``: columns that may have been read together, at least 1. Steeper edges than that
-    may lie anywhere between the places within a group at which others were seen.
+    ``hidden_group``: columns that may have been read together, at least 1. Edges steeper than these
+    may lie anywhere between those places within a group at which others are seen.
     """
     wave = fit.wave
     free = _free_part(fit, hidden_group)
     hidden = _UNKNOWN * max(0.0, hidden_group * free - wave.ramp_columns - 2.0 * wave.blur)
     period, place, width, ramp = np.sqrt([_variance(fit, each) for each in _directions(fit)])
     of_view = math.hypot(_PERIOD_SHIFT * cues.unexplained * free**2, hidden)
-    of_tone = math.hypot(_TONE_ERROR * fit.model.tension(fit.values) * wave.ramp_columns, hidden)
+    of_tone = _TONE_ERROR * fit.model.tension(fit.values) * wave.ramp_columns
+    of_shape = math.hypot(_SHAPE_SHIFT * cues.unexplained, of_tone, hidden) / wave.period
     smaller = min(wave.width, 1.0 - wave.width)
-
-    def of_shape(deviation: float, shift: float, most: float) -> float:
-        of_columns = math.hypot(shift * cues.unexplained, of_tone) / wave.period
-        return min(math.hypot(deviation, of_columns), most)
-
     return ReadingErrors(
         period=wave.period * math.hypot(period, of_view / len(fit.profile.values)),
         place=math.hypot(place, hidden),
-        width=of_shape(width, _WIDTH_SHIFT, _UNKNOWN),
-        ramp=of_shape(ramp, _RAMP_SHIFT, _UNKNOWN * smaller),
+        width=min(math.hypot(width, of_shape), _UNKNOWN),
+        ramp=min(math.hypot(ramp, of_shape), _UNKNOWN * smaller),
     )
 
 

@@ -14,7 +14,7 @@ def _power(light: np.ndarray, gamma: float) -> np.ndarray:
     return np.asarray(light ** (1.0 / gamma))
 
 
-def _srgb(light: np.ndarray) -> np.ndarray:
+def srgb(light: np.ndarray) -> np.ndarray:
     """Follow IEC 61966-2-1."""
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055)
 
@@ -41,7 +41,7 @@ def _logarithmic(light: np.ndarray, strength: float) -> np.ndarray:
 
 def _phone(light: np.ndarray, strength: float, black: float) -> np.ndarray:
     """Put an S on sRGB, and cut its darkest levels off, as the pictures of phones do."""
-    value = _srgb(light)
+    value = srgb(light)
     value = (1.0 - strength) * value + strength * value**2 * (3.0 - 2.0 * value)
     return np.asarray(np.clip((value - black) / (1.0 - black), 0.0, 1.0))
 
@@ -57,7 +57,7 @@ def unknown_curve(random: np.random.Generator) -> Curve:
     if kind == 0:
         return power(float(random.uniform(1.7, 2.7)))
     if kind == 1:
-        return _srgb
+        return srgb
     if kind == 2:
         return _rec709
     if kind == 3:

@@ -19,54 +19,25 @@ _CHANCE_SCATTER = 0.3 / 4.13  # of edges at random places, as a fraction of the 
 
 @dataclass(frozen=True, slots=True)
 class Cues:
-    """Measures of how well stripes are a lamp's.
+    """Measures of how well stripes are a lamp's; lengths are in columns."""
 
-    Parameters
-    ----------
-    floor, floor_expected
-        Light between the stripes that no duty and exposure explain, as a fraction of their height,
-        and the light that the nearest explanation has.
-    blur, ramp, period
-        In columns.
-    edges
-        How many edges are in view.
-    scatter, scatter_noise
-        Deviation of the edges from even spacing in columns, and what of it the noise makes.
-    drift, drift_error
-        Shift of the stripes from the first row to the last, in columns, and its deviation.
-    rows_scatter
-        Deviation of the stripes between bands of rows from a straight shift, in columns.
-    misfit
-        Root mean square of the residual that repeats with the period, as a fraction of the swing.
-    unexplained
-        Root mean square of all of the residual, as a fraction of the swing.
-    dips
-        Times that the envelope falls and rises again.
-    gamma
-        Of the tone curve.
-    narrowest
-        Length of the shorter of a stripe and the gap between two, in columns.
-    white
-        Fraction of the columns in which pixels are clipped.
-    """
-
-    floor: float
-    floor_expected: float
-    blur: float
+    floor: float  # Light between the stripes that no reading explains, of their height
+    floor_expected: float  # Light between the stripes by the nearest reading, of their height
+    blur: float  # Standard deviation
     ramp: float
     period: float
-    edges: int
-    scatter: float
-    scatter_noise: float
-    drift: float
-    drift_error: float
-    rows_scatter: float
-    misfit: float
-    unexplained: float
-    dips: int
-    gamma: float
-    narrowest: float
-    white: float
+    edges: int  # in view
+    scatter: float  # Deviation of the edges from even spacing
+    scatter_noise: float  # what of it the noise makes
+    drift: float  # Shift of the stripes from the first row to the last
+    drift_error: float  # Its standard deviation
+    rows_scatter: float  # Deviation of the stripes between bands of rows from a straight shift
+    misfit: float  # Root mean square of the residual that repeats with the period, of the swing
+    unexplained: float  # Root mean square of all of the residual, of the swing
+    dips: int  # Times that the envelope falls and rises again
+    gamma: float  # Of the tone curve
+    narrowest: float  # The shorter of a stripe and the gap between two
+    white: float  # Fraction of the columns in which pixels are clipped
 
     @property
     def bits(self) -> float:
@@ -79,8 +50,7 @@ class Cues:
 def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
     """Measure the cues of a fit; ``rows``: profiles of bands of rows, shape (bands, columns)."""
     wave = fit.wave
-    ramp = wave.ramp_columns / wave.period
-    floors = np.array([one.floor for one in readings_of(wave.width, ramp)])
+    floors = np.array([one.floor for one in readings_of(wave.width, wave.ramp_part)])
     nearest = float(floors[np.argmin(np.abs(floors - fit.floor))])
     shifts, noises = _edge_shifts(fit)
     scatter, noise = _spread(shifts, noises)

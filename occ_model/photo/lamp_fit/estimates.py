@@ -15,30 +15,16 @@ _NOTE_ERROR, _FAR_NOTE = math.log(1.3), math.log(1.6)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampEstimates:
-    """What stripes say of a lamp whose frequency, or the readout time, is known.
-
-    Parameters
-    ----------
-    estimate
-        ``"readout_time"`` or ``"lamp_frequency"``, whichever is not known.
-    frequency, readout
-        In hertz and in seconds a line.
-    known_duty
-        As a fraction of a period; None if it is read from the stripes.
-    noted
-        The exposure time in seconds that the camera noted, or None.
-    chosen, others
-        The duty and exposure, and others that make the same stripes.
-    """
+    """What stripes say of a lamp whose frequency, or the readout time, is known."""
 
     reading: LampReading
-    estimate: str
-    frequency: float
-    readout: float
-    known_duty: float | None
-    noted: float | None
+    estimate: str  # "readout_time" or "lamp_frequency", whichever is not known
+    frequency: float  # Hz
+    readout: float  # Seconds a line
+    known_duty: float | None  # None if it is read from the stripes
+    noted: float | None  # Exposure time in seconds that the camera noted
     chosen: StripeReading
-    others: tuple[StripeReading, ...]
+    others: tuple[StripeReading, ...]  # Other duties and exposures that make the same stripes
 
     @property
     def duty(self) -> float:
@@ -111,7 +97,7 @@ def estimate_lamp(
             known = math.log(one.exposure / (noted * frequency)) / _NOTE_ERROR
         return math.hypot((one.floor - floor) / most, known)
 
-    first, *rest = sorted(readings_of(reading.width, reading.ramp), key=away)
+    first, *rest = sorted(readings_of(reading.fit.wave.width, reading.fit.wave.ramp_part), key=away)
     apart = _SAME * max(reading.errors.of_shape(first))
     others = tuple(
         one

@@ -21,6 +21,7 @@ from occ_model.photo.lamp_fit.shape_doubts import (
     doubts_by_duty,
     doubts_by_readings,
 )
+from occ_model.photo.lamp_fit.verdict import doubts
 from occ_model.photo.photo_scene import fit_to_photo, with_explanation, with_levels, with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import SATURATED_LEVEL
@@ -120,7 +121,9 @@ def _described(found: LampEstimates, photo: Photo, scene: Scene, errors: dict[st
         correlation=float(np.corrcoef(stripes.flattened, flat)[0, 1]),
         other_exposures=tuple(sorted(each.exposure / found.frequency for each in found.others)),
         reasons=(
-            *reading.reasons(is_confirmed=found.is_confirmed),
+            *doubts(
+                reading.cues, reading.gap, reading.other_period, is_confirmed=found.is_confirmed
+            ),
             *unsure,
             *doubts_by_duty(found),
         ),

@@ -41,9 +41,9 @@ _LARGEST_LOG = 25.0  # of an envelope's brightness, so that it stays finite
 
 ENDS = {
     WIDTH: (-4.5, 4.5), RAMP: (-6.0, 6.0), BLUR: (-3.0, 2.0), FLOOR: (-7.5, 7.5),
-    NEAR: (-0.3, 0.3), FAR: (-0.1, 0.1),
+    GAMMA: (-1.0, 3.0), NEAR: (-0.3, 0.3), FAR: (-0.1, 0.1),
 }  # fmt: skip
-"""Least and largest values."""
+"""Least and largest values; with a gamma below, levels of white columns are not finite."""
 
 MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3, 0.1, 0.05])
 """Largest steps of the parameters; that of the place is in periods."""

@@ -14,7 +14,7 @@ from occ_model.photo.lamp_fit.fit import LampFit, fit_lamp
 from occ_model.photo.lamp_fit.periods import likely_periods
 from occ_model.photo.lamp_fit.place import LampPlace
 from occ_model.photo.lamp_fit.profile import LampProfile
-from occ_model.photo.lamp_fit.verdict import doubts, refusals
+from occ_model.photo.lamp_fit.verdict import refusals
 
 _OTHER_PERIOD = 0.03  # relative difference from which a fit has another period
 _LEAST_COLUMNS = 16
@@ -24,32 +24,18 @@ _BANDS = 6  # of rows, whose phases are compared
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampReading:
-    """A lamp's stripes as they were read.
-
-    Parameters
-    ----------
-    place, profile
-        Its pixels, and the mean of each column.
-    fit, cues
-        The model, and what was measured on it.
-    errors
-        Standard deviations; those in columns are in columns of the fit.
-    width, ramp
-        Of the stripes, as fractions of a period.
-    """
+    """A lamp's stripes as they were read."""
 
     place: LampPlace
-    profile: LampProfile
+    profile: LampProfile  # Of all of the place
     lines_at_once: int  # that the sensor reads together
     step: int  # columns of the photo for each of the fit
     first: int  # the first of them, in the place's region
     fit: LampFit
     cues: Cues
-    errors: ReadingErrors
-    width: float
-    ramp: float
-    gap: float
-    other_period: float | None
+    errors: ReadingErrors  # Those in columns are in columns of the fit
+    gap: float  # Evidence over that of the next best period
+    other_period: float | None  # That period, in columns of the fit
 
     @property
     def period(self) -> float:
@@ -79,9 +65,6 @@ class LampReading:
     def _spread(self, values: FloatArray) -> FloatArray:
         places = self._of_photo(self.fit.profile.columns)
         return np.asarray(np.interp(np.arange(self.place.region.columns), places, values))
-
-    def reasons(self, *, is_confirmed: bool) -> list[str]:
-        return doubts(self.cues, self.gap, self.other_period, is_confirmed=is_confirmed)
 
 
 def read_lamp(
@@ -126,8 +109,6 @@ def read_lamp(
         fit=fit,
         cues=cues,
         errors=errors_of(fit, cues, hidden_group),
-        width=fit.wave.width,
-        ramp=fit.wave.ramp_columns / fit.wave.period,
         gap=gap,
         other_period=other_period,
     )

@@ -29,8 +29,8 @@ def doubts_by_columns(cues: Cues) -> list[str]:
     found = []
     if cues.ramp < _LEAST_RAMP:
         found.append(
-            f"The stripes' edges last {cues.ramp:.2g} columns, so that blur hides duty and exposure; "
-            f"at least {_LEAST_RAMP:.0f} is needed."
+            f"The stripes' edges last {cues.ramp:.2g} columns, so that blur hides duty and "
+            f"exposure; at least {_LEAST_RAMP:.0f} is needed."
         )
     if cues.white > _MOST_WHITE:
         white, most = distinct_texts(100.0 * cues.white, 100.0 * _MOST_WHITE)

@@ -29,6 +29,11 @@ class Wave:
     def ramp_columns(self) -> float:
         return max(self.period * min(self.width, 1.0 - self.width) * self.ramp, LEAST_RAMP)
 
+    @property
+    def ramp_part(self) -> float:
+        """The ramp as a fraction of the period."""
+        return self.ramp_columns / self.period
+
     def values(self, columns: FloatArray) -> FloatArray:
         """Return the light, 0 between the pulses and 1 on them, where these are not blurred."""
         _, off = self._places(columns)

@@ -2,21 +2,21 @@
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 import cv2
 import numpy as np
+from photo_world.photograph import compressed
+from photo_world.tone_curves import srgb
+from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
 
 
 @dataclass(frozen=True)
 class LampPicture:
     photo: occ.Photo
     period: float  # Columns
-    duty: float
-    exposure: float  # Periods
 
 
 def lit(columns: FloatArray, duty: float, exposure: float) -> FloatArray:
@@ -43,24 +43,14 @@ def draw_lamp(
     stripes = lit((column - place) / period, duty, exposure)
     light = cv2.GaussianBlur(light * stripes / stripes.max(), (0, 0), 0.5)
     caught = random.poisson(np.clip(light, 0.0, None) * 3000.0) / 3000.0
-    light = np.clip(caught + random.normal(0.0, 0.001, light.shape), 0.0, 1.0)
-    return LampPicture(photo_of(srgb(light), jpeg=90), period, duty, exposure)
+    light = caught + random.normal(0.0, 0.001, light.shape)
+    return LampPicture(photo_of_light(light, quality=90), period)
 
 
-def srgb(light: FloatArray) -> ByteArray:
-    level = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
-    return np.asarray(np.rint(255.0 * level), dtype=np.uint8)
-
-
-def photo_of(image: ByteArray, jpeg: int = 0) -> occ.Photo:
-    if jpeg:
-        _, file = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, jpeg])
-        image = np.asarray(cv2.imdecode(file, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)
-    profile = image.mean(axis=0, dtype=np.float64)
-    return occ.Photo(
-        path=Path("drawn.png"), samples=image, white=255, image=image, profile=profile,
-        turned=False, channel="grey",
-    )  # fmt: skip
+def photo_of_light(light: FloatArray, quality: int | None = None) -> occ.Photo:
+    """Return sRGB's levels of light, 1 being white, as a photo; as a JPEG of a quality, if any."""
+    image = np.rint(255.0 * srgb(np.clip(light, 0.0, 1.0))).astype(np.uint8)
+    return photo_of(image if quality is None else compressed(image, quality))
 
 
 FREQUENCY = 1000.0

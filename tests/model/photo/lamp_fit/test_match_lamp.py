@@ -10,10 +10,10 @@ from model.photo.lamp_fit.lamp_pictures import (
     draw_lamp,
     is_near,
     lit,
-    photo_of,
+    photo_of_light,
     readout_of,
-    srgb,
 )
+from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.photo.lamp_fit.fit import fit_lamp
@@ -138,7 +138,7 @@ def stripes(shift: float = 0.0, floor: float = 0.0, exposure: float = 0.2) -> oc
     columns = np.arange(300.0) - np.linspace(0.0, shift, rows)[:, None]
     light = lit(columns / 21.3, 0.4, exposure)
     light = floor + (1.0 - floor) * light / light.max()
-    return photo_of(srgb(np.clip(0.6 * light + random.normal(0.0, 0.003, light.shape), 0.0, 1.0)))
+    return photo_of_light(0.6 * light + random.normal(0.0, 0.003, light.shape))
 
 
 @pytest.mark.parametrize(
@@ -163,8 +163,8 @@ def test_lines_that_a_sensor_reads_together_are_averaged_and_told(together: int,
     random = np.random.default_rng(7)
     groups = np.repeat(np.arange(480 // together) * together, together).astype(np.float64)
     even = np.tile(lit(groups / 23.7, 0.45, 0.2), (24, 1))
-    light = np.clip(0.6 * even / even.max() + random.normal(0.0, 0.004, even.shape), 0, 1)
-    photo = photo_of(srgb(light))
+    light = 0.6 * even / even.max() + random.normal(0.0, 0.004, even.shape)
+    photo = photo_of_light(light)
     profile = LampProfile.of(photo.samples / 255.0, np.ones(photo.samples.shape, dtype=bool))
     assert profile.lines_at_once() == (together, 0)
     apart = stripes().samples / 255.0
@@ -195,8 +195,8 @@ def test_the_errors_of_sharp_edges_hold_where_lines_may_be_read_together() -> No
     groups = np.repeat(np.arange(36.0) * 4.0, 4)
     on = (groups + 1.0) % 19.9 < 9.95
     random = np.random.default_rng(8)
-    light = np.clip(0.6 * np.tile(on, (24, 1)) + random.normal(0.0, 0.004, (24, 144)), 0.0, 1.0)
-    found = occ.match_photo(photo_of(srgb(light)), SCENE)
+    light = 0.6 * np.tile(on, (24, 1)) + random.normal(0.0, 0.004, (24, 144))
+    found = occ.match_photo(photo_of_light(light), SCENE)
     error = found.uncertainties["readout_time"]
     assert found.lines_at_once == 1
     assert is_near(found.readout_time, readout_of(19.9), error, 3.0)
@@ -208,7 +208,7 @@ def test_sharp_edges_at_one_place_within_columns_leave_the_period_less_known() -
     for period in (12.0, 12.37):
         on = (np.arange(columns) + 0.2) % period < 0.5 * period
         light = 0.6 * np.tile(on, (24, 1)) + random.normal(0.0, 0.004, (24, columns))
-        found = occ.match_photo(photo_of(srgb(np.clip(light, 0.0, 1.0))), SCENE)
+        found = occ.match_photo(photo_of_light(light), SCENE)
         error = found.uncertainties["readout_time"]
         assert is_near(found.readout_time, readout_of(period), error, 3.0)
         stated.append(error / found.readout_time)

@@ -143,5 +143,5 @@ def _stripes(reading: LampReading) -> Stripes:
     return Stripes(
         place.region, WHITE * reading.profile.values, low, high,
         reading.period, reading.errors.period * reading.step,
-        float((place.pixels[place.shown] >= SATURATED_LEVEL).mean()),
+        place.part_above(SATURATED_LEVEL),
     )  # fmt: skip

@@ -41,7 +41,7 @@ _LARGEST_LOG = 25.0  # of an envelope's brightness, so that it stays finite
 
 ENDS = {
     WIDTH: (-4.5, 4.5), RAMP: (-6.0, 6.0), BLUR: (-3.0, 2.0), FLOOR: (-7.5, 7.5),
-    GAMMA: (-1.0, 3.0), NEAR: (-0.3, 0.3), FAR: (-0.1, 0.1),
+    GAMMA: (-0.5, 3.0), NEAR: (-0.3, 0.3), FAR: (-0.1, 0.1),
 }  # fmt: skip
 """Least and largest values; with a gamma below, levels of white columns are not finite."""
 

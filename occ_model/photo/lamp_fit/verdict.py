@@ -100,9 +100,8 @@ def _measures(cues: Cues) -> Iterator[tuple[float, float, float, str]]:
     )  # fmt: skip
     yield (
         -cues.bits, -_LEAST_BITS, -_REFUSED_BITS,
-        f"Only {cues.edges} edges are in view: that they are evenly spaced within "
-        f"{cues.scatter:.2g} columns is {cues.bits:.2g} bits of evidence; at least "
-        f"{_LEAST_BITS:.0f} are needed.",
+        f"Only {cues.edges} edges are in view, which could be evenly spaced by chance: "
+        f"{cues.bits:.2g} bits of evidence; at least {_LEAST_BITS:.0f} are needed.",
     )  # fmt: skip
     yield (
         -cues.narrowest, -_LEAST_STRIPE, -_REFUSED_STRIPE,

@@ -8,7 +8,8 @@ from occ_model.photo.lamp_fit.estimates import DUTY_ERROR, LampEstimates
 from occ_model.scene.units import PERCENT, SECOND
 
 _MOST_DEVIATIONS = 3.0  # between a known duty and that of the stripes, above which it is doubtful
-_LEAST_RAMP = 1.0  # columns from which duty and exposure are sure
+_LEAST_RAMP, _LEAST_PERIOD = 1.0, 10.0  # columns from which duty and exposure are sure
+_RAMP_BY_NOISE = 200.0  # columns, for columns that differ from the model by the stripes' height
 _MOST_WHITE = 0.15  # of the columns, up to which duty and exposure are sure
 
 
@@ -25,12 +26,13 @@ def doubts_by_duty(found: LampEstimates) -> list[str]:
 
 
 def doubts_by_columns(cues: Cues) -> list[str]:
-    """Doubt duty and exposure where blur or white hide the stripes' shape."""
-    found = []
-    if cues.ramp < _LEAST_RAMP:
+    """Doubt duty and exposure where compression, blur or white hide the stripes' shape."""
+    least, found = max(_LEAST_RAMP, _RAMP_BY_NOISE * cues.unexplained), []
+    if cues.ramp < least or cues.period < _LEAST_PERIOD:
         found.append(
-            f"The stripes' edges last {cues.ramp:.2g} columns, so that blur hides duty and "
-            f"exposure; at least {_LEAST_RAMP:.0f} is needed."
+            f"The stripes' edges last {cues.ramp:.2g} of the {cues.period:.3g} columns of a "
+            "period, so that blur and compression hide duty and exposure; at least "
+            f"{least:.2g} of {_LEAST_PERIOD:.0f} are needed."
         )
     if cues.white > _MOST_WHITE:
         white, most = distinct_texts(100.0 * cues.white, 100.0 * _MOST_WHITE)

@@ -57,6 +57,11 @@ def doubts_by_readings(found: LampEstimates) -> list[str]:
             f"{' or '.join(words).capitalize()}: these make the same stripes, and the photo {why}. "
             "If the duty is known, state that the scene's light is sent."
         )
+    if noted is None and found.chosen.floor > 0.0:
+        doubts.append(
+            "How much light there is between the stripes tells whole periods of an exposure badly, "
+            "and the photo notes no exposure time."
+        )
     if noted is not None and found.is_far_from_note:
         doubts.append(
             f"The exposure time found, {seconds}, is far from the one that the camera noted, "

@@ -223,6 +223,7 @@ def test_light_between_the_stripes_is_explained_by_the_lamps_duty(
     found = occ.match_photo(photo, SCENE.replace(duty=duty), sent="scene")
     assert found.verdict == verdict
     assert occ.match_photo(photo, SCENE).verdict == "doubtful"
+    assert any("tells whole periods of an exposure badly" in why for why in found.exposure_reasons)
     if verdict == "sure":
         assert found.exposure_time * FREQUENCY == pytest.approx(1.3, abs=0.05)
 

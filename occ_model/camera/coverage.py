@@ -252,5 +252,13 @@ def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArr
     return first, np.maximum(first, last)
 
 
+def rows_inside(outline: FloatArray, ends: FloatArray, columns: int) -> FloatArray:
+    """Return each column's rows inside an outline between successive ends, (ends - 1, columns)."""
+    column, row, sign = _crossings(outline[:, ::-1], range(columns), 1)
+    first = np.ceil(row)
+    before = [np.bincount(column, sign * np.minimum(first, end), columns) for end in ends]
+    return np.abs(np.diff(before, axis=0))
+
+
 def _first_rows(y: FloatArray, rows: range) -> IndexArray:
     return np.ceil(np.clip(y, rows.start, rows.stop)).astype(np.int64)

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
-from occ_model.camera.coverage import Coverage, column_spans
+from occ_model.camera.coverage import Coverage, column_spans, rows_inside
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
 from occ_model.camera.picture_rows import JPEG_BLOCK
@@ -126,7 +126,7 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
     seen = slice(first, min(last, columns))
     light: Pixels = covered[:, seen].astype(np.float32)
     panel = (light >= 0.5).astype(np.float32)
-    weights = _weights(panel, optics.outline, span, size, seen)
+    weights = _weights(panel, optics.outline, span, columns, seen)
     middle = np.asarray(starts + 0.5 * (JPEG_BLOCK - 1), dtype=np.float64)
     for gain in optics.emission:
         light = np.multiply(light, gain.at(middle, seen))
@@ -143,18 +143,16 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
 
 
 def _weights(
-    panel: Pixels, outline: FloatArray, span: Region, size: tuple[int, int], seen: slice
+    panel: Pixels, outline: FloatArray, span: Region, columns: int, seen: slice
 ) -> Pixels:
     """Return the bands' weights: the part of a column's rows that each stands for.
 
     Of rows in which the panel ends within a band's part, those beside it are left to the
     surroundings.
     """
-    first, last = (end[seen] for end in column_spans(outline, *size))
     count = len(panel)
-    ends = span.first_row + np.arange(count + 1)[:, None] * (span.rows / count)
-    crossed = np.minimum(ends[1:], last) - np.maximum(ends[:-1], first)
-    crossed = np.maximum(crossed, 0.0) / span.rows
+    ends = np.linspace(span.first_row, span.last_row, count + 1)
+    crossed = rows_inside(outline, ends, columns)[:, seen] / span.rows
     shown = (panel * crossed).sum(axis=0)
     own = crossed * (crossed.sum(axis=0) / np.where(shown > 0.0, shown, np.inf))
     return np.asarray(np.where(panel == 1.0, own, 1.0 / count - crossed), dtype=np.float32)

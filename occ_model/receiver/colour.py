@@ -8,7 +8,6 @@ In columns without pixels of a channel, its light is interpolated from four othe
 
 from dataclasses import dataclass, replace
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -73,9 +72,8 @@ class ColourSignals:
 
     scene: Scene
     region: Region
-    # Shape (3, columns): grey levels or light of each channel; NaN in columns without its pixels
+    # Shape (3, columns): mean grey levels of each channel; NaN in columns without its pixels
     greys: FloatArray
-    lights: FloatArray
 
     def own(self) -> list[FloatArray]:
         """Return the grey levels of each LED, in the columns with pixels of its colour."""
@@ -87,9 +85,13 @@ class ColourSignals:
         return [row[has] for row, has in zip(greys, seen, strict=True)]
 
     def light(self) -> FloatArray:
-        """Return the light of each LED in every column, unmixed; that of white is 1."""
+        """Return the light of each LED in every column, unmixed; that of white is 1.
+
+    It is that of the mean grey levels, which decoders of one colour read as well.
+    """
         gains = np.array(self.scene.colours.gains)[:, None]
-        filled = np.array([_interpolate(row) for row in self.lights]) / gains
+        lights = (self.greys / WHITE) ** self.scene.camera.gamma
+        filled = np.array([_interpolate(row) for row in lights]) / gains
         return np.asarray(np.linalg.solve(np.array(self.scene.colours.matrix), filled))
 
 
@@ -115,13 +117,11 @@ def _locate(places: list[ByteArray], scene: Scene) -> Location | None:
 
 def _signals_in(part: Region, places: list[ByteArray], scene: Scene) -> ColourSignals:
     """Return the means of a region, which is given in pairs of rows and columns."""
-    means = np.full((2, 3, 2 * part.columns), np.nan)
-    light = light_of_greys(scene.camera.gamma)
+    means = np.full((3, 2 * part.columns), np.nan)
     for pixels, (channel, (_, columns)) in zip(places, scene.colours.filters, strict=True):
-        means[0, channel, columns] = column_means(pixels, part)
-        means[1, channel, columns] = _mean_light(part.crop(pixels), light)
+        means[channel, columns] = column_means(pixels, part)
     ends = part.first_row, part.last_row, part.first_column, part.last_column
-    return ColourSignals(scene, Region(*(2 * end for end in ends)), means[0], means[1])
+    return ColourSignals(scene, Region(*(2 * end for end in ends)), means)
 
 
 def _check_image(image: NDArray[np.uint8]) -> ByteArray:
@@ -133,11 +133,6 @@ def _check_image(image: NDArray[np.uint8]) -> ByteArray:
             f"(rows, columns), of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
         )
     return image
-
-
-def _mean_light(pixels: ByteArray, light: FloatArray) -> FloatArray:
-    values = cv2.LUT(np.ascontiguousarray(pixels), light.astype(np.float32))
-    return np.asarray(cv2.reduce(values, 0, cv2.REDUCE_AVG, dtype=cv2.CV_64F)[0], dtype=np.float64)
 
 
 def _interpolate(row: FloatArray) -> FloatArray:

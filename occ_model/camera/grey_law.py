@@ -95,16 +95,22 @@ class GreyLaw:
         levels = np.interp(means, np.maximum.accumulate(self.means), np.arange(len(self.means)))
         return np.asarray(WHITE * (levels / self.to_white) ** (1.0 / self.power))
 
-    @cached_property
-    def gaps(self) -> FloatArray:
-        """The distance at each level from a grey level to the next one that pixels can have.
+    def gaps(self, values: FloatArray) -> FloatArray:
+        """Return how far pixels move that change if their mean changes by a little, d.
 
-        If the mean changes by a little, d, pixels change by the gap, and their mean square by d
-        times it. Averaged over the distribution, shape (levels,).
+        The mean square of the changes is d times it, if pixels keep their random numbers. Dark
+        pixels move by much more than the next grey level, where the tone curve is steep.
         """
-        moved = np.abs(np.diff(self.below, axis=0, append=self.below[-1:]))
-        gaps = np.diff(self.greys).astype(np.float64)
-        return np.asarray((moved @ gaps**2 + 1e-12) / (moved @ gaps + 1e-12))
+        level = self._places(values)[0]
+        ends = np.concatenate([self.below[level], self.below[level + 1]], axis=1)
+        order = np.argsort(ends, axis=1)
+        is_before = order < self.below.shape[1]
+        before, after = (np.cumsum(ended, axis=1) for ended in (is_before, ~is_before))
+        moved = np.abs(self.greys[before] - self.greys[after])
+        ends = np.take_along_axis(ends, order, axis=1)
+        moving = np.diff(ends, axis=1, append=1.0) * moved
+        squares = (moving * moved).sum(axis=1)
+        return np.asarray((squares + 1e-12) / (moving.sum(axis=1) + 1e-12))
 
     def fraction_below(self, grey: int, values: FloatArray) -> FloatArray:
         """Return the probability of a grey level below ``grey``."""

@@ -40,13 +40,14 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
         observed.doubt.update(
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
-    for name in noises:
-        observed.independent[name] = (
-            pixels.noise_square(name) if file is None else pixels.noise_read_back[name][0]
-        )
+    count = region.rows * region.columns
     if file is None:
-        observed.independent.update(pixels.drawn_changes)
+        drawn = {name: pixels.noise_square(name) for name in noises} | pixels.drawn_changes
+        for name, moved in drawn.items():
+            observed.independent[name] = moved.mean
+            observed.add_doubt([name], moved.doubt(count))
     else:
+        observed.independent.update({n: own for n, (own, _) in pixels.noise_read_back.items()})
         observed.independent[pixels.files[0].name] = file.own_change
         squares = np.array([observed.sampled_square(name) for name in pixels.moving])
         doubts = np.array([observed.doubt.get(name, 0.0) for name in pixels.moving])
@@ -59,6 +60,9 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
         added = inside + file.growth_at_rims(np.minimum(rims, 1.0), squares + doubts)
         alone = np.maximum(added, -squares)
         doubts += np.maximum(added + extra, -0.5 * (squares + doubts)) - alone
+        # What drawing moves, the file spreads over a block.
+        relative = [pixels.drawn_changes[name].relative_doubt(count) for name in pixels.moving]
+        doubts += np.maximum(alone, 0.0) * relative
         observed.independent.update(zip(pixels.moving, alone.tolist(), strict=True))
         observed.doubt.update(zip(pixels.moving, doubts.tolist(), strict=True))
     add_unsampled(pixels, observed)
@@ -90,10 +94,12 @@ def observe_profile(pixels: SampledPixels) -> SampledObservable:
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
     if file is None:
-        squares = {name: pixels.noise_square(name) / rows for name in pixels.variances}
+        noises = {name: pixels.noise_square(name) for name in pixels.variances}
+        squares = {name: moved.mean / rows for name, moved in noises.items()}
         observed.add_noise(squares, region.columns)
-        for name, square in pixels.drawn_changes.items():
-            observed.independent[name] = square / rows
+        for name, moved in pixels.drawn_changes.items():
+            observed.independent[name] = moved.mean / rows
+            observed.add_doubt([name], moved.doubt(region.columns, rows))
     else:
         observed.independent.update(
             {n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()}

@@ -63,8 +63,8 @@ class FileChange:
     """How a file changes a sample's pixels, with all effects and without some.
 
     The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels, and
-    ``spread`` is the RMS of their noise, ``gaps``, (columns, nodes), the distances between the
-    levels that they are drawn from.
+    ``spread`` is the RMS of their noise; ``moved``, (sets,), is the mean square by which rounding
+    and drawing add to the change of each set's pixels, as whole levels.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class FileChange:
         stack: FloatArray,
         spread: float,
         rims: Rims,
-        gaps: FloatArray,
+        moved: FloatArray,
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]
@@ -95,8 +95,7 @@ class FileChange:
         self._inside = (
             self._blocks_between_rims(stack) if len(self._blocks) else stack[:, None, None]
         )
-        inside = self._blocks_between_rims(gaps[None]) if len(self._blocks) else gaps[None]
-        self._gaps = np.maximum(inside.reshape(1, -1), 1.0)
+        self._moved = moved
         self._x = self._coefficients(self._inside)
         contrast = float(np.ptp(stack[0]))
         along = self._spectrum_along(float(stack[0].min()), rims.is_level)
@@ -161,14 +160,13 @@ class FileChange:
     def growth(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """What rounding adds to the mean square of a change, for each of the sets.
 
-        A change by a fraction of a level rounds some pixels to another level, which changes all
+        A change by a fraction of a level moves some pixels to another level, which changes all
         coefficients as noise does. The three arrays are the addition to the pixels; the addition to
         a column's mean by what differs between blocks; and the largest further addition to the
         pixels if other coefficients differ a little from the sampled ones.
         """
         changes = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
-        growth = rounding_growth(np.abs(changes) / self._gaps) * self._gaps**2
-        flips = np.sqrt(growth.mean(axis=1))
+        moved, flips = self._moved, np.sqrt(self._moved)
         size = np.sqrt((changes**2).mean(axis=1))
         read_back = self._x + rounding_mean(self._x, self._s)
         shift = read_back - read_back[0]
@@ -191,8 +189,8 @@ class FileChange:
             q**2 * density_at_boundaries(self._noise / q)
         )
         rims = self._growth_at_rims(np.hypot(size, flips) * self._filled, self._white)
-        image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims
-        return image, varying / self.block_rows + self._cut * rims, extra
+        image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims + moved
+        return image, (varying + moved / 8.0) / self.block_rows + self._cut * rims, extra
 
     def _square_in_pixels(self, squares: FloatArray) -> FloatArray:
         """Return the mean square over the pixels of the squares of coefficients, shape (sets,)."""

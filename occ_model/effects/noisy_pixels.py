@@ -107,11 +107,11 @@ class NoisyPixels:
         return values * np.sqrt(unclipped_fraction(values, spread, full))
 
     def gaps(self, levels: FloatArray) -> FloatArray:
-        """Return the distance between grey levels that pixels of some means can have, or 0."""
+        """Return by how much pixels of some means move that change by drawing; 0 without it."""
         law = self._drawn_law(self._names)
         if law is None:
             return np.zeros(len(levels))
-        return law.interpolate(law.gaps, law.values_of(levels))
+        return law.gaps(law.values_of(levels))
 
     def end_fractions(self, included: Names, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the fractions of black pixels and of white ones, for some means."""

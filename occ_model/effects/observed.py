@@ -10,8 +10,8 @@ from occ_model.arrays import FloatArray
 LIMIT_ALLOWANCE = 1.3
 """Factor from the change in the sample to the upper bound of the true change."""
 
-_SURE_DEVIATIONS = 3.5
-"""Standard deviations by which the RMS of a finite number of noise values may exceed its mean."""
+SURE_DEVIATIONS = 3.5
+"""Standard deviations by which the mean square of few random values may exceed its mean."""
 
 
 class SampledObservable:
@@ -54,7 +54,7 @@ class SampledObservable:
         """
         self.independent.update(squares)
         self.bound_factors.update(
-            dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values))
+            dict.fromkeys(squares, 1.0 + SURE_DEVIATIONS / math.sqrt(2.0 * values))
         )
 
     def add_doubt(self, names: Iterable[str], square: float) -> None:

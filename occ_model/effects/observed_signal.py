@@ -9,9 +9,9 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, LevelSteps
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
 from occ_model.effects.normal_noise import mean_after_clipping
-from occ_model.effects.observed import SampledObservable
+from occ_model.effects.observed import SURE_DEVIATIONS, SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
-from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
+from occ_model.effects.signal_sampling import SignalSampling
 from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import (
     LEAST_SMOOTHING_NOISE,

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -36,14 +37,31 @@ from occ_model.effects.normal_noise import (
     rounding_growth_by_noise,
     rounding_mean,
 )
+from occ_model.effects.observed import SURE_DEVIATIONS
 from occ_model.effects.registry import effects_named
 from occ_model.effects.rims import Rims
 from occ_model.effects.sample import PixelSample, choose_sample
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
 
-_LEAST_GAP = 0.1  # grey levels, in place of none
-
 _DITHERING_NOISE = 0.5  # noise in grey levels above which rounding does not change a pixel's mean
+
+
+@dataclass(frozen=True, slots=True)
+class RandomSquare:
+    """The mean square change of pixels that move by whole gaps at random."""
+
+    mean: float = 0.0
+    mean_of_squares: float = 0.0  # Mean over the pixels of the square of each one's mean square
+    mean_fourth: float = 0.0  # Mean fourth power of the changes
+
+    def doubt(self, values: int, pixels: int = 1) -> float:
+        """Return how far it may be exceeded in one picture, of means over so many pixels each."""
+        variance = 2.0 * self.mean_of_squares + self.mean_fourth / pixels
+        return SURE_DEVIATIONS * math.sqrt(variance / values) / pixels
+
+    def relative_doubt(self, values: int) -> float:
+        """Return :meth:`doubt` as a fraction of the mean."""
+        return self.doubt(values) / self.mean if self.mean else 0.0
 
 
 class SampledPixels:
@@ -182,7 +200,7 @@ class SampledPixels:
 
     @cached_property
     def gaps(self) -> FloatArray:
-        """Distance between grey levels that noisy pixels can have, at each level; 0 without."""
+        """How far drawn pixels move that change, at each level; 0 without noise."""
         return self.noisy.gaps(self.levels)
 
     def spread(self, included: Names) -> FloatArray:
@@ -233,29 +251,34 @@ class SampledPixels:
             self.stack,
             self.noise_rms(self.names),
             self.rims,
-            self.interpolate_at_pixels(self.gaps),
+            np.append(0.0, self._moved[0]),
         )
 
-    def noise_square(self, name: str) -> float:
+    def noise_square(self, name: str) -> "RandomSquare":
         """Return the mean square change of pixels without a noise, apart from their means'.
 
         Drawn pixels of other gains change by whole gaps between grey levels.
         """
-        square = self.variances[name]
+        square, gaps = self.variances[name], np.maximum(self.gaps, 1.0)
         if self.noisy.is_drawn(self.names - {name}):
-            gaps = np.maximum(self.gaps, _LEAST_GAP)
             square = square + gaps**2 * rounding_growth_by_noise(np.sqrt(square) / gaps)
-        return self.mean_over_pixels(square)
+        return RandomSquare(*map(self.mean_over_pixels, (square, square**2, square * gaps**2)))
 
     @cached_property
-    def drawn_changes(self) -> dict[str, float]:
+    def drawn_changes(self) -> "dict[str, RandomSquare]":
         """What drawing whole grey levels adds to the mean square change of pixels, by effect."""
         if not self.noisy.is_drawn(self.names):
-            return {}
-        gaps = np.maximum(self.interpolate_at_pixels(self.gaps), _LEAST_GAP)
+            return dict.fromkeys(self.moving, RandomSquare())
+        means = self._moved.T.tolist()
+        return {name: RandomSquare(*own) for name, own in zip(self.moving, means, strict=True)}
+
+    @cached_property
+    def _moved(self) -> FloatArray:
+        """The means of :class:`RandomSquare`, shape (3, moving)."""
+        gaps = np.maximum(self.interpolate_at_pixels(self.gaps), 1.0)
         growth = gaps**2 * rounding_growth(np.abs(self.stack[1:] - self.complete_values) / gaps)
-        squares = np.einsum("ecn,cn->e", growth, self.sample.pixel_weights)
-        return dict(zip(self.moving, squares.tolist(), strict=True))
+        parts = np.stack([growth, growth**2, growth * gaps**2])
+        return np.asarray(np.einsum("pecn,cn->pe", parts, self.sample.pixel_weights))
 
     def noise_rms(self, included: Names) -> float:
         """Return the RMS of the noise on the panel with some effects."""

@@ -6,19 +6,16 @@ from functools import cached_property
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.effects.observed import SURE_DEVIATIONS
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.smoothed_curves import SmoothedCurves
-
-SURE_DEVIATIONS = 3.5
-"""Standard deviations by which the mean square of few columns may exceed its mean."""
 
 
 class SignalSampling:
     """The mean square deviation of a column's mean without each effect.
 
     A pixel that changes by d crosses a step of the curve with a probability in proportion to d, as
-    noise spreads the pixels of a column. Where the steps are even, a change of one step crosses no
-    more than one.
+    noise spreads the pixels of a column, and then moves by a whole gap between grey levels.
     """
 
     def __init__(self, pixels: SampledPixels, curves: SmoothedCurves) -> None:
@@ -31,6 +28,8 @@ class SignalSampling:
         curve, square, jumps = (curves.tabulate(noises, each) for each in (greys, greys**2, steps))
         self._deviation = np.sqrt(np.maximum(square - curve**2, 0.0))
         self._even = pixels.table.slope(curve) ** 2
+        # The changes by a file include those of the pixels that are stored in it.
+        self._gaps = np.maximum(0.0 if pixels.files else pixels.gaps, np.ones(len(self._even)))
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
         inside = pixels.panel_mask([pixels.names])
         self._inside = None if inside is None else inside[0]  # beside the panel nothing is enhanced
@@ -39,7 +38,8 @@ class SignalSampling:
             self._panel_means(self._even) + self._off_panel_fraction
         )
         pixel_weight = 1.0 / (self._rows**2 * pixels.view.region.columns)
-        self._pixel = pixels.mean_over_pixels(self._even + self._uneven) * pixel_weight
+        moved = (self._even * self._gaps + self._uneven) * self._gaps
+        self._pixel = pixels.mean_over_pixels(moved) * pixel_weight
         # One pixel with another random value of its noise.
         self._drawn = pixels.mean_over_pixels(self._even * spread**2) * pixel_weight
         self._column_squares = {
@@ -64,11 +64,16 @@ class SignalSampling:
         The mean square of n numbers of variance v and fourth cumulant k has the standard deviation
         sqrt((2 v^2 + k) / n). Here k is that of a few pixels that cross large steps.
         """
-        mean, n = self._pixels.mean_of_columns, self._pixels.view.region.columns
-        return {
+        pixels, region = self._pixels, self._pixels.view.region
+        mean, n = pixels.mean_of_columns, region.columns
+        doubts = {
             name: SURE_DEVIATIONS * math.sqrt(2.0 * mean(v**2) / n + mean(v) * self._pixel)
             for name, v in self._column_squares.items()
         }
+        for name in pixels.moving if pixels.files else ():  # a file spreads what drawing moves
+            few = pixels.drawn_changes[name].relative_doubt(region.rows * n)
+            doubts[name] += mean(self._column_squares[name]) * few
+        return doubts
 
     def _square_of_mean(self, square: FloatArray, of_means: float) -> FloatArray:
         """Return the mean square of a column's mean, from that of its pixels."""
@@ -82,7 +87,8 @@ class SignalSampling:
             deviation = np.maximum(np.sqrt(variance), math.sqrt(square_read_back))
             known_square = self._even * total if pixels.files else 0.0  # the file already rounds it
             largest = np.maximum(self._deviation**2 - known_square, 0.0)
-            part = self._even * np.tanh(4.8 * deviation) / 6.0 + self._uneven * 0.8 * deviation
+            flips = self._gaps**2 * np.tanh(4.8 * deviation / self._gaps) / 6.0
+            part = self._even * flips + self._uneven * 0.8 * deviation
             if not pixels.files:
                 part = part + self._even * deviation**2
             part = np.where(deviation**2 > 0.7 * total, largest, np.minimum(part, largest))
@@ -127,17 +133,16 @@ class SignalSampling:
             added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.growth)
             by_file = np.maximum(added, 0.0)[:, None, None]
             changes = np.sqrt(changes**2 + by_file)
-        np.minimum(changes, 0.5, out=changes)
-        even, uneven = (
-            pixels.interpolate_at_pixels(self._even),
-            pixels.interpolate_at_pixels(self._uneven),
+        even, uneven, gaps = map(
+            pixels.interpolate_at_pixels, (self._even, self._uneven, self._gaps)
         )
+        moved = np.minimum(changes / gaps, 0.5)
+        flips = gaps**2 * moved * (1.0 - moved)
+        np.minimum(changes, 0.5 * gaps, out=changes)
         if self._inside is not None:
             even, uneven = np.where(self._inside, even, 1.0), uneven * self._inside
         crossings = np.maximum(changes, 0.8 * np.sqrt(by_file))
-        squares = pixels.mean_of_rows(
-            even * (changes * (1.0 - changes) + by_file) + uneven * crossings
-        )
+        squares = pixels.mean_of_rows(even * (flips + by_file) + uneven * crossings)
         return {
             name: self._square_of_mean(square, own)
             for name, square, own in zip(pixels.moving, squares, of_means.tolist(), strict=True)

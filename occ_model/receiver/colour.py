@@ -87,8 +87,8 @@ class ColourSignals:
     def light(self) -> FloatArray:
         """Return the light of each LED in every column, unmixed; that of white is 1.
 
-    It is that of the mean grey levels, which decoders of one colour read as well.
-    """
+        It is that of the mean grey levels, which decoders of one colour read as well.
+        """
         gains = np.array(self.scene.colours.gains)[:, None]
         lights = (self.greys / WHITE) ** self.scene.camera.gamma
         filled = np.array([_interpolate(row) for row in lights]) / gains

@@ -142,9 +142,7 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
     return Bands(size, span, seen, panel, light, weights, dimming**power, beside_bands)
 
 
-def _weights(
-    panel: Pixels, outline: FloatArray, span: Region, columns: int, seen: slice
-) -> Pixels:
+def _weights(panel: Pixels, outline: FloatArray, span: Region, columns: int, seen: slice) -> Pixels:
     """Return the bands' weights: the part of a column's rows that each stands for.
 
     Of rows in which the panel ends within a band's part, those beside it are left to the

@@ -170,7 +170,8 @@ def law_of_known_gains(noise: PixelNoise, brightest: float) -> GreyLaw:
 def _scale(noise: PixelNoise) -> tuple[float, float, float]:
     """Return the level of white, the power of a value, and the level of none but top codes."""
     top = min(noise.full, noise.white)
-    reach = noise.deviation(top) / top  # relative to the top; the gain's part grows with it
+    # Relative to the top; the gain's part grows with it.
+    reach = float(noise.deviation(np.array(top))) / top
     end = top * (1.0 + _BRIGHTEST * reach) / max(1.0 - _BRIGHTEST * noise.gain_variation, 0.1)
     end += _BRIGHTEST**2 * noise.is_counted
     to_white, power = _PER_ROOT * math.sqrt(noise.white), noise.gamma / 2.0

@@ -103,10 +103,6 @@ class Rows:
         for rim in self.rims:
             yield rim.columns, rim.values[part]
 
-    def change_values(self, change: Callable[[Pixels], Pixels]) -> "Rows":
-        """Apply a change, which need not keep values smooth; only for rows without weights."""
-        return self.change_nodes(change)
-
     def change_nodes(self, change: Callable[[Pixels], Pixels]) -> "Rows":
         """Apply a change to nodes and rims; it must be smooth where rows are interpolated."""
         rims = tuple(replace(rim, values=change(rim.values)) for rim in self.rims)

@@ -57,10 +57,10 @@ class PixelNoise:
         """Whether pictures differ, not the pixels' gains only."""
         return self.is_counted or self.read_noise > 0.0
 
-    def deviation(self, electrons: float) -> float:
-        """Return the standard deviation of the electrons that are read, for a mean."""
+    def deviation(self, electrons: FloatArray) -> FloatArray:
+        """Return the standard deviation of the electrons that are read, for some means."""
         variance = (self.gain_variation * electrons) ** 2 + self.read_noise**2
-        return float(np.sqrt(variance + electrons * self.is_counted))
+        return np.asarray(np.sqrt(variance + electrons * self.is_counted))
 
     @property
     def greys(self) -> IndexArray:
@@ -122,10 +122,7 @@ class PixelNoise:
 
     def _expand(self, means: FloatArray, limits: FloatArray) -> FloatArray:
         """Compute the fractions by a series for many electrons, near each mean only."""
-        spread = np.sqrt(
-            (self.gain_variation * means) ** 2 + self.read_noise**2 + means * self.is_counted
-        )
-        reach = _TAIL * spread + self._is_lattice * 5.0
+        reach = _TAIL * self.deviation(means) + self._is_lattice * 5.0
         first = np.searchsorted(limits, means - reach)
         width = int((np.searchsorted(limits, means + reach) - first).max(initial=0))
         place = np.minimum(first[:, None] + np.arange(width), max(len(limits) - 1, 0))

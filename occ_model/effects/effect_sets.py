@@ -68,23 +68,10 @@ class EffectSets:
         """Choose the fastest set within a tolerance; return it and its error."""
         if tolerance == math.inf:
             return EffectSet(frozenset(), self.effect_sets[0].seconds, math.inf), math.inf
-        candidates = (
-            [
-                effect_set
-                for effect_set in self.effect_sets
-                if effect_set.error <= tolerance * _SUM_RATIO
-            ]
-            if tolerance
-            else []
-        )
-        for batch in (
-            candidates[:1],
-            candidates[1:5],
-            candidates[5:],
-        ):  # the first one usually suffices
-            for effect_set, error in zip(
-                batch, self.errors_of(batch) if batch else (), strict=True
-            ):
+        near = [each for each in self.effect_sets if each.error <= tolerance * _SUM_RATIO]
+        for batch in (near[:1], near[1:5], near[5:]) if tolerance else ():  # usually the first
+            errors = self.errors_of(batch) if batch else ()
+            for effect_set, error in zip(batch, errors, strict=True):
                 if error <= tolerance:
                     return effect_set, error
         return EffectSet(self.names, self.complete_seconds, 0.0), 0.0

@@ -3,6 +3,7 @@
 import math
 from functools import cached_property, lru_cache
 
+import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
@@ -22,12 +23,9 @@ from occ_model.effects.sample import PixelSample
 
 
 @lru_cache(maxsize=1)
-def _transform() -> FloatArray:
+def cosine_transform() -> FloatArray:
     """Return the matrix of the orthonormal cosine transform of eight values."""
-    place = np.arange(8.0)
-    matrix = np.cos(math.pi * place[:, None] * (2.0 * place + 1.0) / 16.0) / 2.0
-    matrix[0] /= math.sqrt(2.0)
-    return matrix
+    return np.asarray(cv2.dct(np.eye(8), flags=cv2.DCT_ROWS).T, dtype=np.float64)
 
 
 _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
@@ -114,7 +112,7 @@ class FileChange:
         """Return the coefficients of vertical frequency 0, in steps: (sets, blocks, 8, nodes)."""
         if not len(self._blocks):
             return np.zeros((len(blocks), 1, 8, 1))
-        coefficients = np.matmul(_transform() * math.sqrt(8.0), blocks)
+        coefficients = np.matmul(cosine_transform() * math.sqrt(8.0), blocks)
         coefficients[:, :, 0] -= 1024.0
         coefficients /= self._step
         return np.asarray(coefficients)
@@ -132,7 +130,7 @@ class FileChange:
         noise = (spread * spread + _ROUNDING_VARIANCE)[:, None, None, None]
         spreads = np.sqrt(noise / self._step**2 + variance)
         shift = rounding_mean(middle, spreads) * (self._step / math.sqrt(8.0))
-        change = np.matmul(_transform().T, shift)
+        change = np.matmul(cosine_transform().T, shift)
         values[:, self._blocks.ravel()] += change.reshape(len(values), -1, 1)
         return values
 

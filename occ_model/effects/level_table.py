@@ -34,7 +34,4 @@ class LevelTable:
         return np.asarray(tables[..., below] + fraction * differences(tables)[..., below])
 
     def slope(self, table: FloatArray) -> FloatArray:
-        ends = np.concatenate([table[:1], table, table[-1:]])
-        slope = (ends[2:] - ends[:-2]) / (2.0 * self.step)
-        slope[[0, -1]] *= 2.0
-        return np.asarray(slope)
+        return np.asarray(np.gradient(table, self.step))

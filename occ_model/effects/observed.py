@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +13,24 @@ LIMIT_ALLOWANCE = 1.3
 
 SURE_DEVIATIONS = 3.5
 """Standard deviations by which the mean square of few random values may exceed its mean."""
+
+
+@dataclass(frozen=True, slots=True)
+class RandomSquare:
+    """The mean square change of pixels that move by whole gaps at random."""
+
+    mean: float = 0.0
+    mean_of_squares: float = 0.0  # Mean over the pixels of the square of each one's mean square
+    mean_fourth: float = 0.0  # Mean fourth power of the changes
+
+    def doubt(self, values: int, pixels: int = 1) -> float:
+        """Return how far it may be exceeded in one picture, of means over so many pixels each."""
+        variance = 2.0 * self.mean_of_squares + self.mean_fourth / pixels
+        return SURE_DEVIATIONS * math.sqrt(variance / values) / pixels
+
+    def relative_doubt(self, values: int) -> float:
+        """Return :meth:`doubt` as a fraction of the mean."""
+        return self.doubt(values) / self.mean if self.mean else 0.0
 
 
 class SampledObservable:

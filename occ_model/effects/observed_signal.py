@@ -8,7 +8,6 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, LevelSteps
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
-from occ_model.effects.normal_noise import mean_after_clipping
 from occ_model.effects.observed import SURE_DEVIATIONS, SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SignalSampling
@@ -55,8 +54,9 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
         signals, masks = curves.enhance(sets, values), pixels.panel_mask(sets)
         if masks is not None:  # pixels beside the panel are not enhanced
             for included, own, signal, mask in zip(sets, values, signals, masks, strict=True):
-                if not mask.all():
-                    signal[~mask] = _mean_after_rounding(pixels, included, own[~mask])
+                is_drawn = pixels.noisy.is_drawn(included)
+                beside = own if is_drawn else curves.smooth(included, own, _LEVELS)
+                np.copyto(signal, beside, where=~mask)
         return pixels.mean_of_rows(signals) * weights
 
     observed = SampledObservable(pixels.names, compute_signals, sorted(pixels.names))
@@ -81,17 +81,6 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
     _doubt_large_steps(pixels, observed)
     _doubt_clipped_noise(pixels, observed)
     return observed
-
-
-def _mean_after_rounding(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
-    """Return the mean of pixels that are rounded but not enhanced."""
-    if pixels.noisy.is_drawn(included):
-        return values
-    spread = pixels.spread(included)
-    if float(spread.max()) < LEAST_SMOOTHING_NOISE:
-        flat = np.clip(values, 0.0, WHITE)
-        return LevelSteps.of(flat, pixels.noise_at(included, flat)).mean_of(_LEVELS)
-    return pixels.table.interpolate(mean_after_clipping(pixels.levels, spread, WHITE), values)
 
 
 def _doubt_sharp_steps(pixels: SampledPixels, observed: SampledObservable) -> None:

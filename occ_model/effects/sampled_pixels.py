@@ -2,24 +2,13 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.interpolation import Places, divide_weights, interpolate_at
-from occ_model.camera.optics import Optics
-from occ_model.camera.photometry import (
-    fast_power,
-    luminance_of,
-    panel_values,
-    pixel_value,
-    saturation_value,
-    surroundings_values,
-)
-from occ_model.camera.projection import geometry_of
-from occ_model.camera.row_memory import MEMORY
+from occ_model.camera.photometry import saturation_value, surroundings_values
 from occ_model.effects.effect import (
     Effect,
     FileEffect,
@@ -37,31 +26,15 @@ from occ_model.effects.normal_noise import (
     rounding_growth_by_noise,
     rounding_mean,
 )
-from occ_model.effects.observed import SURE_DEVIATIONS
+from occ_model.effects.observed import RandomSquare
 from occ_model.effects.registry import effects_named
 from occ_model.effects.rims import Rims
-from occ_model.effects.sample import PixelSample, choose_sample
+from occ_model.effects.sampled_light import SampledLight, sample_of
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
 
+_LEVELS_A_GAP = 4  # levels of the table for each at which gaps are computed
+
 _DITHERING_NOISE = 0.5  # noise in grey levels above which rounding does not change a pixel's mean
-
-
-@dataclass(frozen=True, slots=True)
-class RandomSquare:
-    """The mean square change of pixels that move by whole gaps at random."""
-
-    mean: float = 0.0
-    mean_of_squares: float = 0.0  # Mean over the pixels of the square of each one's mean square
-    mean_fourth: float = 0.0  # Mean fourth power of the changes
-
-    def doubt(self, values: int, pixels: int = 1) -> float:
-        """Return how far it may be exceeded in one picture, of means over so many pixels each."""
-        variance = 2.0 * self.mean_of_squares + self.mean_fourth / pixels
-        return SURE_DEVIATIONS * math.sqrt(variance / values) / pixels
-
-    def relative_doubt(self, values: int) -> float:
-        """Return :meth:`doubt` as a fraction of the mean."""
-        return self.doubt(values) / self.mean if self.mean else 0.0
 
 
 class SampledPixels:
@@ -84,41 +57,16 @@ class SampledPixels:
         self._moving = frozenset(self.moving)
         self._noisy = frozenset(effect.name for effect in self.noises)
         self._spread_of: dict[Names, tuple[FloatArray, float]] = {}
-        self.sample = self._choose_sample()
+        self.sample = sample_of(view, self.lenses, in_blocks=bool(self.files))
         self.noisy = NoisyPixels(self.scene, self.names)
         self.columns = SimulatedColumns(view, self.lights, self.limits, self.noises, self.noisy.law)
         self.rims = Rims(view, self.sample)
-        gains, power = self.sample.transmission, 1.0 / self.scene.camera.gamma
-        self._dimmed = {name: fast_power(gain, power) for name, gain in gains.items()}
-
-    def _choose_sample(self) -> PixelSample:
-        scene, view = self.scene, self.view
-        transmitter = scene.transmitter
-        key = (
-            "effect sample",
-            view.corner_bytes,
-            scene.pose,
-            scene.lens,
-            *geometry_of(scene.camera),
-            scene.camera.f_number,
-            scene.sensor.pixel_pitch,
-            transmitter.lambertian_order,
-            tuple(effect.name for effect in self.lenses),
-            bool(self.files),
-        )
-
-        def make() -> PixelSample:
-            plain = Optics(view.corners)
-            optics = {effect.name: effect.apply(scene, plain) for effect in self.lenses}
-            level = view.sides is not None and view.is_visible
-            return choose_sample(view.region, level, optics, plain, bool(self.files))
-
-        return MEMORY.recall(key, make, lambda sample: sample.arrays)
+        self.light = SampledLight(view, self.sample, self.columns)
 
     @cached_property
     def _exposed(self) -> FloatArray:
         """The pixels' values before saturation with all effects, and without each of ``moving``."""
-        exposed = self._compute_values(
+        exposed = self.light.expose(
             [self._moving, *(self._moving - {name} for name in self.moving)]
         )
         around = surroundings_values(self.scene, self.view.light)
@@ -152,32 +100,7 @@ class SampledPixels:
         missing = [self._moving - included for included in wanted]
         if all(len(names) <= 1 for names in missing):
             return self._exposed[[self.stack_index(next(iter(names), "")) for names in missing]]
-        return self._compute_values(wanted)
-
-    def _compute_values(self, sets: Sequence[Names]) -> FloatArray:
-        sample, camera = self.sample, self.scene.camera
-        light, places = self.columns.light_at(sets, sample.columns)
-        panel = panel_values(self.scene, light)
-        values = np.empty((len(sets), *sample.rows.shape))
-        if any(cover is not None for cover in sample.covers.values()) or sample.emission:
-            dark = luminance_of(surroundings_values(self.scene, light), camera)
-            panel_light = (luminance_of(panel, camera) - dark)[places][:, :, None]
-            dark = dark[places][:, :, None]
-            for included, pixel_values, of_panel in zip(sets, values, panel_light, strict=True):
-                cover = sample.covers[included & sample.outline]
-                pixel_values[:] = of_panel if cover is None else of_panel * cover
-                for name, gain in sample.emission.items():
-                    if name in included:
-                        pixel_values *= gain
-            values += dark
-            values = pixel_value(np.maximum(values, 0.0, out=values), camera, fast_power)
-        else:
-            values[:] = panel[places][:, :, None]
-        for included, pixel_values in zip(sets, values, strict=True):
-            for name, dimmed in self._dimmed.items():
-                if name in included:
-                    pixel_values *= dimmed
-        return values
+        return self.light.expose(wanted)
 
     @cached_property
     def table(self) -> LevelTable:
@@ -201,7 +124,8 @@ class SampledPixels:
     @cached_property
     def gaps(self) -> FloatArray:
         """How far drawn pixels move that change, at each level; 0 without noise."""
-        return self.noisy.gaps(self.levels)
+        some = self.levels[::_LEVELS_A_GAP]
+        return np.interp(self.levels, some, self.noisy.gaps(some))
 
     def spread(self, included: Names) -> FloatArray:
         """Return the noise's standard deviation at each level, with some effects."""
@@ -254,7 +178,7 @@ class SampledPixels:
             np.append(0.0, self._moved[0]),
         )
 
-    def noise_square(self, name: str) -> "RandomSquare":
+    def noise_square(self, name: str) -> RandomSquare:
         """Return the mean square change of pixels without a noise, apart from their means'.
 
         Drawn pixels of other gains change by whole gaps between grey levels.
@@ -265,7 +189,7 @@ class SampledPixels:
         return RandomSquare(*map(self.mean_over_pixels, (square, square**2, square * gaps**2)))
 
     @cached_property
-    def drawn_changes(self) -> "dict[str, RandomSquare]":
+    def drawn_changes(self) -> dict[str, RandomSquare]:
         """What drawing whole grey levels adds to the mean square change of pixels, by effect."""
         if not self.noisy.is_drawn(self.names):
             return dict.fromkeys(self.moving, RandomSquare())
@@ -339,14 +263,6 @@ class SampledPixels:
         order = np.argsort(columns)
         places = np.arange(region.first_column, region.last_column)
         return np.interp(places, columns[order], sampled[order])
-
-    def dimming(self, name: str) -> FloatArray | None:
-        """Return a lens's mean dimming of each column of the sample; None if it does not dim."""
-        if name in self._dimmed:
-            return self.mean_of_rows(self._dimmed[name])
-        gain = self.sample.emission.get(name)
-        power = 1.0 / self.scene.camera.gamma
-        return None if gain is None else self.mean_of_rows(fast_power(gain, power))
 
     def mean_of_rows(self, values: FloatArray) -> FloatArray:
         return np.asarray(np.einsum("...cn,cn->...c", values, self.sample.row_weights))

@@ -53,9 +53,6 @@ LEAST_SMOOTHING_NOISE = 0.5
 
 _GREYS: FloatArray = np.arange(256.0)
 
-_LEAST_TABULATED_NOISE = 1.5
-"""Noise, in steps of the table, above which interpolating a smoothed curve is accurate."""
-
 
 class SmoothedCurves:
     """Means over the pixels' noise of what the enhancement makes of them."""
@@ -103,20 +100,14 @@ class SmoothedCurves:
             if self._pixels.noisy.is_drawn(included):
                 mean[:] = self._mean_of_drawn(included, own, curve)
             else:
-                mean[:] = self._smooth(included, np.clip(own, 0.0, WHITE), curve)
+                mean[:] = self.smooth(included, own, curve)
         return means
 
-    def _smooth(self, included: Names, values: FloatArray, curve: FloatArray) -> FloatArray:
-        table, spread = self._pixels.table, self.spread(included)
-        means = table.interpolate(self.tabulate(included, curve), values)
-        tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * table.step)
-        if float(spread.min()) < tabulated:
-            noise = table.interpolate(spread, values)
-            sharp = noise < tabulated
-            if not sharp.any():  # only levels that no pixel has are so
-                return means
-            means[sharp] = LevelSteps.of(values[sharp], noise[sharp]).mean_of(curve)
-        return means
+    def smooth(self, included: Names, values: FloatArray, curve: FloatArray) -> FloatArray:
+        """Return the mean of a curve over pixels of some means that are not drawn."""
+        flat = np.clip(values, 0.0, WHITE).ravel()
+        noise = self._pixels.table.interpolate(self.spread(included), flat)
+        return LevelSteps.of(flat, noise).mean_of(curve).reshape(values.shape)
 
 
 _MISSED_FRACTION = 0.1  # fraction of a change above which the sample counts as missing it
@@ -167,8 +158,9 @@ def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:
 
     Dimming is averaged over the rows.
     """
-    complete, dimming = pixels.profile(pixels.names), pixels.dimming(name)
-    if dimming is None:
+    complete = pixels.profile(pixels.names)
+    if name not in pixels.light.dimming:
         is_rim = name in pixels.sample.outline
         return None if is_rim else np.stack([complete, pixels.profile(pixels.names - {name})])
-    return np.stack([pixels.profile(pixels.names, pixels.interpolate_columns(dimming)), complete])
+    dimming = pixels.interpolate_columns(pixels.mean_of_rows(pixels.light.dimming[name]))
+    return np.stack([pixels.profile(pixels.names, dimming), complete])

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.mosaic import light_of_greys, mosaic_of
+from occ_model.camera.mosaic import mosaic_of
 from occ_model.camera.photometry import WHITE
 from occ_model.errors import DecodeInputError, ParameterError
 from occ_model.receiver.csk import read_symbols
@@ -75,6 +75,11 @@ class ColourSignals:
     # Shape (3, columns): mean grey levels of each channel; NaN in columns without its pixels
     greys: FloatArray
 
+    @property
+    def lights(self) -> FloatArray:
+        """Light of the mean grey levels, which decoders of one colour read as well."""
+        return np.asarray((self.greys / WHITE) ** self.scene.camera.gamma)
+
     def own(self) -> list[FloatArray]:
         """Return the grey levels of each LED, in the columns with pixels of its colour."""
         seen = ~np.isnan(self.greys)
@@ -85,13 +90,9 @@ class ColourSignals:
         return [row[has] for row, has in zip(greys, seen, strict=True)]
 
     def light(self) -> FloatArray:
-        """Return the light of each LED in every column, unmixed; that of white is 1.
-
-        It is that of the mean grey levels, which decoders of one colour read as well.
-        """
+        """Return the light of each LED in every column, unmixed; that of white is 1."""
         gains = np.array(self.scene.colours.gains)[:, None]
-        lights = (self.greys / WHITE) ** self.scene.camera.gamma
-        filled = np.array([_interpolate(row) for row in lights]) / gains
+        filled = np.array([_interpolate(row) for row in self.lights]) / gains
         return np.asarray(np.linalg.solve(np.array(self.scene.colours.matrix), filled))
 
 

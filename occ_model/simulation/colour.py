@@ -13,9 +13,8 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.mosaic import demosaic, store_as_jpeg
-from occ_model.camera.projection import check_size, paint
+from occ_model.camera.projection import check_size
 from occ_model.effects.effect import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of_any
 from occ_model.effects.registry import NAMES
@@ -28,8 +27,7 @@ from occ_model.scene.scene import TOLERANCE, Observable, Scene, SimulationSettin
 from occ_model.simulation.colour_channels import channel_views, filter_view
 from occ_model.simulation.colour_effects import plan_with_colour
 from occ_model.simulation.columns import Columns, expose_columns
-from occ_model.simulation.pixel_draw import PictureNumbers
-from occ_model.simulation.pixels import PixelExposure
+from occ_model.simulation.render import render_plan
 from occ_model.simulation.stage_timer import StageTimer
 
 
@@ -133,20 +131,9 @@ def _expose_mosaic(scene: Scene, prepared: _Prepared, seed: int, timer: StageTim
     for place, (channel, own) in enumerate(scene.colours.filters):
         if mosaic[own].size:
             view = filter_view(prepared.views[channel], place)
-            mosaic[own] = _expose_pixels(view, plan, 4 * seed + place, timer)
+            mosaic[own] = render_plan(view, plan, seed=4 * seed + place, timer=timer).camera_image
             timer.end_stage("mosaic")
     return mosaic
-
-
-def _expose_pixels(view: PaperView, plan: Plan, seed: int, timer: StageTimer) -> ByteArray:
-    columns = expose_columns(view, plan, timer)
-    camera = view.scene.camera
-    if plan.kinds <= {"column"}:
-        around = to_bytes(columns.around)
-        return paint(to_bytes(columns.profile), view.corners, range(camera.rows), around)
-    none = Enhancement(columns.profile, "none")
-    exposure = PixelExposure(view, plan, columns, timer)
-    return exposure.pictures(none, PictureNumbers(seed, camera.columns)).camera_image
 
 
 def _process(mosaic: ByteArray, prepared: _Prepared, timer: StageTimer) -> ByteArray:

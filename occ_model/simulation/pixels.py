@@ -109,11 +109,6 @@ class PixelExposure:
         rounding = sum(file.rounding_of_means(self._scene) for file in self._files)
         return DraftedPanel(rows, columns, outline, size, blur, rounding)
 
-    def rows(self, numbers: PictureNumbers) -> Iterator[ExposedRows]:
-        noise = self._prepare_noise(numbers)
-        for band in self._split_bands():
-            yield self._expose(band, noise, StageTimer())
-
     def _prepare_noise(self, numbers: PictureNumbers) -> PictureNoise | None:
         if self._noise is None:
             return None
@@ -149,9 +144,9 @@ class PixelExposure:
     def _limit_values(self, mean: Rows, timer: StageTimer) -> Rows:
         """Limit mean values to what a pixel can hold."""
         for limit in self._limits:
-            mean = mean.change_values(partial(limit.apply, self._scene))
+            mean = mean.change_nodes(partial(limit.apply, self._scene))
             timer.end_stage(limit.name)
-        return mean.change_values(lambda values: np.minimum(values, np.float32(WHITE)))
+        return mean.change_nodes(lambda values: np.minimum(values, np.float32(WHITE)))
 
     def pictures(
         self,
@@ -209,7 +204,9 @@ class PixelExposure:
         its columns.
         """
         image = np.empty(self._shape, dtype=np.float32)
-        for exposed in self.rows(numbers):
+        noise = self._prepare_noise(numbers)
+        for band in self._split_bands():
+            exposed = self._expose(band, noise, StageTimer())
             image[exposed.place] = exposed.values
             for file in self._files:
                 whole = np.asarray(cv2.convertScaleAbs(exposed.values), dtype=np.uint8)

@@ -17,6 +17,7 @@ from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.interpolation import Places
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_noise import GREYS
+from occ_model.effects.file_change import cosine_transform
 from occ_model.effects.normal_noise import density_at_boundaries, square_of_rounded_noise
 from occ_model.products import MOST_MULTIPLIED
 
@@ -184,7 +185,7 @@ class StoredMeans:
     def __init__(self, steps: FloatArray) -> None:
         self._steps = steps
         self._step = steps[0].astype(np.float32)
-        self._transform = _cosine_transform()
+        self._transform = cosine_transform().astype(np.float32)
 
     def store(self, means: np.ndarray, variance: np.ndarray, numbers: np.ndarray) -> np.ndarray:
         """Return the means that pixels have after the file.
@@ -232,12 +233,6 @@ class StoredMeans:
 
 _EVEN_NOISE = 0.6  # noise of a coefficient, in steps, above which its rounding has no mean error
 _NEGLIGIBLE_PART = 0.01  # of what rounding changes in single blocks that is neglected
-
-
-@lru_cache(maxsize=1)
-def _cosine_transform() -> np.ndarray:
-    """Return the matrix of the orthonormal cosine transform of eight values."""
-    return cv2.dct(np.eye(8, dtype=np.float32), flags=cv2.DCT_ROWS).T
 
 
 @lru_cache(maxsize=1)

@@ -155,5 +155,5 @@ def test_rows_without_weights_are_the_same_rows() -> None:
     each = rows.expand_rows()
     np.testing.assert_allclose(each.values, rows.values, rtol=1e-6)
     # Changes that are not smooth are now allowed.
-    squared = each.change_values(np.square)
+    squared = each.change_nodes(np.square)
     np.testing.assert_allclose(squared.values, rows.values**2, rtol=1e-6)

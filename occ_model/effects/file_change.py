@@ -61,8 +61,8 @@ class FileChange:
     """How a file changes a sample's pixels, with all effects and without some.
 
     The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels, and
-    ``spread`` is the RMS of their noise; ``moved``, (sets,), is the mean square by which rounding
-    and drawing add to the change of each set's pixels, as whole levels.
+    ``spread`` is the RMS of their noise; ``moved``, (2, sets), is the mean square by which whole
+    levels add to the change of each set's pixels, and the mean of the square of each pixel's.
     """
 
     def __init__(
@@ -164,11 +164,15 @@ class FileChange:
         pixels if other coefficients differ a little from the sampled ones.
         """
         changes = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
-        moved, flips = self._moved, np.sqrt(self._moved)
+        moved, squares = self._moved
+        # The fraction of the pixels that may move, and by how much they do.
+        part = moved**2 / np.maximum(squares, _TINY)
+        flips = np.sqrt(squares / np.maximum(moved, _TINY))
         size = np.sqrt((changes**2).mean(axis=1))
         read_back = self._x + rounding_mean(self._x, self._s)
         shift = read_back - read_back[0]
-        by_noise = rounding_growth_by_noise(flips[:, None, None] / self._step)[:, None]
+        by_noise = rounding_growth_by_noise(flips[:, None, None] / self._step)
+        by_noise = (part[:, None, None] * by_noise)[:, None]
         of_shift = rounding_growth(shift)
         varying = self._square_in_pixels(
             np.maximum(of_shift, by_noise * self._density_at_boundaries(_LEAST_SPREAD))
@@ -183,10 +187,9 @@ class FileChange:
             )
         along = self._square_in_pixels(shift**2 - (self._x - self._x[0]) ** 2) + varying
         q = self._others
-        across = rounding_growth_by_noise(flips[:, None] / q) @ (
-            q**2 * density_at_boundaries(self._noise / q)
-        )
-        rims = self._growth_at_rims(np.hypot(size, flips) * self._filled, self._white)
+        density = q**2 * density_at_boundaries(self._noise / q)
+        across = part * (rounding_growth_by_noise(flips[:, None] / q) @ density)
+        rims = self._growth_at_rims(np.hypot(size, np.sqrt(moved)) * self._filled, self._white)
         image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims + moved
         return image, (varying + moved / 8.0) / self.block_rows + self._cut * rims, extra
 

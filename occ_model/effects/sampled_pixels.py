@@ -175,7 +175,7 @@ class SampledPixels:
             self.stack,
             self.noise_rms(self.names),
             self.rims,
-            np.append(0.0, self._moved[0]),
+            np.pad(self._moved[:2], ((0, 0), (1, 0))),
         )
 
     def noise_square(self, name: str) -> RandomSquare:

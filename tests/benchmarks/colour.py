@@ -36,6 +36,7 @@ FILES: dict[str, dict[str, float | str]] = {
     "none": {}, "4:2:0": {"jpeg_quality": 90}, "4:4:4": {"jpeg_quality": 90, "chroma": "full"},
 }  # fmt: skip
 PICTURES, RATE = 12, 30.0
+CODES = 150  # of a cell, in pictures and by the study
 QUIET = {"sensor-noise": False, "fixed-pattern": False}
 LIT = 3600.0 / (3600.0 + 290.0 * 0.4 / np.pi)  # fraction of a lit panel's light that is its own
 ROWS = {"rows": 576, "panel_height": 0.075}  # an eighth of the picture's rows
@@ -127,23 +128,23 @@ def bits_a_second(read: int, codes: int) -> str:
 
 
 def study() -> None:
-    print("study: bits of 10 x 40 read, in pictures and by the study; chi-square, cells")
+    print(f"study: codes of {CODES} read, in pictures and by the study; chi-square, cells")
     total, cells = 0.0, 0
     for name in ("0 %", "30 %"):
         for frequency in (10.4e3, 10.8e3, 11.2e3, 11.6e3):
             scene = colour_scene(136e-6, frequency, demosaicing="none", **MIXINGS[name])
             pictures = np.zeros(3)
-            for sent, seed in random_scenes(scene, 40, 91):
+            for sent, seed in random_scenes(scene, CODES, 91):
                 reading = occ.decode_colours(occ.render_colour(sent, seed=seed).image, sent)
                 pairs = zip(reading.results, sent_codes(sent), strict=True)
                 pictures += [result.code == code for result, code in pairs]
             studied = np.zeros(3)
             for place, colour in enumerate(("red", "green", "blue")):
-                for sent, seed in random_scenes(scene, 40, 92):
+                for sent, seed in random_scenes(scene, CODES, 92):
                     rate = occ.success_rate(sent.colour(colour), images=1, seed=seed)
                     studied[place] += rate == 100.0
-            both = (pictures + studied) / 80
-            spread = 40 * both * (1 - both) * 2
+            both = (pictures + studied) / (2 * CODES)
+            spread = CODES * both * (1 - both) * 2
             known = spread > 0
             size = float(((pictures - studied)[known] ** 2 / spread[known]).sum())
             total, cells = total + size, cells + int(known.sum())

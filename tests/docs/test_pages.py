@@ -14,6 +14,7 @@ from each_case import each_case
 import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
 from occ_gui.help.pages import CONTENTS, heading_id, pages
+from occ_model.camera.photometry import level_values, white_electrons
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.listing import framing_table, line_code_table, parameter_table
 from occ_model.effects.registry import EFFECTS
@@ -138,6 +139,20 @@ def test_the_table_of_effects_is_that_of_the_registry() -> None:
     (table,) = re.findall(r"^\| effect \|.*?\n\n", page_named("model"), re.MULTILINE | re.DOTALL)
     named = re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)
     assert named[1:] == [effect.label for effect in EFFECTS]
+
+
+def test_the_table_of_electrons_is_that_of_the_presets() -> None:
+    rows = re.findall(r"^\| (\S+) ((?:\| [\d.]+ ){6})\|$", page_named("model"), re.MULTILINE)
+    assert {name for name, _ in rows} == {
+        n for n in occ.presets() if not n.endswith(("-real", "-colour"))
+    }
+    for name, cells in rows:
+        scene = occ.load_preset(name)
+        white = white_electrons(scene)
+        levels = white * (level_values(scene) / 255.0) ** scene.camera.gamma
+        sensor = scene.sensor
+        expected = [*levels, white, sensor.full_well, sensor.read_noise, sensor.adc_bits]
+        assert [float(cell) for cell in cells.split("|")[1:]] == pytest.approx(expected, rel=4e-3)
 
 
 def test_as_many_effects_as_the_page_says_are_called_for_at_two_tolerances() -> None:

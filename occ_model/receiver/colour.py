@@ -2,7 +2,7 @@
 
 Each colour is read from its own pixels, which demosaicing leaves as they are: the signal of a
 monochrome camera (:meth:`occ_model.Scene.colour`), which any decoder reads. If a filter lets other
-LEDs' light through, the means of the light are first unmixed by the inverse of the mixing matrix.
+LEDs' light through, that of the means is first unmixed by the inverse of the mixing matrix.
 In columns without pixels of a channel, its light is interpolated from four others by a cubic.
 """
 

@@ -14,7 +14,7 @@ _MOST_FLOOR, _FLOOR_PART, _REFUSED_FLOOR = 0.06, 0.15, 0.25
 expected, and light from which a fit is refused. Of lamps 0.05 at most."""
 _MOST_MISFIT, _REFUSED_MISFIT = 0.06, 0.12  # of the swing
 _MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # of the swing; of lamps 0.06 at most
-_MOST_BLUR, _BLUR_PART = 0.85, 0.15  # columns, and of the ramp; of lamps 0.76 at most
+_MOST_BLUR, _BLUR_PART = 0.85, 0.25  # columns, and of the ramp; of lamps 0.76 and 0.24 at most
 _MOST_DRIFT, _DRIFT_DEVIATIONS, _MOST_ROWS_SCATTER = 0.2, 2.5, 0.35  # columns, deviations, columns
 _MOST_SCATTER, _SCATTER_PART, _SCATTER_DEVIATIONS, _REFUSED_SCATTER = 0.12, 0.002, 2.6, 0.1
 """Of edges off even spacing: columns, parts of the period, what their noise makes; and the part of

@@ -40,12 +40,10 @@ class GreyLaw:
     """Probability of each grey level but the last, or of a lower one: shape (levels, greys - 1)."""
 
     def levels_of(self, values: Pixels) -> Pixels:
-        """Return the levels of mean pixel values before saturation, in single precision."""
-        levels = self.unlimited_levels_of(values)
-        return np.minimum(levels, np.float32(self.last), out=levels)
+        """Return the levels of mean pixel values before saturation, in single precision.
 
-    def unlimited_levels_of(self, values: Pixels) -> Pixels:
-        """Return levels that may be above the law's last one, and below it with a small gain."""
+        They may be above the law's last one, and below it with a small gain.
+        """
         flat = np.maximum(values, np.float32(0.0)).reshape(len(values), -1)
         levels = np.asarray(cv2.pow(flat, self.power), dtype=np.float32)
         levels *= np.float32(self.to_white / WHITE**self.power)

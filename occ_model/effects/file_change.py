@@ -174,17 +174,14 @@ class FileChange:
         by_noise = rounding_growth_by_noise(flips[:, None, None] / self._step)
         by_noise = (part[:, None, None] * by_noise)[:, None]
         of_shift = rounding_growth(shift)
-        varying = self._square_in_pixels(
-            np.maximum(of_shift, by_noise * self._density_at_boundaries(_LEAST_SPREAD))
-        )
-        extra: FloatArray = np.zeros(len(varying))
+
+        def grow(least: float) -> FloatArray:
+            density = self._density_at_boundaries(least)
+            return self._square_in_pixels(np.maximum(of_shift, by_noise * density))
+
+        varying, extra = grow(_LEAST_SPREAD), np.zeros(len(moved))
         if float(self._s.min()) < SHARP_NOISE:
-            extra = (
-                self._square_in_pixels(
-                    np.maximum(of_shift, by_noise * self._density_at_boundaries(SHARP_NOISE))
-                )
-                - varying
-            )
+            extra = grow(SHARP_NOISE) - varying
         along = self._square_in_pixels(shift**2 - (self._x - self._x[0]) ** 2) + varying
         q = self._others
         density = q**2 * density_at_boundaries(self._noise / q)

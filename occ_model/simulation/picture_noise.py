@@ -41,9 +41,9 @@ class PictureNoise:
 
     def draw(self, mean: Rows, out: ByteArray, end_stage: Callable[[str], object]) -> None:
         """Draw the grey levels of some rows of pixels."""
-        levels = mean.change_nodes(self._law.unlimited_levels_of)
+        levels = mean.change_nodes(self._law.levels_of)
         if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
-            levels = mean.expand_rows().change_nodes(self._law.unlimited_levels_of)
+            levels = mean.expand_rows().change_nodes(self._law.levels_of)
         levels = self._scale(levels)
         numbers = self._numbers.of(mean.rows, _CHUNK)
         shape = (min(_CHUNK, len(mean.rows)), self._columns)

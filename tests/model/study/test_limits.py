@@ -192,16 +192,6 @@ def test_a_value_is_given_up_once_further_images_cannot_reach_the_rate(decoding:
     assert min(range_end.works.images, range_end.fails.images) >= 20
 
 
-def test_each_end_is_read_in_all_images_even_if_the_first_ones_mislead(decoding: Decoding) -> None:
-    decoding(lambda frequency, image, _: 2e3 <= frequency <= 10e3 or image < FEW_IMAGES)
-    found = occ.limits(SCENE.replace(switching_frequency=5e3), images=20).frequency
-    for range_end, truth in ((found.lowest, 2e3), (found.highest, 10e3)):
-        works, fails = ends(range_end)
-        assert min(works, fails) <= truth <= max(works, fails)
-        assert range_end.works.images >= 20
-        assert range_end.works.rate == 100.0
-
-
 def test_the_command_states_the_bits_received_per_second(
     decoding: Decoding, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -212,12 +202,6 @@ def test_the_command_states_the_bits_received_per_second(
     for frames_a_second, bits in ((10, 160), (60, 400)):
         assert main([*command, "--fps", str(frames_a_second)]) == 0
         assert capsys.readouterr().out.splitlines()[2].endswith(f" {bits}")
-
-
-def omit_own_frequency(read: "Counter[tuple[float, int]]") -> "Counter[tuple[float, int]]":
-    """Omit the scene's own frequency, at which all exposure times are read as well."""
-    own = SCENE.transmitter.switching_frequency
-    return Counter({at: images for at, images in read.items() if at[0] != own})
 
 
 def test_no_image_is_simulated_twice(decoding: Decoding, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -235,27 +219,12 @@ def test_no_image_is_simulated_twice(decoding: Decoding, monkeypatch: pytest.Mon
 
 def test_few_images_suffice_if_the_rate_falls_abruptly(decoding: Decoding) -> None:
     read = decoding(lambda frequency, *_: 4e3 <= frequency <= 20e3)
-    occ.limits(SCENE, images=20)
+    search_range(SCENE, images=20, rate=99.0)
     by_seed: Counter[bool] = Counter()
-    for (_, seed), images in omit_own_frequency(read).items():
+    for (_, seed), images in read.items():
         by_seed[seed == 1] += images
     assert by_seed[True] < 1 * 103 + FEW_IMAGES * 50  # of a scan of 150 values, 47 of them read
     assert by_seed[False] < 2 * 250
-
-
-def test_two_processes_find_the_same_limits_as_one(
-    decoding: Decoding, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", PickledJobs)
-    decoding(correct_within((2e3, 20e3)))
-    said: list[tuple[float, str]] = []
-    alone = occ.limits(SCENE, rate=60.0, images=2, seed=7)
-    both = occ.limits(
-        SCENE, rate=60.0, images=2, seed=7, jobs=2, progress=lambda *one: said.append(one)
-    )
-    assert alone.frequency.highest.interval is not None
-    assert both == alone
-    assert said[-1] == (1.0, "")
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

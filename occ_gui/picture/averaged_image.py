@@ -107,8 +107,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             part.top() : part.top() + part.height(), part.left() : part.left() + part.width()
         ]
         # The image is only reduced here; the painter enlarges it, without smoothing.
-        smaller = (min(size[0], part.width()), min(size[1], part.height()))
-        pixels = np.ascontiguousarray(mean_of_cells(pixels, *smaller))
+        pixels = np.ascontiguousarray(mean_of_cells(pixels, *size))
         rows, columns = pixels.shape
         image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
         return image.copy()  # it refers to the array's memory, which is freed

@@ -139,11 +139,13 @@ class Picture:
 
 
 def mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
-    """Average an image down to a size that is no larger than its own.
+    """Average an image down to a size; an axis that has fewer pixels than asked for keeps them.
 
     It is halved repeatedly, which is fast, and then reduced by a ratio of less than two. The edge
     that halving leaves out is smaller than a pixel of the screen.
     """
+    # Where one axis grows, OpenCV averages along neither.
+    rows, columns = min(rows, pixels.shape[0]), min(columns, pixels.shape[1])
     while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
         pixels = halve(pixels)
     if pixels.shape == (rows, columns):

@@ -121,7 +121,9 @@ class FrameThumbnail(QAbstractButton):
         ratio = self.devicePixelRatioF()
         width, height = max(1, round(rect.width() * ratio)), max(1, round(rect.height() * ratio))
         small = np.ascontiguousarray(mean_of_cells(pixels, width, height))
-        image = QImage(small.data, width, height, width, QImage.Format.Format_Grayscale8).copy()
+        rows, columns = small.shape
+        image = QImage(small.data, columns, rows, columns, QImage.Format.Format_Grayscale8).copy()
+        image = image.scaled(width, height)  # repeats the rows of a draft
         image.setDevicePixelRatio(ratio)
         return image
 

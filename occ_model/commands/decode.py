@@ -36,7 +36,6 @@ from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.colour_scenes import check_monochrome, is_colour
 from occ_model.scene.light_words import describe_light
-from occ_model.scene.parameters.colour import COLOURS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.study.cause.cause import cause_of
@@ -196,8 +195,8 @@ def read_film(options: argparse.Namespace, scene: Scene, tolerances: Tolerances)
         def report_progress(colour: str, progress: FilmProgress) -> None:
             if options.follow:
                 print(f"{colour:5} {_format_progress(progress)}".lstrip(), flush=True)
-            elif colour in ("", COLOURS[-1]):
-                bar.update()
+            else:
+                bar.update(progress.frames - bar.n)
 
         if is_colour(scene):
             readings = decode_colour_video(

@@ -46,7 +46,7 @@ def decode_colour_video(
     Returns
     -------
     dict
-        What the red, the green and the blue LED have sent, by these names.
+        What each LED that sends a code has sent, by its colour: ``"red"``, ``"green"``, ``"blue"``.
 
     Raises
     ------
@@ -57,22 +57,23 @@ def decode_colour_video(
         The file cannot be read.
     """
     check_colour(scene)
-    if scene.colours.colour_light in CSK_ORDERS:
+    light = scene.colours.colour_light
+    if light in CSK_ORDERS:
         raise ParameterError.of(
-            "colour_light", scene.colours.colour_light, "three-codes, white, red, green or blue",
-            condition="for a film",
-        )  # fmt: skip
+            "colour_light", light, "three-codes, white, red, green or blue", condition="for a film"
+        )
     readers = {
         colour: reader_of(
             video, scene.colour(colour), decoder,
             readout_tolerance=readout_tolerance, frequency_tolerance=frequency_tolerance,
         )
-        for colour in COLOURS
+        for colour in ((light,) if light in COLOURS else COLOURS)
     }  # fmt: skip
     for frame in video:
-        pictures = _pictures_of(frame.image, scene)
-        for (colour, reader), picture in zip(readers.items(), pictures, strict=True):
-            progress(colour, reader.add(replace(frame, image=picture, samples=None, scene=None)))
+        for colour, picture in zip(COLOURS, _pictures_of(frame.image, scene), strict=True):
+            if colour in readers:
+                seen = replace(frame, image=picture, samples=None, scene=None)
+                progress(colour, readers[colour].add(seen))
     return {colour: reader.reading() for colour, reader in readers.items()}
 
 

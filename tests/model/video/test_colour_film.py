@@ -68,6 +68,9 @@ def test_the_steps_of_a_film_are_those_of_one_led_on_white_light(colour: str) ->
     assert late.start is not None
     lit = occ.on_time(scene.replace(start_time=float(late.start)).colour(colour))
     assert occ.on_time(late.scene.colour(colour)) == pytest.approx(lit, abs=1e-9)
+    few = occ.render_video(scene, 3, settings=occ.SimulationSettings(seed=4))
+    (read,) = occ.decode_colour_video(few, scene, frequency_tolerance=1e-4).items()
+    assert (read[0], read[1].payload) == (colour, CODES["red"])  # the only code
 
 
 def test_what_no_film_shows_in_three_colours_is_refused() -> None:

@@ -20,6 +20,7 @@ from occ_model.errors import ParameterError, inflect, one_line, quote
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.video import Video
+from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named, quantity
 from occ_model.scene.recording import DECLARED, MOTIONS, Recording, Waypoint
@@ -61,7 +62,8 @@ def add_to(commands: Commands) -> None:
     )
     parser.add_argument(
         "-o", "--out", type=Path, required=True,
-        help=f"file to write: {', '.join(FILM_ENDINGS)}; all except .mp4 keep every grey level",
+        help=f"file to write: {', '.join(FILM_ENDINGS)}; all except .mp4 keep every grey level, "
+        "and .mkv and .png every colour",
     )  # fmt: skip
     parser.set_defaults(command=_run)
     _add_animation(commands)
@@ -83,8 +85,8 @@ def _run(options: argparse.Namespace) -> int:
         f"{inflect(rows, 'row')}; "
         f"gap {SECOND.format(gap, 4)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
     )
-    if options.out.suffix.lower() not in LOSSLESS:
-        print(_describe_loss(film, options.out))
+    if options.out.suffix.lower() not in LOSSLESS or is_colour(scene):
+        print(_describe_loss(film, options.out), end="")
     return 0
 
 
@@ -124,17 +126,19 @@ def _parse_waypoint(text: str) -> Waypoint:
 
 
 def _describe_loss(film: Video, path: Path) -> str:
-    """Describe the loss by a codec in the first frame."""
+    """Describe the loss of the first frame in a file; empty if there is none."""
     simulated = film.frame(0).image
     channel = "luma" if simulated.ndim == 2 else "colours"
     decoded = load_video(path, "columns", channel=channel).frame(0).image
     rows, columns = decoded.shape[:2]
     error = decoded.astype(np.float64) - simulated[:rows, :columns]
+    if not error.any():
+        return ""
     pixels = np.sqrt(np.mean(error**2))
     means = np.sqrt(np.mean(np.mean(error, axis=0) ** 2))
     return (
-        f"Its codec is lossy: in the first frame pixels differ by {pixels:.2g} levels from the "
-        f"simulated ones and column means by {means:.2g} (root mean square)."
+        f"The file is lossy: in the first frame pixels differ by {pixels:.2g} levels from the "
+        f"simulated ones and column means by {means:.2g} (root mean square).\n"
     )
 
 

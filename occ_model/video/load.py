@@ -48,8 +48,8 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
         used for all.
     channel
         ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``; or ``"colours"``: images of all three, of
-        shape (rows, columns, 3), unless the film is grey. Most files store the luma of each pixel,
-        but the colours of only four pixels together.
+        shape (rows, columns, 3), unless the file stores grey alone. Most files store the luma
+        of each pixel, but the colours of only four pixels together.
 
     Raises
     ------

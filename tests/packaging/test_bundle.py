@@ -98,7 +98,7 @@ def test_the_bundle_runs_without_python(bundle: Path, tmp_path: Path) -> None:
     film = tmp_path / "film.mp4"
     size = ["--set", "rows=240", "--set", "columns=320", "--frames", "3"]
     written = run_alone(bundle, "occ-model", "film", *size, "-o", str(film), home=tmp_path)
-    assert "Its codec is lossy: in the first frame" in written  # it has been opened again
+    assert "The file is lossy: in the first frame" in written  # it has been opened again
 
     table = tmp_path / "rates.csv"
     # The equalizer imports of scikit-image what the bundle has of it.

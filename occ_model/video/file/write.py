@@ -100,9 +100,9 @@ def write_video(
     video
         The film, which must have an end.
     path
-        The file. ``.mkv`` and ``.png`` keep every grey level, ``.gif`` those of 8 bits; ``.mp4``
-        does not, because its codec, MPEG-4, is lossy. The times are rounded to hundredths of a
-        second in GIF and to thousandths in MKV files.
+        The file. ``.mkv`` and ``.png`` keep every grey level and colour, ``.gif`` grey levels of 8
+        bits, and 256 colours a frame; ``.mp4`` is lossy, because its codec is MPEG-4. The times
+        are rounded to hundredths of a second in GIF and to thousandths in MKV files.
     progress
         Called with the number of frames written after each one; an exception from it ends the work.
 

@@ -88,6 +88,6 @@ def test_the_loss_of_a_lossy_film_is_stated(
 ) -> None:
     assert main(["film", *SMALL, "-o", str(tmp_path / "film.mp4")]) == 0
     words = capsys.readouterr().out.splitlines()[1]
-    assert words.startswith("Its codec is lossy: in the first frame pixels differ by ")
+    assert words.startswith("The file is lossy: in the first frame pixels differ by ")
     loss = float(words.split("differ by ")[1].split()[0])
     assert 0.1 < loss < 8.0

@@ -71,7 +71,7 @@ def state_saving(costs: MeasuredCosts, forecast: Forecast) -> str:
         time = f"{now.number} ms"
     else:
         return (
-            f"{place} no measurable time is saved: {now.number} ms, and "
+            f"{place} the saving is within the scatter: {now.number} ms, and "
             f"{complete.number} ms with all effects; {names} {_state_noise_floor(costs, forecast)}"
         ).strip()
     return f"{place}: {time} in place of {complete.number} ms; {names}"

@@ -143,7 +143,7 @@ def test_no_saving_within_the_scatter_is_claimed(scene: Scene) -> None:
     costs = MeasuredCosts(runs(310, 318, 340, effects=(NOISE,)), (runs(300, 320, 330),))
     sentence = state_saving(costs, forecast_of(plan, 3.0))
     assert sentence.startswith(
-        "As switched no measurable time is saved: 318 ms, and 320 ms with all effects;"
+        "As switched the saving is within the scatter: 318 ms, and 320 ms with all effects;"
     )
     assert "left out: LED rise and fall" in sentence
 

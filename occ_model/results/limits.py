@@ -271,7 +271,7 @@ def search_sentences(limits: Limits) -> list[str]:
         return [step_sentence]
     return [
         f"Each end rests on at least {limits.images} images that were not used to choose it. "
-        "What is stated is the limit of its 95 % interval at which the most is read.",
+        "Where it has a 95 % interval, the limit at which the most is read is stated.",
         step_sentence,
     ]
 

@@ -282,8 +282,9 @@ class _RangeSearch:
             end = self._ends.find(Bracket(inside, values[next_index], values[opposite], last_lost))
             if end is not None:
                 works, fails = self._try_at_end(end.sure), self._try_at_end(end.refuted)
-                interval = end.interval if self._rate <= MOST_PROVEN else None
-                return RangeEnd(end.interval[0], works, fails, interval)
+                if self._rate > MOST_PROVEN:
+                    return RangeEnd(end.sure, works, fails)
+                return RangeEnd(end.interval[0], works, fails, end.interval)
         works = self._try_at_end(inside)
         if not self._is_read(works):
             return None

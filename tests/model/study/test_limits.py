@@ -376,7 +376,9 @@ def test_that_all_bits_are_read_is_refuted_by_the_first_wrong_bit() -> None:
     # Two packets hardly fit the panel, so that chance makes narrow gaps and islands.
     far = occ.load_preset("tablet-122us").replace(distance=2.4, switching_frequency=3e3)
     found = occ.limits(far, rate=100.0, images=5, seed=3).frequency
-    assert all(each.lowest.works.rate == 100.0 for each in found.intervals)
+    for each in found.intervals:
+        assert each.lowest.works.rate == 100.0
+        assert each.lowest.value == each.lowest.works.value  # no value that was not tried
 
 
 def test_an_exception_from_the_heartbeat_ends_the_search() -> None:

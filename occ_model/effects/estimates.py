@@ -34,13 +34,13 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
     noises = tuple(pixels.variances)
     observed = SampledObservable(names, observe, (*pixels.moving, *noises))
     region = pixels.view.region
+    count = region.rows * region.columns
     if pixels.sample.outline:
-        doubt = unsampled_rim_square(pixels, pixels.contrast**2 / (region.rows * region.columns))
-        square = 3.0 * pixels.contrast**2
+        doubt = unsampled_rim_square(pixels, pixels.table.contrast**2 / count)
+        square = 3.0 * pixels.table.contrast**2
         observed.doubt.update(
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
-    count = region.rows * region.columns
     if file is None:
         drawn = {name: pixels.noise_square(name) for name in noises} | pixels.drawn_changes
         for name, moved in drawn.items():
@@ -80,14 +80,14 @@ def observe_profile(pixels: SampledPixels) -> SampledObservable:
             error = math.sqrt(file.own_change / (2.0 * math.pi))
             for included, own in zip(sets, means, strict=True):
                 if pixels.files[0].name in included:
-                    black, white = pixels.noisy.end_fractions(included, pixels.levels)
+                    black, white = pixels.noisy.end_fractions(included, pixels.table.levels)
                     own += pixels.table.interpolate((black - white) * error, own)
         return pixels.mean_of_rows(means) * weights
 
     observed = SampledObservable(names, observe, sorted(names))
     region = pixels.view.region
     if pixels.sample.outline:
-        square = pixels.contrast**2
+        square = pixels.table.contrast**2
         doubt = unsampled_rim_square(pixels, square / (region.rows**2 * region.columns))
         doubt += cut_block_square(pixels)
         observed.doubt.update(
@@ -140,7 +140,7 @@ def observe(pixels: SampledPixels, observable: Observable) -> SampledObservable:
         observed.uncertainty = _UNDITHERED_FRACTION * pixels.file.undithered_fraction
         doubt = pixels.file.undithered_square()
         rims = pixels.rims.fraction  # without noise, these blocks may round differently
-        square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
+        square = rims * max(pixels.view.swing, pixels.table.contrast) ** 2 / 64.0
         at_rims = pixels.file.undithered_fraction * pixels.file.growth_at_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
         observed.add_doubt(pixels.names, doubt)

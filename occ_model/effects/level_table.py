@@ -21,9 +21,13 @@ class LevelTable:
             low -= self.step * (1.0 - (full - low) / self.step % 1.0)
         self.levels: FloatArray = low + self.step * np.arange(_LEVELS, dtype=np.float64)
 
+    @property
+    def contrast(self) -> float:
+        """The brightest minus the darkest level."""
+        return float(self.levels[-1] - self.levels[0])
+
     def place(self, values: FloatArray) -> Places:
-        low, high = float(self.levels[0]), float(self.levels[-1])
-        fraction = (values - low) * ((_LEVELS - 1) / (high - low))
+        fraction = (values - self.levels[0]) * ((_LEVELS - 1) / self.contrast)
         np.maximum(fraction, 0.0, out=fraction)
         np.minimum(fraction, _LEVELS - 1.001, out=fraction)
         return split_levels(fraction)

@@ -169,7 +169,7 @@ def _doubt_clipped_noise(pixels: SampledPixels, observed: SampledObservable) -> 
     if pixels.file is None:
         return
     spread = pixels.spread(pixels.names)
-    ends = sum(pixels.noisy.end_fractions(pixels.names, pixels.levels))
+    ends = sum(pixels.noisy.end_fractions(pixels.names, pixels.table.levels))
     clipped_fraction = np.where(spread > _CLIPPED_NOISE, ends, 0.0)
     clipped = pixels.mean_over_pixels(clipped_fraction)
     gain = float(np.ptp(observed.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing

@@ -112,20 +112,16 @@ class SampledPixels:
             low = min(low, float(around.min()), float(self.noisy.means(self.names, around).min()))
         return LevelTable(low, high, saturation_value(self.scene))
 
-    @property
-    def levels(self) -> FloatArray:
-        return self.table.levels
-
     @cached_property
     def variances(self) -> dict[str, FloatArray]:
         """What each noise adds to a pixel's variance, at each level."""
-        return {e.name: self.noisy.variance_by(e.name, self.levels) for e in self.noises}
+        return {e.name: self.noisy.variance_by(e.name, self.table.levels) for e in self.noises}
 
     @cached_property
     def gaps(self) -> FloatArray:
         """How far drawn pixels move that change, at each level; 0 without noise."""
-        some = self.levels[::_LEVELS_A_GAP]
-        return np.interp(self.levels, some, self.noisy.gaps(some))
+        some = self.table.levels[::_LEVELS_A_GAP]
+        return np.interp(self.table.levels, some, self.noisy.gaps(some))
 
     def spread(self, included: Names) -> FloatArray:
         """Return the noise's standard deviation at each level, with some effects."""
@@ -139,7 +135,7 @@ class SampledPixels:
         key = included & self._noisy
         if key not in self._spread_of:
             variances = [variance for name, variance in self.variances.items() if name in key]
-            spread = np.sqrt(sum(variances, np.zeros(len(self.levels))))
+            spread = np.sqrt(sum(variances, np.zeros(len(self.table.levels))))
             self._spread_of[key] = spread, float(spread.min())
         return self._spread_of[key]
 
@@ -228,11 +224,6 @@ class SampledPixels:
         image, mean = self.file.noise_squares(np.sqrt(squares), np.sqrt(squares.sum() - squares))
         pairs = zip(image.tolist(), mean.tolist(), strict=True)
         return dict(zip(self.variances, pairs, strict=True))
-
-    @property
-    def contrast(self) -> float:
-        """The brightest minus the darkest level."""
-        return float(self.levels[-1] - self.levels[0])
 
     def profile(self, included: Names, factor: FloatArray | None = None) -> FloatArray:
         """Return the mean on the panel of each column of the region, dimmed by a factor each."""

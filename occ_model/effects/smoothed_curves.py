@@ -43,7 +43,7 @@ def cut_block_square(pixels: SampledPixels) -> float:
     if file is None:
         return 0.0
     upright = pixels.rims.fractions[1]
-    added = file.growth_at_rim(upright, upright * pixels.contrast**2 / 8.0)
+    added = file.growth_at_rim(upright, upright * pixels.table.contrast**2 / 8.0)
     equal_fraction = file.undithered_fraction
     return added * (equal_fraction + (1.0 - equal_fraction) / file.block_rows)
 
@@ -59,7 +59,7 @@ class SmoothedCurves:
 
     def __init__(self, pixels: SampledPixels) -> None:
         self._pixels = pixels
-        self._levels = np.clip(pixels.levels, 0.0, WHITE)
+        self._levels = np.clip(pixels.table.levels, 0.0, WHITE)
         self.files = frozenset(effect.name for effect in pixels.files)
         self._spreads: dict[Names, FloatArray] = {}
 

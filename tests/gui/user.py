@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import CountRow, QuantityRow
 
-PATIENCE_MS = 120_000
+PATIENCE_S = 120.0
 """How long is waited at most: only what hangs takes so long, however busy the machine is."""
 
 
@@ -19,13 +19,13 @@ class PatientQtBot(QtBot):
     """pytest-qt's robot, which waits as long as a busy machine needs in place of 5 s."""
 
     def waitUntil(  # noqa: N802 - the name is pytest-qt's
-        self, callback: Callable[[], bool | None], *, timeout: int = PATIENCE_MS
+        self, callback: Callable[[], bool | None], *, timeout: int = round(1e3 * PATIENCE_S)
     ) -> None:
         """Wait until the callback returns true, or no longer fails."""
         super().waitUntil(callback, timeout=timeout)
 
     def waitSignal(  # noqa: N802
-        self, signal: Any, *, timeout: int = PATIENCE_MS, **options: Any
+        self, signal: Any, *, timeout: int = round(1e3 * PATIENCE_S), **options: Any
     ) -> Any:
         """Wait for a signal at the end of a ``with`` block."""
         return super().waitSignal(signal, timeout=timeout, **options)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.kinds import not_none
-from gui.user import User
+from gui.user import PATIENCE_S, User
 from PIL import Image
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -82,7 +82,7 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
 
     def wait_and_load(*args: Any, progress: Callable[[float], object], **options: Any) -> occ.Photo:
         progress(0.5)
-        assert is_released.wait(10.0)
+        assert is_released.wait(PATIENCE_S)
         return load(*args, progress=progress, **options)
 
     monkeypatch.setattr(occ, "load_photo", wait_and_load)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from gui.kinds import collect
+from gui.user import PATIENCE_S
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -14,8 +15,6 @@ import occ_model as occ
 from occ_gui.background import task as tasks
 from occ_gui.background.task import Task, TaskReporter
 from occ_model import plugins
-
-PATIENCE_S = 10.0
 
 
 class Bench:

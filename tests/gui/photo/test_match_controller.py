@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from gui.kinds import not_none
 from gui.photo.photo_bench import PhotoBench
+from gui.user import PATIENCE_S
 from matches import match_with
 from pytestqt.qtbot import QtBot
 
@@ -26,7 +27,6 @@ from occ_model.results.photo_table import PhotoRow
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
 
-PATIENCE_S = 10.0
 DAY = date(2026, 1, 31)
 
 

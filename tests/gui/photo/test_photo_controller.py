@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from gui.kinds import Grey, not_none
 from gui.stores import store_of
+from gui.user import PATIENCE_S
 from PIL import Image
 from pytestqt.qtbot import QtBot
 
@@ -15,8 +16,6 @@ import occ_model as occ
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import ResultsStore
 from occ_model.photo.reading.load import Photo, load_photo
-
-PATIENCE_S = 10.0
 
 
 class Bench:

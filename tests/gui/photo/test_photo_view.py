@@ -26,7 +26,7 @@ def test_without_a_photo_all_a_user_can_press_opens_one_or_a_sample(
     visible = [b for b in view.findChildren(QPushButton) if b.isVisible() and b.isEnabled()]
     assert {button.text() for button in visible} == {"1 Open", "&Open photos…"}
     for button in visible:
-        with qtbot.waitSignal(view.open_asked, timeout=1000):
+        with qtbot.waitSignal(view.open_asked):
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
     paths = [Path("square-wave.png"), Path("packet.png")]
     view.show_samples(dict(zip(("Square wave", "Packet"), paths, strict=True)))

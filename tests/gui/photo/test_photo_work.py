@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, not_none
 from gui.photo.photo_bench import PhotoBench
+from gui.user import PATIENCE_S
 from matches import match_with
 from PIL import Image
 from pytestqt.qtbot import QtBot
@@ -29,8 +30,6 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading, Comparison, Stripes
-
-PATIENCE_S = 10.0
 
 SENTENCE = "No stripes at all."
 

@@ -8,12 +8,11 @@ from typing import Any
 import pytest
 from gui.kinds import collect
 from gui.stores import store_of
+from gui.user import PATIENCE_S
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.task import Report, Task
 from occ_gui.shell.results import Results, ResultsStore, ResultUpdater
-
-PATIENCE_S = 10.0
 
 
 class UpdaterBench:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from film_source import ListedSource
 from gui.kinds import not_none
+from gui.user import PATIENCE_S
 
 from occ_gui.video import camera
 from occ_gui.video.camera import CameraDevice, CameraSource, LivePicture, find_cameras
@@ -151,16 +152,16 @@ class StepwiseSource(ListedSource):
 
     def read(self) -> LivePicture | None:
         self.waits.set()
-        self.may.wait(60)
+        self.may.wait(PATIENCE_S)
         self.may.clear()
         return super().read()
 
     def give_one(self) -> None:
         """Give a picture, and wait until the pane has received it."""
-        assert self.waits.wait(60)
+        assert self.waits.wait(PATIENCE_S)
         self.waits.clear()
         self.may.set()
-        assert self.waits.wait(60)
+        assert self.waits.wait(PATIENCE_S)
 
 
 Start = Callable[..., LiveVideo]

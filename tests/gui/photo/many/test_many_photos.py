@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from gui.kinds import add_widget, collect, not_none
 from gui.stores import store_of
+from gui.user import PATIENCE_S
 from matches import match_with
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
@@ -345,7 +346,7 @@ def test_cancelling_ends_the_work_and_keeps_the_rows(
     bench.start()
     qtbot.waitUntil(lambda: column(view, VERDICT)[0] == "● sure")
     view.cancelled.emit()
-    assert bench.closed.wait(10.0)
+    assert bench.closed.wait(PATIENCE_S)
     assert column(view, VERDICT) == ["● sure"] + [""] * 5
     assert (view.start.isEnabled(), bench.controller.table) == (True, None)
     assert view.mean.isHidden()

@@ -64,20 +64,20 @@ def presets() -> None:
     """Print estimate, change and their ratio of each effect of the presets with a lens."""
     print("| preset | effect |" + "".join(f" {one} | | |" for one in BEFORE_DECISION))
     print("|---" * (2 + 3 * len(BEFORE_DECISION)) + "|")
-    ratios, below = [], 0
+    ratios, above = [], []
     for name in _WITH_LENS:
         cells: dict[str, list[str]] = defaultdict(list)
-        for _, effect, estimate, limit, change in compared(occ.load_preset(name), 1):
+        for observable, effect, estimate, limit, change in compared(occ.load_preset(name), 1):
             ratio = estimate / max(change, 1e-9)
             cells[effect] += [f"{estimate:.2g}", f"{change:.2g}", f"{ratio:.2f}"]
             ratios += [ratio] if change > SMALL else []
-            below += change > limit
+            above += [f"{name} {observable} {effect}"] if change > limit else []
         for effect, row in cells.items():
             print(f"| {name} | {effect} | {' | '.join(row)} |", flush=True)
     ends = " to ".join(f"{end:.2f}" for end in (min(ratios), max(ratios)))
     close = f"{ends} times, in the median {np.median(ratios):.2f} times"
     print(f"\nOf {len(ratios)} changes above {SMALL:g} levels the estimates are {close}.")
-    print(f"{below} changes are above their limits.")
+    print(f"Changes above their limits: {', '.join(above)}")
 
 
 def scenes(count: int, first: int, world: Callable[[int], Scene] = scene_of) -> None:

@@ -11,6 +11,7 @@ import pyqtgraph as pg
 import pytest
 from gui.detection_map.test_advice import advice_on
 from gui.layout_faults import find_faults, is_cut_off
+from gui.shared_window import end
 from gui.user import User
 from gui.window.size_walk import LARGE, LEAST, SIZES, USUAL, walk
 from PySide6.QtCore import QSize, Qt
@@ -18,11 +19,13 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, make_lattice
 from occ_gui.values.choices import OVERLAYS
 from occ_gui.window.theme import SIZES as TEXT_SIZES
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.sweep_request import SweepPoint
+from occ_model.scene.scene import Scene
 
 TESTS = Path(__file__).parents[2]
 
@@ -105,6 +108,19 @@ def test_nothing_is_cut_off_squeezed_or_overlapped_beside_a_photo(
         qtbot.waitUntil(check)
     assert application.window.size() == LEAST
     application.view("profile").enhanced.setChecked(False)
+
+
+def test_the_window_opens_at_the_size_asked_for(qtbot: QtBot, small_scene: Scene) -> None:
+    before = QApplication.topLevelWidgets()
+    fresh = Application(Workspace(small_scene.replace(exposure_time=200e-6)))  # no band model
+    first = fresh.window.size()
+    fresh.window.resize(LEAST)
+    fresh.window.show()
+    qtbot.waitUntil(lambda: fresh.is_idle)
+    QApplication.processEvents()
+    opened = fresh.window.size()
+    end(fresh, before)
+    assert (first, opened) == (USUAL, LEAST)
 
 
 @pytest.mark.own_window

@@ -125,7 +125,7 @@ def _rough_text(scene: Scene, settings: RateSettings, rate: float) -> str:
 _COLUMNS = (
     "decoder", "lowest", "highest", "gaps", "shortest", "longest", "gaps", "bits a second",
 )  # fmt: skip
-_WIDTHS = (10, 23, 23, 23, 23, 23, 23, 14)
+_WIDTHS = (10, 23, 23, 32, 23, 23, 32, 14)
 
 
 def _heading_lines(scene: Scene, options: argparse.Namespace) -> list[str]:

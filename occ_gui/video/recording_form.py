@@ -1,6 +1,6 @@
 """Form of the recording: how the film of the scene is simulated."""
 
-from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtCore import QLocale, QSignalBlocker, Signal
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
@@ -9,7 +9,8 @@ from occ_gui.values.choices import FIRST_FRAMES, FRAMES as COUNTS
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.work_bar import WorkBar
-from occ_model.errors import OccError
+from occ_model.errors import OccError, inflect
+from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.recording import DECLARED, Recording
 from occ_model.scene.refusal import refusal_of, sentence_with_label
@@ -50,7 +51,7 @@ class RecordingForm(QWidget):
             field.edited.connect(lambda value, name=declared.name: self._take(name, value))
             field.refused.connect(self.refused)
             form.addRow(declared.label, field)
-        self.gap = paragraph(name="Gap between two frames")
+        self.gap = paragraph(name="Gap between two frames, and size")
         self.gap.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         form.addRow(self.gap)
         self.save = push_button(
@@ -77,16 +78,20 @@ class RecordingForm(QWidget):
             self.count.setValue(frames)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show how much a film of this scene misses between frames, or why it is refused."""
+        """Show what a film of this scene misses between frames and its size, or its refusal."""
         try:
             self.recording.check(scene)
         except OccError as error:
             self.gap.setText(sentence_with_label(error))
             return
         gap, fraction = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
+        camera = scene.camera
+        size = self.frames * camera.rows * camera.columns * (3 if is_colour(scene) else 1)
         self.gap.setText(
             f"Between two frames, no column is read out for {SECOND.format(gap, 4)}, "
-            f"{fraction:.1f} % of a frame."
+            f"{fraction:.1f} % of a frame.\nBefore compression, the film is "
+            f"{QLocale().formattedDataSize(size, 3, QLocale.DataSizeFormat.DataSizeSIFormat)}: "
+            f"{inflect(self.frames, 'frame')} of {camera.columns} x {camera.rows} pixels."
         )
 
     def _take(self, name: str, value: float) -> None:

@@ -255,7 +255,9 @@ class VideoView(QWidget):
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.split.addWidget(self.pictures)
         self.split.addWidget(self.pages)
-        self.split.setSizes([200, 300])  # in this proportion
+        self.split.setSizes(
+            [150, 350]
+        )  # in this proportion, the bits of a frame fit in a low window
         line = fill(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
         fill(
             QVBoxLayout(self), self.bar, self.message, (self.split, 1), line, self.timeline,

@@ -113,12 +113,18 @@ def test_values_are_taken_as_people_write_them_and_refused_out_of_range(
     assert "Frame rate cannot be " in refusals[0]
 
 
-def test_the_gap_is_stated_or_why_there_is_none(form: RecordingForm, film_scene: Scene) -> None:
+@pytest.mark.parametrize("bayer", ["none", "rggb"])
+def test_gap_and_size_are_stated_or_why_not(
+    form: RecordingForm, film_scene: Scene, bayer: str
+) -> None:
+    form.show_frames(2)
+    film_scene = film_scene.replace(bayer=bayer, averaging="light")
     form.show_scene(film_scene)  # 1600 columns of 15 us each: 24 ms of 33.3 ms
-    assert (
-        form.gap.text()
-        == "Between two frames, no column is read out for 9.333 ms, 28.0 % of a frame."
-    )
+    gap, size = form.gap.text().splitlines()
+    assert gap == "Between two frames, no column is read out for 9.333 ms, 28.0 % of a frame."
+    pixels = sum(frame.image.nbytes for frame in occ.render_video(film_scene, 2).frames())
+    stated = float(size.split(" is ")[1].split(" kB")[0])
+    assert stated == pytest.approx(pixels / 1e3, rel=1e-3)
     form.show_recording(occ.Recording(frame_rate=60.0))
     form.show_scene(film_scene)
     assert "Reading out 1600 columns" in form.gap.text()

@@ -1,5 +1,6 @@
 """Sentences of the advice: the measured and the theoretical limits of a decoder in words."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from occ_model.results.bit_errors import FRAMES_A_SECOND
@@ -12,6 +13,7 @@ from occ_model.results.limits import (
     format_end,
     format_value,
     gaps_text,
+    interval_text,
     present_rate_text,
     search_end_text,
     search_sentences,
@@ -21,7 +23,7 @@ from occ_model.results.limits import (
 )
 from occ_model.scene.parameters import quantity
 
-_HIGHEST = "highest frequency"
+_FREQUENCY, _HIGHEST = "switching_frequency", "highest frequency"
 _LEAST = ("lowest frequency", "shortest exposure")
 
 
@@ -75,6 +77,33 @@ def make_frequency_line(advice: Advice) -> AdviceLine:
     return _make_line(frequencies.parameter, _HIGHEST, frequencies.highest)
 
 
+def make_answer(found: Sequence[Advice], sought: Sequence[str]) -> tuple[str, str]:
+    """State the highest frequencies of some decoders, and the 95 % intervals of those ends.
+
+    ``sought``: further decoders whose limits are still searched for.
+    """
+    parts: list[str] = []
+    intervals: list[str] = []
+    for advice in found:
+        decoder, frequencies = advice.limits.decoder, advice.limits.frequency
+        end = frequencies.highest
+        name = "paper's threshold" if decoder == "threshold" else decoder
+        reads = "at no frequency" if end is None else f"up to {limit_text(_FREQUENCY, end)}"
+        gaps = ", with gaps" if frequencies.gaps else ""
+        parts.append(f"the {name} decoder {'' if parts else 'reads '}{reads}{gaps}")
+        if end is not None and end.interval is not None:
+            place = interval_text(_FREQUENCY, end.interval)
+            intervals.append(f"The {decoder} decoder's true end is between {place}.")
+    if sought:
+        still = "still " if found else ""
+        parts.append(f"{still}searching for the highest frequency of {' and '.join(sought)}")
+    text = "; ".join(parts)
+    if found:
+        exposure = float(found[0].limits.scene.value("exposure_time"))
+        text = f"at {format_value('exposure_time', exposure)} {text}"
+    return f"{text[:1].upper()}{text[1:]}." if text else "", " ".join(intervals)
+
+
 def describe_outdated(parameters: frozenset[str]) -> str:
     """State that the advice is for an earlier scene, and which of its limits still hold."""
     text = "This advice is for the scene before the change."
@@ -108,12 +137,20 @@ def _make_title(limits: Limits) -> str:
     )
 
 
-def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
-    place, detail = format_end(parameter, end), end_text(parameter, end)
-    detail = f"{detail[:1].upper()}{detail[1:]}"
+def limit_text(parameter: str, end: RangeEnd, bound: str = "at least") -> str:
+    """Format an end of a range, and say if it is doubtful, or only a bound of the true end."""
+    value = format_end(parameter, end)
     if not end.is_sure:
-        text = f"The {limit} that it reads is about {place}; no value within is sure to be read."
-        return AdviceLine(text, detail=detail)
-    bound = "at most " if limit in _LEAST else "at least "
-    text = f"The {limit} that it reads is {bound if end.fails is None else ''}{place}."
-    return AdviceLine(text, (parameter, end.value, place), detail=detail)
+        value = f"about {value}"
+    return f"{bound} {value}" if end.fails is None else value
+
+
+def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
+    detail = end_text(parameter, end)
+    detail = f"{detail[:1].upper()}{detail[1:]}"
+    place = limit_text(parameter, end, "at most" if limit in _LEAST else "at least")
+    text = f"The {limit} that it reads is {place}"
+    if not end.is_sure:
+        return AdviceLine(f"{text}; no value within is sure to be read.", detail=detail)
+    destination = (parameter, end.value, format_end(parameter, end))
+    return AdviceLine(f"{text}.", destination, detail=detail)

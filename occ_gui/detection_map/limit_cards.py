@@ -4,9 +4,10 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from occ_gui.detection_map.advice_sentences import make_frequency_line
+from occ_gui.detection_map.advice_sentences import limit_text, make_answer, make_frequency_line
+from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import (
     ElidedLabel,
     fill,
@@ -32,6 +33,8 @@ from occ_model.scene.units import HERTZ
 _PARAMETER = "switching_frequency"
 _LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
+_IN_ANSWER = 2  # decoders in the sentence above the cards: those that the map shows
+
 REST_MS = 800  # milliseconds without a change before the limits of a scene are searched for
 
 
@@ -46,7 +49,11 @@ class LimitCards(QWidget):
     def __init__(self, decoders: Sequence[str]) -> None:
         super().__init__()
         self.cards = {name: LimitCard(name) for name in decoders}
-        row = fill(QHBoxLayout(self), margins=(0, 4, 0, 4), spacing=8)
+        self._found: dict[str, Advice] = {}
+        self.answer = Answer()
+        self.head = fill(QHBoxLayout(), (self.answer, 1))
+        row = fill(QHBoxLayout(), spacing=8)
+        fill(QVBoxLayout(self), self.head, row, margins=(0, 4, 0, 4), spacing=4)
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
@@ -75,8 +82,10 @@ class LimitCards(QWidget):
     def show_begun(self) -> None:
         self.rest_timer.stop()
         self._is_running, self._is_outdated = True, False
+        self._found = {}
         for card in self.cards.values():
             card.show_searching()
+        self._show_answer()
 
     def show_progress(self, pictures: Mapping[str, int | None]) -> None:
         """Show how many pictures each decoder has tried so far; None: its search has not begun."""
@@ -87,6 +96,7 @@ class LimitCards(QWidget):
     def show_rough(self, decoder: str, frequencies: WorkingRange) -> None:
         if decoder in self.cards:
             self.cards[decoder].show_rough(frequencies)
+            self._show_answer()
 
     def show_advice(self, advice: Advice) -> None:
         card = self.cards.get(advice.limits.decoder)
@@ -107,6 +117,17 @@ class LimitCards(QWidget):
             card.show_limit(frequencies.highest, tip)
             card.name.setToolTip(f"It reads where {advice.limits.rate:g} % of the bits are right.")
             card.show_range(frequencies, "" if frequencies.intervals else advice.cause)
+            self._found[advice.limits.decoder] = advice
+            self._show_answer()
+
+    def _show_answer(self) -> None:
+        named = list(self.cards)[:_IN_ANSWER]
+        found = [self._found[name] for name in named if name in self._found]
+        rest = [name for name in named if name not in self._found] if self._is_running else []
+        sought = [self.cards[name].describe_sought() for name in rest]
+        line, note = make_answer(found, sought)
+        self.answer.show_answer(f"Earlier scene: {line}" if self._is_outdated else line, note=note)
+        self.answer.setEnabled(not self._is_outdated)
 
     def show_ended(self, reason: str = "") -> None:
         """Show that the search has ended; ``reason``: why it is incomplete, else empty."""
@@ -114,9 +135,11 @@ class LimitCards(QWidget):
         if reason:
             for card in self.cards.values():
                 card.show_unknown(reason)
+        self._show_answer()
 
     def show_outdated(self, outdated: bool) -> None:
         self._is_outdated = outdated
+        self._show_answer()
         for card in self.cards.values():
             card.set_outdated(outdated)
         self.rest_timer.stop()
@@ -212,6 +235,10 @@ class LimitCard(QFrame):
             self._show(self._rough or "searching", tip, None)
             self.range.set_full_text(tried)
 
+    def describe_sought(self) -> str:
+        """Name the decoder of a running search, and what is roughly known."""
+        return f"{self._decoder} ({self._rough})" if self._rough else self._decoder
+
     def show_rough(self, frequencies: WorkingRange) -> None:
         """Show what one picture at each frequency says, until the search is complete."""
         if self._is_searching and frequencies.highest is not None:
@@ -224,11 +251,7 @@ class LimitCard(QFrame):
         if end is None:
             self._show("none", tip, None)
             return
-        value = format_end(_PARAMETER, end)
-        if not end.is_sure:
-            value = f"about {value}"
-        limit = f"at least {value}" if end.fails is None else value
-        self._show(limit, tip, end.value if end.is_sure else None)
+        self._show(limit_text(_PARAMETER, end), tip, end.value if end.is_sure else None)
 
     def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""

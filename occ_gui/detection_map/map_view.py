@@ -93,12 +93,11 @@ class MapView(QWidget):
             QHBoxLayout(), (self.x_parameter, 3), QLabel("×"),  # noqa: RUF001 - the sign for it
             (self.y_parameter, 3), (self.decoder_choice, 2), (self.quantity, 2), self.frame_rate,
         )  # fmt: skip
-        self._searches = fill(QHBoxLayout(), (self.most_bits, 1), self.advise)
         foot = fill(QHBoxLayout(), (self.legend, 1), self.image_effects)
         self._state = fill(QHBoxLayout(), (self.status, 1))
         page = QWidget()
         fill(
-            QVBoxLayout(page), self.cards, self._searches, head, (self.plots, 1), foot,
+            QVBoxLayout(page), self.cards, self.most_bits, head, (self.plots, 1), foot,
             self.omissions, self._state, margins=(4, 2, 4, 2), spacing=2,
         )  # fmt: skip
         self._pages = QStackedWidget()
@@ -112,9 +111,9 @@ class MapView(QWidget):
         for card in (self.cards, self.most_bits):
             card.setVisible(has_cards)
         # In a low pane, the button shares the line of the state.
-        line = self._searches if has_cards else self._state
+        line = self.cards.head if has_cards else self._state
         if line.indexOf(self.advise) == -1:
-            line.addWidget(self.advise)
+            line.addWidget(self.advise, 0, Qt.AlignmentFlag.AlignTop)
 
     def _connect(self) -> None:
         self.x_parameter.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))

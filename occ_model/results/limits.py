@@ -212,8 +212,13 @@ def end_text(parameter: str, end: RangeEnd) -> str:
     trials = ", ".join(_trial_text(parameter, trial, end) for trial in (end.works, end.fails))
     if end.interval is None:
         return f"known to a step of the search: {trials}."
-    low, high = (format_value(parameter, value) for value in sorted(end.interval))
-    return f"the end is between {low} and {high} (95 %): {trials}."
+    return f"the end is between {interval_text(parameter, end.interval)}: {trials}."
+
+
+def interval_text(parameter: str, interval: tuple[float, float]) -> str:
+    """Format the 95 % interval of an end of a range."""
+    low, high = (format_value(parameter, value) for value in sorted(interval))
+    return f"{low} and {high} (95 %)"
 
 
 def _trial_text(parameter: str, trial: Trial, end: RangeEnd) -> str:

@@ -107,7 +107,7 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     lines = [
         f"{each.text} {each.detail}".strip() for each in make_advice_lines(advice_on(small_scene))
     ]
-    assert lines[1].startswith("The lowest frequency that it reads is about 14.7 kHz; ")
+    assert lines[1].startswith("The lowest frequency that it reads is at most about 14.7 kHz; ")
     assert lines[2] == (
         "The highest frequency that it reads is 14.55 kHz. The end is between 14.55 kHz and "
         "14.72 kHz (95 %): there it read every bit of 100 images, at 14.73 kHz 0 % in 20 images "

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.detection_map import limit_cards
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_model.results.limits import Advice, RangeEnd
+from occ_model.results.limits import Advice, RangeEnd, format_value
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of
 
@@ -52,6 +52,36 @@ def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene:
     assert "A plug-in failed." in list_texts(view)
     assert card.value.toolTip() == f"{sentence}\nA plug-in failed.\n{bits}"
     assert card.range.toolTip() == "from 14.7 kHz; a plug-in failed"
+
+
+def test_the_answer_states_what_the_cards_state_as_soon_as_it_is_known(
+    cards: LimitCards, small_scene: Scene
+) -> None:
+    def of_matched(advice: Advice) -> Advice:
+        return replace(advice, limits=replace(advice.limits, decoder="matched"))
+
+    exposure = f"At {format_value('exposure_time', small_scene.camera.exposure_time)} the"
+    answer, known = cards.answer, "paper's threshold decoder reads up to 14.55 kHz"
+    assert answer.line.text() == ""
+    cards.show_begun()
+    assert answer.line.text() == "Searching for the highest frequency of threshold and matched."
+    cards.show_advice(advice_on(small_scene))
+    cards.show_rough("matched", advice_on(small_scene).limits.frequency)
+    searching = "; still searching for the highest frequency of matched (roughly 14.55 kHz)."
+    assert answer.line.text() == f"{exposure} {known}{searching}"
+    note = "The threshold decoder's true end is between 14.55 kHz and 14.72 kHz (95 %)."
+    assert answer.note.text() == note
+    cards.show_advice(of_matched(with_end(small_scene, RangeEnd(INSIDE.value, INSIDE, None))))
+    matched = cards.cards["matched"].value.text()
+    sentence = f"{exposure} {known}; the matched decoder up to {matched}."
+    assert (answer.line.text(), answer.note.text()) == (sentence, note)
+    cards.show_outdated(True)
+    assert answer.line.text() == f"Earlier scene: {sentence}"
+    cards.show_begun()
+    cards.show_advice(of_matched(with_end(small_scene, None)))
+    cards.show_ended("Cancelled.")
+    unread = f"{exposure} matched decoder reads at no frequency."
+    assert (answer.line.text(), answer.note.text()) == (unread, "")
 
 
 def test_where_nothing_is_read_the_card_says_why(cards: LimitCards, small_scene: Scene) -> None:

@@ -65,7 +65,7 @@ def test_the_verdict_on_a_photo_looks_as_stored(
 def test_the_cards_of_the_limits_look_as_stored(gallery: Gallery, theme: str) -> None:
     cards = LimitCards(("threshold", "matched", "equalizer"))
     cards.setStyleSheet(style_sheet(palette_of(theme)))
-    gallery.show(cards, 760, 84)
+    gallery.show(cards, 760, cards.sizeHint().height())
     read = RangeEnd(14.1e3, trial(14.1e3, 100), trial(14.3e3, 0), (14.1e3, 14.2e3))
     cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.")
     fails = trial(14.3e3, 0)

@@ -90,7 +90,7 @@ class RecordingForm(QWidget):
         self.gap.setText(
             f"Between two frames, no column is read out for {SECOND.format(gap, 4)}, "
             f"{fraction:.1f} % of a frame.\nBefore compression, the film is "
-            f"{QLocale().formattedDataSize(size, 3, QLocale.DataSizeFormat.DataSizeSIFormat)}: "
+            f"{QLocale().formattedDataSize(size, 1, QLocale.DataSizeFormat.DataSizeSIFormat)}: "
             f"{inflect(self.frames, 'frame')} of {camera.columns} x {camera.rows} pixels."
         )
 

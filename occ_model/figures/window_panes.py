@@ -96,6 +96,7 @@ def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, .
 
 MOST_CELLS = 900  # most cells on each side of a printed picture; print resolves no more
 
+_RESIDUAL = "photo minus simulation, weighted by the height of the photo's stripes"
 _PHOTO = "photo, fitted levels"  # with the mean and the contrast of the simulation's profile
 _CAPTION_SIZE = 7  # points, of a caption's letters
 _MIN_HEIGHT = 1.3  # inches, of the figure of a flat picture with the texts above and below it
@@ -244,12 +245,14 @@ def profile_drawing(  # noqa: PLR0913 - all but two have defaults
     after the receiver's enhancement, to which ``band`` and ``comparison`` must already belong.
     """
     simulated = frame.signal if enhanced else frame.profile
-    lines: dict[str, FloatArray | None] = {
-        "simulation": simulated,
-        "band model": band,
-        _PHOTO: None if comparison is None else _place_profile(comparison, len(frame.profile)),
-    }
-    profiles = {name: values for name, values in lines.items() if values is not None}
+    profiles = {"simulation": simulated}
+    if band is not None:
+        profiles["band model"] = band
+    if comparison is not None:
+        values = {_PHOTO: comparison.photo, _RESIDUAL: comparison.residual}
+        for name, part in values.items():
+            profiles[name] = np.full(len(frame.profile), np.nan)  # outside the photo
+            profiles[name][comparison.first_column :][: len(part)] = part
     threshold = None if decoded is None else _place_threshold(simulated, decoded, enhanced)
 
     def draw() -> Figure:
@@ -289,8 +292,9 @@ def _profile_figure(
         len(ratios), 1, squeeze=False, sharex=True, gridspec_kw={"height_ratios": ratios}
     )[:, 0]
     column = np.arange(len(lines["simulation"]))[part]
-    for name, values in lines.items():
-        axes[0].plot(column, values[part], label=name, linewidth=1.1, **styles[name])
+    for name, style in styles.items():
+        if name in lines:
+            axes[0].plot(column, lines[name][part], label=name, linewidth=1.1, **style)
     if threshold is not None:
         axes[0].axhline(threshold, label="threshold", **THRESHOLD)
     axes[0].set_ylabel("enhanced level" if enhanced else "grey level")
@@ -298,9 +302,8 @@ def _profile_figure(
     if undefined:
         axes[0].set_title(undefined, fontsize=7, parse_math=False)
     if comparison is not None:
-        residual = lines[_PHOTO] - lines["simulation"]
         axes[1].axhline(0.0, color="grey", linewidth=0.5)
-        axes[1].plot(column, residual[part], linewidth=0.9, color=colours.PHOTO)
+        axes[1].plot(column, lines[_RESIDUAL][part], linewidth=0.9, color=colours.PHOTO)
         axes[1].set_ylabel("photo minus\nsimulation")
         message = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
         axis_limit = max(_AXIS_OF_RESIDUAL * comparison.usual_residual, 1.0)
@@ -311,11 +314,3 @@ def _profile_figure(
     axes[-1].set_xlabel("column")
     figure.legend(loc="outside upper center", ncols=len(lines) + 1, frameon=False)
     return figure
-
-
-def _place_profile(comparison: Comparison, columns: int) -> FloatArray:
-    """Place a photo's profile among all columns of the simulation, with NaN outside it."""
-    profile = np.full(columns, np.nan)
-    first = comparison.first_column
-    profile[first : first + len(comparison.photo)] = comparison.photo
-    return profile

@@ -1,6 +1,7 @@
 """Files of what the window shows."""
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,10 @@ SCENE = occ.load_preset("phone-68us").replace(rows=60, panel_height=2.0)
 FRAME = occ.render(SCENE)
 READ, MATCHED = occ.decode(FRAME.image, SCENE), occ.decode(FRAME.image, SCENE, "matched")
 BAND = occ.band_profile(SCENE)
-PHOTO = occ.compare(FRAME.profile[800:2000] * 0.7 + 3.0, FRAME.profile, 800.0)
+PHOTO = replace(  # of uneven light, and with a residual
+    occ.compare(np.sqrt(FRAME.profile[800:2000]) + 3.0, FRAME.profile, 800.0),
+    height=np.linspace(0.5, 1.5, 1188),
+)
 
 
 def drawings() -> list[Drawing]:
@@ -63,6 +67,11 @@ def test_the_tables_have_the_numbers_that_are_drawn(folder: Path) -> None:
     assert np.isnan(photo[:begin]).all()
     assert np.array_equal(photo[begin:end], PHOTO.photo)
     assert np.isnan(photo[end:]).all()
+    residual = np.array([float(list(row.values())[-1]) for row in profile])
+    assert np.sqrt(np.nanmean(residual**2)) == pytest.approx(PHOTO.rmse)  # as the figure says
+    _, below = profile_drawing(FRAME, BAND, comparison=PHOTO).draw().axes
+    assert f"RMSE {PHOTO.rmse:.2f} levels" in below.get_title()
+    assert np.array_equal(below.lines[-1].get_ydata(), residual, equal_nan=True)
     signal = READ.signal
     read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]
     assert [float(value) for value in read if value] == signal.tolist()

@@ -86,7 +86,9 @@ class Application(Parts):
     def _connect_photos(self) -> None:
         window, photos, menus = self.window, self.photos, self.window.menus
         photos.work.begun.connect(self._make_photo_pane)
-        window.reading.follow(photos.work)
+        photos.work.begun.connect(window.reading.begin)
+        photos.work.task.reported.connect(window.reading.show_progress)
+        photos.work.ended.connect(window.reading.end)
         window.reading.cancelled.connect(photos.cancel)
         photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)

@@ -87,7 +87,7 @@ class AdviceView(QWidget):
 
     def use_frame_rate(self, frames_a_second: float) -> None:
         """Set the number of pictures a second from which later advice computes bits a second."""
-        self._frames_a_second = self.cards.frames_a_second = frames_a_second
+        self._frames_a_second = frames_a_second
 
     def show_advice_begun(self, omitted_effects: tuple[str, ...]) -> None:
         """Remove the previous advice, and show that a search is running and what it leaves out."""

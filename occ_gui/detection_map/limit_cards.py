@@ -17,16 +17,13 @@ from occ_gui.widgets.building import (
     push_button,
 )
 from occ_model.errors import inflect
-from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
+from occ_model.results.bit_errors import MostBits
 from occ_model.results.limits import (
     Advice,
     RangeEnd,
     WorkingRange,
     format_end,
     format_gaps,
-    gaps_text,
-    present_rate_text,
-    search_end_text,
 )
 from occ_model.scene.units import HERTZ
 
@@ -50,6 +47,7 @@ class LimitCards(QWidget):
         super().__init__()
         self.cards = {name: LimitCard(name) for name in decoders}
         self._found: dict[str, Advice] = {}
+        self._reason = ""
         self.answer = Answer()
         self.head = fill(QHBoxLayout(), (self.answer, 1))
         row = fill(QHBoxLayout(), spacing=8)
@@ -57,7 +55,6 @@ class LimitCards(QWidget):
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
-        self.frames_a_second = FRAMES_A_SECOND  # for computing bits a second
         self._is_complete = self._is_running = self._is_outdated = False
         self.rest_timer = QTimer(self, singleShot=True)
         self.rest_timer.setInterval(REST_MS)
@@ -82,7 +79,7 @@ class LimitCards(QWidget):
     def show_begun(self) -> None:
         self.rest_timer.stop()
         self._is_running, self._is_outdated = True, False
-        self._found = {}
+        self._found, self._reason = {}, ""
         for card in self.cards.values():
             card.show_searching()
         self._show_answer()
@@ -101,19 +98,8 @@ class LimitCards(QWidget):
     def show_advice(self, advice: Advice) -> None:
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
-            line = make_frequency_line(advice)
-            frequencies = advice.limits.frequency
-            bits = present_rate_text(advice.limits, self.frames_a_second)
-            end = "" if frequencies.most_chips is None else search_end_text(frequencies)
-            texts = (
-                advice.cause,
-                f"{line.text} {line.detail}".strip(),
-                frequencies.faults,
-                gaps_text(frequencies),
-                end,
-                bits,
-            )
-            tip = "\n".join(text for text in texts if text)
+            line, frequencies = make_frequency_line(advice), advice.limits.frequency
+            tip = f"{advice.cause}\n{line.text} {line.detail}".strip()
             card.show_limit(frequencies.highest, tip)
             card.name.setToolTip(f"It reads where {advice.limits.rate:g} % of the bits are right.")
             card.show_range(frequencies, "" if frequencies.intervals else advice.cause)
@@ -126,15 +112,17 @@ class LimitCards(QWidget):
         rest = [name for name in named if name not in self._found] if self._is_running else []
         sought = [self.cards[name].describe_sought() for name in rest]
         line, note = make_answer(found, sought)
-        self.answer.show_answer(f"Earlier scene: {line}" if self._is_outdated else line, note=note)
+        if self._is_outdated and line:
+            line = f"Earlier scene: {line}"
+        note = f"{note} {self._reason}".strip() if line else ""
+        self.answer.show_answer(line or self._reason, note=note)
         self.answer.setEnabled(not self._is_outdated)
 
     def show_ended(self, reason: str = "") -> None:
         """Show that the search has ended; ``reason``: why it is incomplete, else empty."""
-        self._is_running, self._is_complete = False, not reason
-        if reason:
-            for card in self.cards.values():
-                card.show_unknown(reason)
+        self._is_running, self._is_complete, self._reason = False, not reason, reason
+        for decoder in self.cards.keys() - self._found.keys():
+            self.cards[decoder].show_unknown(reason)
         self._show_answer()
 
     def show_outdated(self, outdated: bool) -> None:
@@ -158,7 +146,7 @@ class LimitCard(QFrame):
         self._is_outdated = self._is_searching = False
         self._is_beside: bool | None = None
         self._rough = ""
-        self.name = paragraph()
+        self.name = paragraph(f"{decoder.capitalize()}: up to")
         self.value = QLabel()
         self.range = ElidedLabel(separator="; ")
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
@@ -172,6 +160,7 @@ class LimitCard(QFrame):
         grid.addWidget(self.value, 1, 0, 1, 2)  # beside the button, it would widen the window
         grid.addWidget(self.range, 2, 0, 1, 2)
         grid.setColumnStretch(0, 1)
+        self._place_button()
         self.show_unknown()
         self.set_outdated(False)
 
@@ -204,7 +193,6 @@ class LimitCard(QFrame):
         self.range.set_full_text("")
         self.value.setText(text)
         self.value.setToolTip(tip)
-        self._place_button()
         self._update_button()
 
     def _update_button(self) -> None:
@@ -218,8 +206,6 @@ class LimitCard(QFrame):
 
     def show_unknown(self, reason: str = "") -> None:
         self._is_searching = False
-        if reason:
-            self.name.setText(reason)
         self._show("?" if reason else "", reason or "Not searched for yet.", None)
 
     def show_searching(self) -> None:
@@ -268,12 +254,6 @@ class LimitCard(QFrame):
         self._is_outdated = outdated
         self.range.setEnabled(not outdated)
         self.value.setEnabled(not outdated)
-        self.name.setText(
-            f"Decoder {self._decoder}, an earlier scene"
-            if outdated
-            else f"{self._decoder.capitalize()}: up to"
-        )
-        self._place_button()
         self._update_button()
 
 

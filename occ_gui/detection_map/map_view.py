@@ -94,6 +94,7 @@ class MapView(QWidget):
             (self.y_parameter, 3), (self.decoder_choice, 2), (self.quantity, 2), self.frame_rate,
         )  # fmt: skip
         foot = fill(QHBoxLayout(), (self.legend, 1), self.image_effects)
+        self.cards.head.addWidget(self.advise, 0, Qt.AlignmentFlag.AlignTop)
         self._state = fill(QHBoxLayout(), (self.status, 1))
         page = QWidget()
         fill(

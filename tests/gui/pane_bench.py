@@ -138,7 +138,9 @@ class PaneBench:
         """The channels of the processes; nothing is measured along a slider."""
         row = QuantityRow(quantity("iso"))
         row.setParent(self.window)
-        return BackgroundRates(self.scenes, SliderStrips({"iso": row}), lambda: False)
+        strips = SliderStrips({"iso": row})
+        strips.legend.setParent(self.window)  # a kept window sees whatever outlives its test
+        return BackgroundRates(self.scenes, strips, lambda: False)
 
     @cached_property
     def exporter(self) -> ExportController:

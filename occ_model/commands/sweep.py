@@ -1,6 +1,7 @@
 """The command ``occ-model sweep``: measure the success rate against any parameters."""
 
 import argparse
+import asyncio
 import logging
 import sys
 import warnings
@@ -237,20 +238,35 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         ) from None
     # A failed connection is reported below in one sentence, instead of dask's log.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    try:
-        client: Any = Client(address, timeout=SECONDS, set_as_default=False)
-    except Exception as error:  # noqa: BLE001 - anything may listen and answer there
-        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    if not asyncio.run(_count_workers(address)):
         raise ClusterError(
-            f"No dask scheduler answers at {quote(address)}: {one_line(reason)}. Allowed: the "
-            "address of one, such as tcp://127.0.0.1:8786."
-        ) from None
+            f"The cluster at {quote(address)} has no workers; start one with "
+            f"'dask worker {one_line(address)}'."
+        )
+    client: Any = Client(address, timeout=SECONDS, set_as_default=False)
     try:
-        if not client.scheduler_info()["workers"]:
-            raise ClusterError(
-                f"The cluster at {quote(address)} has no workers; start one with "
-                f"'dask worker {one_line(address)}'."
-            )
         yield client.get_executor()
     finally:
         client.close(timeout=SECONDS)
+
+
+async def _count_workers(address: str) -> int:
+    """Ask a scheduler for its number of workers, since a client without one is slow to close."""
+    from distributed.core import rpc
+    from distributed.security import Security
+
+    try:
+        # As in the client, certificates for tls:// come from dask's configuration.
+        keys: Any = Security().get_connection_args("client")
+        async with asyncio.timeout(SECONDS):
+            async with rpc(address, connection_args=keys) as scheduler:
+                identity = await scheduler.identity()
+            return len(identity["workers"])
+    except TimeoutError:
+        reason = f"no answer within {SECONDS} s"
+    except Exception as error:  # noqa: BLE001 - anything may listen and answer there
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    raise ClusterError(
+        f"No dask scheduler answers at {quote(address)}: {one_line(reason)}. Allowed: the address "
+        "of one, such as tcp://127.0.0.1:8786."
+    )

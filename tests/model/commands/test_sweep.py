@@ -2,6 +2,7 @@
 
 import csv
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -129,26 +130,51 @@ def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str])
     assert "# effects switched: jpeg off" in lines
 
 
+@pytest.mark.whole
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.MonkeyPatch) -> None:
+    def rpc(address: str, connection_args: object = None) -> None:
+        raise ConnectionError(f"{address} by {connection_args}")
+
+    monkeypatch.setattr("distributed.core.rpc", rpc)
+    monkeypatch.setattr(
+        "distributed.security.Security.get_connection_args", lambda _, role: f"keys of a {role}"
+    )
+    with (
+        pytest.raises(cluster.ClusterError, match="tls://there:1 by keys of a client"),
+        cluster.cluster_executor("tls://there:1"),
+    ):
+        pass
+
+
 @pytest.mark.whole  # importing dask takes two seconds
 def test_an_unreachable_cluster_gives_a_sentence_in_time(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cluster, "SECONDS", 0.2)
-    assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://127.0.0.1:9"]) == 2
-    assert "No dask scheduler answers at 'tcp://127.0.0.1:9': " in capsys.readouterr().err
+    with socket.create_server(("127.0.0.1", 0)) as silent:  # for which dask's client waits forever
+        for port in (9, silent.getsockname()[1]):
+            address = f"127.0.0.1:{port}"
+            assert main(["sweep", "--vary", "distance=1", "--cluster", f"tcp://{address}"]) == 2
+            stated = capsys.readouterr().err
+            assert f"{address}': no answer within 0.2 s. Allowed: " in stated
 
 
 def test_a_cluster_that_refuses_is_named_in_a_sentence(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(address: str, **_options: object) -> None:
-        raise ConnectionError(f"{address} is closed.")
+    def refuse(address: str, connection_args: object) -> None:
+        raise ConnectionError(f"{address} is closed to {connection_args}.")
 
-    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=refuse))
+    keys = SimpleNamespace(get_connection_args=lambda role: f"a {role}")
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=None))
+    monkeypatch.setitem(sys.modules, "distributed.core", SimpleNamespace(rpc=refuse))
+    security = SimpleNamespace(Security=lambda: keys)
+    monkeypatch.setitem(sys.modules, "distributed.security", security)
     assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://there:9"]) == 2
     assert capsys.readouterr().err == (
-        "occ-model: No dask scheduler answers at 'tcp://there:9': tcp://there:9 is "
-        "closed. Allowed: the address of one, such as tcp://127.0.0.1:8786.\n"
+        "occ-model: No dask scheduler answers at 'tcp://there:9': tcp://there:9 is closed to a "
+        "client. Allowed: the address of one, such as tcp://127.0.0.1:8786.\n"
     )
 
 

@@ -65,7 +65,7 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--channel",
         choices=CHANNELS,
-        default="brightest",
+        default=CHANNELS[0],
         help="the channel of a coloured photo to read; brightest: the colour with the largest mean "
         "(default); of a film it can be red, green or blue, and is luma by default",
     )
@@ -109,6 +109,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
     """Read the three colours of a picture, and print one line with all of them first."""
+    if options.channel != CHANNELS[0]:
+        raise ParameterError("--channel is for a scene of one LED; --colour reads one of three.")
     if options.follow or is_film(options.file):
         if options.calibration or options.offset_to:
             raise ParameterError(

@@ -8,7 +8,6 @@ from occ_model.errors import ParameterError, quote
 from occ_model.results.video import Video
 from occ_model.results.video_reading import Clock, VideoReading
 from occ_model.scene.units import Unit
-from occ_model.video.file.source import CHANNELS as FILM_CHANNELS
 from occ_model.video.known_timing import CRYSTAL_TOLERANCE, MOST_TOLERANCE, READOUT_TOLERANCE
 
 _TOLERANCE = Unit("", spellings=(("ppm", 1e-6),), shown=("%", 1e-2))
@@ -58,13 +57,7 @@ def _parse(name: str, text: str | None) -> float | None:
 
 def film_channel(name: str) -> str:
     """Return the channel of a film for that of a photo."""
-    if name == "brightest":
-        return "luma"
-    if name not in FILM_CHANNELS:
-        raise ParameterError.of(
-            "channel", f"'{name}'", f"brightest, {', '.join(FILM_CHANNELS)}", condition="for a film"
-        )
-    return name
+    return "luma" if name == "brightest" else name
 
 
 def describe_slow_motion(video: Video, clock: Clock | None) -> str:

@@ -300,8 +300,9 @@ def test_a_film_in_three_colours_is_made_and_read(command: Command, tmp_path: Pa
     assert stated == ["Red:", "718", "Green:", "345", "Blue:", "201"]
     followed = command("decode", tmp_path / "x.mkv", *COLOUR, "--follow")
     assert [line.split()[0] for line in followed.out.splitlines()[:3]] == ["red", "green", "blue"]
-    refused = command("decode", tmp_path / "x.mkv", *COLOUR, "--offset-to", tmp_path / "x.mkv")
-    assert (refused.code, "one LED" in refused.err) == (2, True)
+    for option in (("--offset-to", tmp_path / "x.mkv"), ("--channel", "red")):
+        refused = command("decode", tmp_path / "x.mkv", *COLOUR, *option)
+        assert (refused.code, "one LED" in refused.err) == (2, True)
 
 
 def test_a_calibration_gives_the_matrix_that_the_camera_has(

@@ -58,7 +58,9 @@ class AdviceView(QWidget):
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
         self.progress = name_widget(
-            QProgressBar(), "Progress of the search", "Progress of the search."
+            QProgressBar(),
+            "Progress of the search",
+            "The limits of each decoder appear below as soon as they are found.",
         )
         self.state = name_widget(ElidedLabel(), "State of the search")
         self._lay_out()
@@ -69,12 +71,9 @@ class AdviceView(QWidget):
         head = fill(
             row, self.back, self.search_again, self.cancel, (self.progress, 1), (self.state, 1)
         )
-        self.hint = paragraph(
-            "Searching: the limits of each decoder appear here as soon as they are found."
-        )
         self.content = QWidget()
         column = QVBoxLayout(self.content)
-        self._column = fill(column, self.hint, (None, 1), margins=(0, 0, 4, 0))
+        self._column = fill(column, (None, 1), margins=(0, 0, 4, 0))
         scroll_pane = ScrollPane(self.content, _LEAST)
         fill(QVBoxLayout(self), head, (scroll_pane, 1), margins=(4, 2, 4, 2))
 
@@ -82,7 +81,6 @@ class AdviceView(QWidget):
         self.progress.setVisible(is_running)
         self.cancel.setVisible(is_running)
         self.search_again.setVisible(not is_running)
-        self.hint.setVisible(is_running)
         self.state.setVisible(not is_running)
 
     def use_frame_rate(self, frames_a_second: float) -> None:
@@ -109,7 +107,6 @@ class AdviceView(QWidget):
         self.cards.show_progress(pictures)
 
     def show_advice(self, advice: Advice) -> None:
-        self.hint.hide()
         self.cards.show_advice(advice)
         for line in make_advice_lines(advice, self._frames_a_second):
             if not line.is_common:

@@ -54,14 +54,11 @@ class LimitCards(QWidget):
         fill(QVBoxLayout(self), self.head, row, margins=(0, 4, 0, 4), spacing=4)
         for card in self.cards.values():
             row.addWidget(card, 1)
-            card.chosen.connect(self._go)
+            card.chosen.connect(self.destination_chosen)
         self._is_complete = self._is_running = self._is_outdated = False
         self.rest_timer = QTimer(self, singleShot=True)
         self.rest_timer.setInterval(REST_MS)
         self.rest_timer.timeout.connect(self.search_requested)
-
-    def _go(self, frequency: float, decoder: str) -> None:
-        self.destination_chosen.emit(_PARAMETER, frequency, decoder)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -135,8 +132,7 @@ class LimitCards(QWidget):
 
 
 class LimitCard(QFrame):
-    chosen = Signal(float, str)
-    """The user goes to the frequency, in hertz, at which the decoder read every bit."""
+    chosen = Signal(str, float, str)  # as those of the cards
 
     def __init__(self, decoder: str) -> None:
         super().__init__()
@@ -186,7 +182,7 @@ class LimitCard(QFrame):
 
     def _choose(self) -> None:
         if self._destination is not None:
-            self.chosen.emit(self._destination, self._decoder)
+            self.chosen.emit(_PARAMETER, self._destination, self._decoder)
 
     def _show(self, text: str, tip: str, destination: float | None) -> None:
         self._destination = destination

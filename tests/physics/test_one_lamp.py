@@ -9,7 +9,7 @@ import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.cli import main
 from occ_model.scene.scene import SimulationSettings
-from occ_model.study.bands.answer import bars_answer, frame_rate_beats
+from occ_model.study.bands.answer import bars_answer
 from occ_model.study.spectrum import profile_spectrum
 
 _PERIODS = 7  # in a picture
@@ -60,7 +60,7 @@ def test_spectrum_columns_and_film_agree_on_the_lamp_s_frequency() -> None:
     frames = list(occ.render_video(_LAMP, 3, settings=SimulationSettings(tolerance=math.inf)))
     phases = [float(np.angle(np.fft.rfft(frame.image.mean(axis=0))[_PERIODS])) for frame in frames]
     moved = np.diff(phases) / (2.0 * np.pi)
-    of_film = next(each for each in frame_rate_beats(_LAMP) if each.name == "30")
+    of_film = next(each for each in bars_answer(_LAMP).rates if each.name == "30")
     assert of_film.frequency == pytest.approx(1.0)
     # Within what grey levels leave of the phase.
     assert np.abs(moved - np.round(moved)) == pytest.approx(of_film.frequency / 30.0, rel=5e-3)

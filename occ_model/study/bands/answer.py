@@ -90,18 +90,15 @@ def _columns_per_bar(scene: Scene, frequency: Fraction) -> float:
     return float(1 / step) if step else math.inf
 
 
-def frame_rate_beats(scene: Scene) -> tuple[FrameRateBeats, ...]:
+def _compute_beats(
+    sines: tuple[tuple[float, Fraction], ...], exposure: float
+) -> tuple[FrameRateBeats, ...]:
     """Return how a light's bars move at the usual frame rates that the exposure allows.
 
     From frame to frame a sine of frequency F advances by F / R cycles at the rate R, of which only
     the fraction shows: its bars return to a place |F - R round(F / R)| times a second.
     """
-    return _compute_beats(_deepest_sines(scene), scene.camera.exposure_time)
 
-
-def _compute_beats(
-    sines: tuple[tuple[float, Fraction], ...], exposure: float
-) -> tuple[FrameRateBeats, ...]:
     def beats_at(rate: Fraction) -> tuple[Beat, ...]:
         return tuple(
             Beat(depth, float(abs(frequency - rate * round(frequency / rate))))

@@ -302,7 +302,9 @@ def test_outdated_advice_is_dimmed_and_leads_only_to_valid_limits(advice_bench: 
 
     def state() -> tuple[set[bool], list[bool]]:
         labels = {each.isEnabled() for row in advice.lines for each in row.findChildren(QLabel)}
-        return labels, [button.isEnabled() for button in [*advice.destinations][:3]]
+        first = [button.isEnabled() for button in [*advice.destinations][:3]]
+        assert {card.go.isEnabled() for card in advice.cards.cards.values()} == {first[0]}
+        return labels, first
 
     assert state() == ({True}, [True, True, True])
     advice_bench.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
@@ -317,20 +319,3 @@ def test_outdated_advice_is_dimmed_and_leads_only_to_valid_limits(advice_bench: 
     assert state() == ({True}, [True, True, True])
     advice_bench.view.image_effects.click()
     assert state() == ({False}, [False, False, False])
-
-
-def test_the_buttons_of_the_cards_are_enabled_again_when_their_scene_returns(
-    advice_bench: MapBench,
-) -> None:
-    cards = advice_bench.view.advice.cards.cards.values()
-    first = advice_bench.scenes.scene
-    advice_bench.scenes.change(iso=200.0)
-    for card in cards:
-        assert not card.go.isEnabled()
-        assert "earlier scene" in card.go.toolTip()
-    advice_bench.scenes.put(first, "preset")
-    for card in cards:
-        assert card.go.isEnabled()
-        assert "14.55 kHz" in card.go.toolTip()
-    card.go.click()
-    assert advice_bench.scenes.scene == first.replace(switching_frequency=INSIDE.value)

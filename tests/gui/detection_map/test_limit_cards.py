@@ -178,16 +178,3 @@ def test_a_search_that_fails_gives_the_reason(cards: LimitCards, small_scene: Sc
     cards.show_ended("Cancelled.")
     assert [card.value.text() for card in cards.cards.values()] == ["14.55 kHz", "?"]
     assert cards.answer.note.text().endswith(" Cancelled.")
-
-
-def test_a_search_without_results_yet_states_what_will_appear(
-    small_scene: Scene, qtbot: QtBot
-) -> None:
-    view = AdviceView()
-    qtbot.addWidget(view)
-    view.show()
-    assert (view.hint.isVisible(), view.cancel.isVisible()) == (False, False)
-    view.show_advice_begun(())
-    assert (view.hint.isVisible(), view.cancel.isVisible()) == (True, True)
-    view.show_advice(advice_on(small_scene))
-    assert not view.hint.isVisible()

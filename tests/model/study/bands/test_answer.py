@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 import occ_model as occ
 from occ_model.results.bands import NO_BARS_DEPTH
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.answer import FRAME_RATES, bars_answer, frame_rate_beats, unlit_rows
+from occ_model.study.bands.answer import FRAME_RATES, bars_answer, unlit_rows
 from occ_model.study.bands.depth import light_depth
 
 
@@ -70,7 +70,7 @@ def test_a_steady_light_has_nothing_to_answer() -> None:
 
 
 def test_bars_of_the_mains_stand_still_or_wander_as_film_makers_know_them() -> None:
-    of = {each.name: each for each in frame_rate_beats(_MAINS.replace(exposure_time=1 / 100))}
+    of = {each.name: each for each in bars_answer(_MAINS.replace(exposure_time=1 / 100)).rates}
     assert {name for name, each in of.items() if each.stands_still} == {"24", "30", "60"}
     # 120 Hz and five times 23.976, or four times 29.97: 0.12 Hz, once in 8.34 s.
     for name in ("23.976", "29.97", "59.94"):
@@ -78,12 +78,12 @@ def test_bars_of_the_mains_stand_still_or_wander_as_film_makers_know_them() -> N
     assert of["25"].frequency == pytest.approx(5.0)
     assert of["50"].frequency == pytest.approx(20.0)
     assert "120" not in of  # no exposure of 1/100 s is possible there
-    assert frame_rate_beats(_MAINS.replace(exposure_time=1 / 120)) == ()  # no bars at all
+    assert bars_answer(_MAINS.replace(exposure_time=1 / 120)).rates == ()  # no bars at all
 
 
 def test_the_beats_of_each_sine_are_those_of_frames_in_a_film() -> None:
     scene = _lamp(1903.0, 0.27, 1 / 800, columns=100)
-    for beats in frame_rate_beats(scene):
+    for beats in bars_answer(scene).rates:
         rate = float(FRAME_RATES[beats.name])
         frames = np.arange(4000) / rate
         light = [

@@ -12,7 +12,6 @@ from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.video_view import DataView, VideoView
 from occ_model.results.fact import Fact
-from occ_model.scene.recording import DECLARED
 from occ_model.scene.scene import Scene
 
 
@@ -85,13 +84,6 @@ def enter(qtbot: QtBot, form: RecordingForm, name: str, text: str) -> None:
     form.fields[name].selectAll()
     qtbot.keyClicks(form.fields[name], text)
     qtbot.keyClick(form.fields[name], Qt.Key.Key_Return)
-
-
-def test_each_declared_quantity_has_a_named_field(form: RecordingForm) -> None:
-    assert set(form.fields) == {declared.name for declared in DECLARED}
-    for declared in DECLARED:
-        assert form.fields[declared.name].accessibleName() == declared.label
-        assert declared.meaning in form.fields[declared.name].toolTip()
 
 
 def test_values_are_taken_as_people_write_them_and_refused_out_of_range(

@@ -102,14 +102,14 @@ def call(
 ) -> _Kind:
     """Call a plug-in's function, and return its result after a check.
 
-    An exception of either becomes a sentence. SystemExit and Ctrl-C pass.
+    An exception of either becomes a sentence, also one that would end the program. Ctrl-C passes.
     """
     try:
         with at_work(who):
             return check(function(*arguments))
     except (ParameterError, PluginError):
         raise
-    except Exception as error:  # noqa: BLE001 - a plug-in raises anything
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - a plug-in raises anything
         text = one_line(str(error)).rstrip(".")
         reason = f"{type(error).__name__}{': ' * bool(text)}{text}."
         raise PluginError(f"{who} cannot {verb}: {reason}") from None

@@ -51,6 +51,10 @@ def overwrite(signal, scene):
     return occ.DecodeResult("overwrites", failure="Nothing\\nwas read.")
 
 
+def leave(signal, scene):
+    raise SystemExit(3)
+
+
 def decoder(name, read):
     return occ.Decoder(name, name, read)
 
@@ -60,7 +64,7 @@ def make_spoiled(name, **parts):
     return decoder(name, lambda *_: replace(read, **parts))
 
 
-raises = decoder("raises", fail)
+raises, leaves = decoder("raises", fail), decoder("leaves", leave)
 nothing = decoder("nothing", lambda *_: None)
 empty = decoder("empty", lambda *_: occ.DecodeResult("empty"))
 floats = make_spoiled("floats", bits=np.array([0.5]))
@@ -92,8 +96,8 @@ frame_says_nothing = replace(
 """
 
 DECODERS = [
-    "raises", "nothing", "empty", "floats", "overwrites", "misnamed", "threshold", "gone",
-    "occasional", "confident",
+    "raises", "leaves", "nothing", "empty", "floats", "overwrites", "misnamed", "threshold",
+    "gone", "occasional", "confident",
 ]  # fmt: skip
 CODES = ["code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_partial"]
 FRAMINGS = [
@@ -116,7 +120,7 @@ def _hostile(tmp_path: Path) -> Iterator[None]:
         plugins.LINE_CODES: list_entries(CODES),
         plugins.FRAMINGS: list_entries(FRAMINGS),
     }
-    (tmp_path / "broken_import.py").write_text("raise OSError('no licence')\n")
+    (tmp_path / "broken_import.py").write_text("raise SystemExit('no licence')\n")
     with importable(tmp_path, "hostile", groups, MODULE):
         yield
 
@@ -129,6 +133,7 @@ def decode(decoder: str) -> occ.DecodeResult:
     ("decoder", "said"),
     [
         ("raises", "cannot read: ValueError: not today."),
+        ("leaves", "cannot read: SystemExit: 3."),
         ("nothing", "gives a NoneType, not a DecodeResult."),
         ("empty", "gives 0 bits in place of 10, and no failure."),
         ("floats", "gives bits that are not an array of zeros and ones."),
@@ -144,7 +149,7 @@ def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -
 @pytest.mark.parametrize(
     ("decoder", "said"),
     [
-        ("broken", "cannot be imported: OSError: no licence."),
+        ("broken", "cannot be imported: SystemExit: no licence."),
         ("gone", "cannot be imported: AttributeError: "),
         ("misnamed", "calls itself 'another'."),
     ],

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, QTimer, Signal
-from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
+from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.detection_map.advice_sentences import limit_text, make_answer, make_frequency_line
@@ -28,7 +28,6 @@ from occ_model.results.limits import (
 from occ_model.scene.units import HERTZ
 
 _PARAMETER = "switching_frequency"
-_LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
 _IN_ANSWER = 2  # decoders in the sentence above the cards: those that the map shows
 
@@ -140,7 +139,6 @@ class LimitCard(QFrame):
         self._decoder = decoder
         self._destination: float | None = None
         self._is_outdated = self._is_searching = False
-        self._is_beside: bool | None = None
         self._rough = ""
         self.name = paragraph(f"{decoder.capitalize()}: up to")
         self.value = QLabel()
@@ -149,14 +147,14 @@ class LimitCard(QFrame):
         self.value.setFont(heading_font(self.font()))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")
         self.go = push_button("Go", do=self._choose, name=f"Go to the highest frequency, {decoder}")
-        grid = self._grid = QGridLayout(self)
+        grid = QGridLayout(self)
         grid.setContentsMargins(12, 6, 8, 6)
         grid.setSpacing(2)
-        grid.addWidget(self.name, 0, 0)
-        grid.addWidget(self.value, 1, 0, 1, 2)  # beside the button, it would widen the window
-        grid.addWidget(self.range, 2, 0, 1, 2)
+        grid.addWidget(self.name, 0, 0, 1, 2)
+        grid.addWidget(self.value, 1, 0, 1, 2)
+        grid.addWidget(self.range, 2, 0)
+        grid.addWidget(self.go, 2, 1)  # beside the text that can be elided, in a narrow window
         grid.setColumnStretch(0, 1)
-        self._place_button()
         self.show_unknown()
         self.set_outdated(False)
 
@@ -164,21 +162,6 @@ class LimitCard(QFrame):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self.value.setFont(heading_font(self.font()))
-            self._place_button()
-
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        super().resizeEvent(event)
-        self._place_button()
-
-    def _place_button(self) -> None:
-        """Put the button beside the title, or at the bottom if it would cut the title off."""
-        title = self.name.fontMetrics().horizontalAdvance(self.name.text())
-        is_beside = (
-            title + self.go.sizeHint().width() + _LINE_MARGINS <= self.contentsRect().width()
-        )
-        if is_beside != self._is_beside:
-            self._is_beside = is_beside
-            self._grid.addWidget(self.go, *((0, 1) if is_beside else (3, 0, 1, 2)))
 
     def _choose(self) -> None:
         if self._destination is not None:

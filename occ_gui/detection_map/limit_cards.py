@@ -195,7 +195,7 @@ class LimitCard(QFrame):
     def show_progress(self, pictures: int | None) -> None:
         """Show how many pictures the running search has tried; None: it has not begun."""
         if self._is_searching and pictures is not None:
-            tried = f"{inflect(pictures, 'picture')} tried"
+            tried = f"{inflect(pictures, 'picture')} tried" if pictures else ""
             tip = "Searching for the highest frequency that is read."
             self._show(self._rough or "searching", tip, None)
             self.range.set_full_text(tried)

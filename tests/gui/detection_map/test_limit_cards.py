@@ -139,6 +139,7 @@ def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
     cards.show_progress({"threshold": 12, "a plug-in's": 3})
     assert (card.value.text(), card.range.toolTip()) == ("searching", "12 pictures tried")
     cards.show_rough("threshold", advice_on(small_scene).limits.frequency)
+    assert card.range.toolTip() == ""  # one picture was tried at each frequency
     cards.show_progress({"threshold": 12})
     assert (card.value.text(), card.go.isEnabled()) == ("roughly 14.55 kHz", False)
     assert card.range.toolTip() == "12 pictures tried"

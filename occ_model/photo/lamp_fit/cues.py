@@ -32,8 +32,8 @@ class Cues:
     drift: float  # Shift of the stripes from the first row to the last
     drift_error: float  # Its standard deviation
     rows_scatter: float  # Deviation of the stripes between bands of rows from a straight shift
-    misfit: float  # Root mean square of the residual that repeats with the period, of the swing
-    unexplained: float  # Root mean square of all of the residual, of the swing
+    misfit: float  # Root mean square of the residual that repeats with the period, of their height
+    unexplained: float  # Root mean square of all of the residual, of their height
     dips: int  # Times that the envelope falls and rises again
     gamma: float  # Of the tone curve
     narrowest: float  # The shorter of a stripe and the gap between two
@@ -68,7 +68,7 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
         drift_error=error,
         rows_scatter=apart,
         misfit=_periodic_misfit(fit),
-        unexplained=math.sqrt(float(np.mean(fit.residual**2))) / max(fit.profile.swing, 1e-6),
+        unexplained=math.sqrt(float(np.mean(fit.residual**2))) / fit.height,
         dips=_dips(fit),
         gamma=fit.gamma,
         narrowest=min(wave.width, 1.0 - wave.width) * wave.period,
@@ -139,7 +139,7 @@ def _periodic_misfit(fit: LampFit) -> float:
     means = np.bincount(bins, weights=fit.residual, minlength=count) / counts
     # What noise alone leaves in such a mean is taken off.
     left = float(np.mean(means**2)) - float(np.mean(fit.noise**2)) * count / len(columns)
-    return math.sqrt(max(left, 0.0)) / max(fit.profile.swing, 1e-6)
+    return math.sqrt(max(left, 0.0)) / fit.height
 
 
 def _dips(fit: LampFit) -> int:

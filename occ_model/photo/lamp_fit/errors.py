@@ -18,7 +18,9 @@ _SPREAD = 0.35  # weight of the variances by noise and by edges
 _FEW_EDGES = 14.0  # edges of which each tells the others' spread half as well as many do
 _PERIOD_SHIFT, _SHAPE_SHIFT = 8.0, 12.0
 """Columns by which all edges alike may be off, if the levels' misfit were all of their swing."""
-_TONE_ERROR = 0.0045  # of the ramp, for each deviation of the tone curve from a usual one
+_TONE_ERROR, _COMMON_PART = 0.014, 0.2
+"""Parts of an edge's length by which its stripe's two edges may be off for each deviation of the
+tone curve from a usual one, and of that, by which all edges alike may be."""
 _UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
 
 
@@ -46,8 +48,9 @@ def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     free = _free_part(fit, hidden_group)
     hidden = _UNKNOWN * max(0.0, hidden_group * free - wave.ramp_columns - 2.0 * wave.blur)
     period, place, width, ramp = np.sqrt([_variance(fit, each) for each in _directions(fit)])
-    of_view = math.hypot(_PERIOD_SHIFT * cues.unexplained * free**2, hidden)
-    of_tone = _TONE_ERROR * fit.model.tension(fit.values) * wave.ramp_columns
+    edge = math.hypot(wave.ramp_columns, math.sqrt(12.0) * wave.blur)
+    of_tone = _TONE_ERROR * fit.model.tension(fit.values) * edge
+    of_view = math.hypot(_PERIOD_SHIFT * cues.unexplained * free**2, hidden, _COMMON_PART * of_tone)
     of_shape = math.hypot(_SHAPE_SHIFT * cues.unexplained, of_tone, hidden) / wave.period
     smaller = min(wave.width, 1.0 - wave.width)
     return ReadingErrors(

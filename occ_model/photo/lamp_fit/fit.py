@@ -102,6 +102,12 @@ class LampFit:
         return self.model.ends(self.values)
 
     @property
+    def height(self) -> float:
+        """The height of the stripes in fractions of white, less than the swing above a floor."""
+        dark, lit = self.ends
+        return max(min(float(np.max(lit - dark)), self.profile.swing), 1e-6)
+
+    @property
     def residual(self) -> FloatArray:
         """The profile minus the model, in fractions of white."""
         return -_off(self.profile, self.levels)

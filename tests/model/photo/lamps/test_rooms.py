@@ -69,9 +69,13 @@ def test_each_bar_of_a_running_light_measures_the_camera_and_has_its_own_phase(
     every = occ.match_lamps(photo, scene)
     matched = [(lamp, match) for lamp, match in every if isinstance(match, occ.Match)]
     assert len(matched) >= 3
+    assert any(match.verdict == "sure" for _, match in matched)
     for lamp, match in matched:
         error = match.uncertainties["readout_time"]
-        assert match.readout_time == pytest.approx(READOUT, abs=max(3.0 * error, 5e-4 * READOUT))
+        if match.verdict == "sure":  # the error of a ramp of one line holds only then
+            assert match.readout_time == pytest.approx(
+                READOUT, abs=max(3.0 * error, 5e-4 * READOUT)
+            )
         bar = (lamp.region.first_row - 8) // 24
         # The later a bar is lit, the earlier in its cycle the first line is read.
         late = (match.start_time + bar * CYCLE / BARS) / CYCLE

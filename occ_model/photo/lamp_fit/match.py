@@ -1,6 +1,7 @@
 """Match the stripes of a lamp in a photo: its frequency or the readout time, duty and exposure."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from occ_model.photo.fitted_scene import (
 )
 from occ_model.photo.lamp_fit.estimates import LampEstimates, estimate_lamp
 from occ_model.photo.lamp_fit.place import find_place
-from occ_model.photo.lamp_fit.read_lamp import LampReading, read_lamp
+from occ_model.photo.lamp_fit.read_lamp import read_lamp
 from occ_model.photo.lamp_fit.shape_doubts import (
     doubts_by_columns,
     doubts_by_duty,
@@ -99,12 +100,17 @@ def _scene_of(found: LampEstimates, photo: Photo, scene: Scene, gamma: float) ->
 
 def _described(found: LampEstimates, photo: Photo, scene: Scene, errors: dict[str, float]) -> Match:
     """Describe what was found, with its doubts; ``errors`` are standard deviations in SI units."""
-    reading, name = found.reading, found.estimate
+    reading, place, name = found.reading, found.reading.place, found.estimate
     unsure = doubts_by_error(name, float(scene.value(name)), errors[name])
     unknown = errors["exposure_time"] / scene.camera.exposure_time
-    scene, stripes = round_estimates(scene, errors), _stripes(reading)
-    model = WHITE * reading.levels
-    flat = (model - stripes.low) / (stripes.high - stripes.low)
+    scene = round_estimates(scene, errors)
+    model, low, high = (WHITE * each for each in (reading.levels, *reading.ends))
+    stripes = Stripes(
+        place.region, WHITE * reading.profile.values, low, high,
+        reading.period, reading.errors.period * reading.step,
+        place.part_above(SATURATED_LEVEL),
+    )  # fmt: skip
+    flat = replace(stripes, profile=model).flattened
     camera = scene.camera
     return Match(
         scene=scene,
@@ -134,14 +140,4 @@ def _described(found: LampEstimates, photo: Photo, scene: Scene, errors: dict[st
             *doubts_by_columns(reading.cues),
             *doubts_by_readings(found),
         ),
-    )  # fmt: skip
-
-
-def _stripes(reading: LampReading) -> Stripes:
-    place = reading.place
-    low, high = (WHITE * each for each in reading.ends)
-    return Stripes(
-        place.region, WHITE * reading.profile.values, low, high,
-        reading.period, reading.errors.period * reading.step,
-        place.part_above(SATURATED_LEVEL),
     )  # fmt: skip

@@ -93,6 +93,9 @@ def read_lamp(
     fit, cues = ranked[0], cues_of(ranked[0], bands)
     if problems := refusals(cues):
         raise MatchError(*problems)
+    dark, lit = fit.ends
+    if np.any(lit <= dark):
+        raise MatchError("In some columns dark and lit stripes are equally bright.")
     others = [
         (fit.score - other.score, other.wave.period)
         for other in ranked[1:]

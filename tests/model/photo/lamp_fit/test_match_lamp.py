@@ -1,6 +1,7 @@
 """Lamps are read by the shape of their stripes."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,8 +17,9 @@ from model.photo.lamp_fit.lamp_pictures import (
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.lamp_fit.fit import fit_lamp
+from occ_model.photo.lamp_fit.fit import LampFit, fit_lamp
 from occ_model.photo.lamp_fit.match import match_lamp
+from occ_model.photo.lamp_fit.model import AMBIENT
 from occ_model.photo.lamp_fit.place import find_place
 from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.read_lamp import read_lamp
@@ -264,6 +266,18 @@ def test_columns_are_averaged_while_periods_keep_enough_of_them(
     """A profile keeps at most 640 columns, but at least 48 of a period."""
     flat = np.zeros(columns)
     assert LampProfile(flat, flat, flat > 0.0).reduction(shortest) == step
+
+
+def test_stripes_without_a_height_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fit_dark_end(*known: Any, **how: Any) -> list[LampFit]:
+        (fit, *_) = fit_lamp(*known, **how)
+        values = fit.values.copy()
+        values[AMBIENT], values[-1] = -1e-9, -40.0  # lit columns at the end are as dark as others
+        return [replace(fit, values=values)]
+
+    monkeypatch.setattr("occ_model.photo.lamp_fit.read_lamp.fit_lamp", fit_dark_end)
+    with pytest.raises(occ.MatchError, match="dark and lit stripes are equally bright"):
+        occ.match_photo(stripes(), SCENE)
 
 
 def test_evidence_is_finite_where_white_hides_all_stripes() -> None:

@@ -83,20 +83,14 @@ def test_a_lamp_is_measured_and_told_in_its_own_words(photo: occ.Photo, estimate
     assert {match.known, name} == {"readout_time", "lamp_frequency"}
     assert abs(getattr(match, name) - truth) < 4.0 * match.uncertainties[name]
     assert match.scene.value(name) == getattr(match, name)
-    assert match.exposure_in_periods == pytest.approx(
-        match.exposure_time * not_zero(match.lamp_frequency)
-    )
+    cycles = match.exposure_time * (match.lamp_frequency or 0.0)
+    assert match.exposure_in_periods == pytest.approx(cycles)
     again = occ.match_photo(photo, match.scene, sent="scene", estimate=estimate)
     assert again.is_applied_to(match.scene)
     assert not again.is_applied_to(match.scene.replace(bayer="rggb"))
     said = "\n".join(format_facts(match_facts(match, "if it is a lamp of 850 Hz: ")))
     assert "chip" not in said
     assert "duty cycle            30 %" in said
-
-
-def not_zero(value: float | None) -> float:
-    assert value
-    return value
 
 
 def test_a_scene_states_what_blinks_as_a_lamp_whichever_way_it_is_given() -> None:

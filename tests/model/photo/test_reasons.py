@@ -106,7 +106,7 @@ def test_a_period_that_is_not_found_is_told_by_the_best_likeness() -> None:
     lengths = np.random.default_rng(8).integers(8, 60, 30)
     profile = np.repeat(np.resize([40.0, 200.0], 30), lengths)[:600]
     (why,) = refused(photo_of(picture(profile)), occ.Scene(), sent="read")
-    stated = re.search(r"no shift of up to (\d+) columns .* above ([\d.]+); at least 0.50", why)
+    stated = re.search(r"by up to (\d+) columns, they correlate .* by ([\d.]+) at most", why)
     stripes = occ.find_stripes(photo_of(picture(profile)))
     longest = int(0.67 * len(stripes.profile))
     assert int(stated[1]) == longest

@@ -35,9 +35,6 @@ def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
         occ.match_photo(photo_of(bars), scene)
     assert refused.value.reasons[0] == PLAIN_STRIPES
     assert str(refused.value).count("a lamp is sent") == 1
-    with pytest.raises(occ.MatchError) as refused:
-        occ.match_photo(photo_of(bars), scene, sent="read")
-    assert refused.value.reasons[0] == PLAIN_STRIPES
     assert occ.match_photo(photo_of(bars), scene.replace(pattern="10")).lamp is not None
 
 

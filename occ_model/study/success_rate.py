@@ -249,11 +249,6 @@ def _plan_cached(pictures: _StudyPictures) -> Plan:
 _observed: OrderedDict[tuple[_StudyPictures, int], Observation | None] = OrderedDict()
 
 
-def forget_images() -> None:
-    """Clear the cache, so that the next images are simulated."""
-    _observed.clear()
-
-
 def _observe_cached(
     keys: Sequence[tuple[_StudyPictures, int]],
 ) -> list[Observation | None]:

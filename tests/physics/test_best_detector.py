@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from physics.exposed_chips import expose_rows, manchester, noise_of
 
 from occ_model.receiver.sequence.exposures import RowTiming, gather
-from occ_model.receiver.sequence.search import find_best_chips
+from occ_model.receiver.sequence.search import find_all_best_chips
 from occ_model.receiver.sequence.trellis import Word, make_trellis
 
 EXPOSURE, STEP, PHASE, DECIBELS = 4, 0.2, 0.13, 15.0
@@ -95,7 +95,7 @@ def rates(sequences: int, bits: int, seed: int) -> tuple[float, float, float]:
         light = expose_rows(chips, EXPOSURE, STEP, PHASE)
         light = light + noise * random.standard_normal(len(light))
         seen[number] = light[: whole * ROWS].reshape(whole, ROWS)
-        found = find_best_chips(make_trellis(words, timing.memory), gather(light, timing))
+        (found,) = find_all_best_chips(make_trellis(words, timing.memory), [gather(light, timing)])
         decided = found.values[-found.first :][: 2 * whole : 2] == manchester(np.array([1]))[0]
         inside = slice(BITS_BACK, whole)
         wrong += int((decided[inside] != (payload[:whole] == 1)[inside]).sum())

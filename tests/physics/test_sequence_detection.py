@@ -10,7 +10,7 @@ from physics.exposed_chips import expose_rows, manchester, noise_of
 import occ_model as occ
 from occ_model.receiver.sequence.exposures import RowTiming, gather, taps
 from occ_model.receiver.sequence.fit import lit_fractions
-from occ_model.receiver.sequence.search import Chips, find_best_chips, least_distances
+from occ_model.receiver.sequence.search import Chips, find_all_best_chips, least_distances
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, make_trellis
 from occ_model.scene.scene import Scene
 
@@ -23,7 +23,7 @@ POINTS = [(7, 15, 3e-2), (7, 20, 8e-4), (7, 30, 1e-4), (4, 10, 6e-2), (4, 20, 1e
 
 def detect(light: np.ndarray, exposure: float, words: tuple[Word, ...] = MANCHESTER) -> Chips:
     timing = RowTiming(exposure, STEP, PHASE)
-    return find_best_chips(make_trellis(words, timing.memory), gather(light, timing))
+    return find_all_best_chips(make_trellis(words, timing.memory), [gather(light, timing)])[0]
 
 
 def detect_bits(
@@ -90,7 +90,7 @@ def test_no_other_sequence_is_nearer_to_the_rows(words: tuple[Word, ...], exposu
     statistics = gather(light, timing)
     trellis = make_trellis(words, timing.memory)
     (least,) = least_distances(trellis, [statistics])
-    chips = find_best_chips(trellis, statistics)
+    (chips,) = find_all_best_chips(trellis, [statistics])
     every = np.array(list(itertools.product([0, 1], repeat=count)))
     if words is MANCHESTER:
         # Both alignments of the pairs, each also with another chip at the end.
@@ -111,7 +111,7 @@ def test_a_margin_is_what_the_opposite_chip_costs() -> None:
     light = expose_rows(sent, exposure, STEP, 0.0)
     light = light + 0.15 * random.standard_normal(len(light))
     timing = RowTiming(exposure, STEP, 0.0)
-    found = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), gather(light, timing))
+    (found,) = find_all_best_chips(make_trellis(FREE_CHIPS, timing.memory), [gather(light, timing)])
     every = np.array(list(itertools.product([0, 1], repeat=count)))
     distances = np.array(
         [((expose_rows(one, exposure, STEP, 0.0) - light) ** 2).sum() for one in every]

@@ -33,11 +33,6 @@ class Chips:
     margins: FloatArray
 
 
-def find_best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
-    """Find the chips whose light is closest to the rows, from the first chip in the first row."""
-    return find_all_best_chips(trellis, [statistics])[0]
-
-
 def find_all_best_chips(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> list[Chips]:
     """Find the chips of several sequences of rows, each exactly as if it were alone."""
     # The first row shows one chip more than the state after it, so a step is prepended.

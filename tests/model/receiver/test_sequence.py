@@ -16,7 +16,7 @@ from occ_model.receiver.sequence.code_words import find_code_words, words_of_run
 from occ_model.receiver.sequence.exposures import RowTiming, gather
 from occ_model.receiver.sequence.fit import Brightness, SequenceFit, guess_brightness
 from occ_model.receiver.sequence.requests import Reading, run_readings
-from occ_model.receiver.sequence.search import Chips, find_best_chips
+from occ_model.receiver.sequence.search import Chips, find_all_best_chips
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, make_trellis, steps_from_places
 from occ_model.scene.scene import Scene
 
@@ -29,7 +29,7 @@ def test_few_paths_find_the_chips_of_the_whole_trellis_with_a_margin_each() -> N
     light = expose_rows(SENT, 2.3, 0.2, 0.13)
     seen = gather(light + noise_of(20) * RANDOM.standard_normal(len(light)), timing)
     found = search_beam(FREE_CHIPS, timing.memory, seen)
-    whole = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), seen)
+    (whole,) = find_all_best_chips(make_trellis(FREE_CHIPS, timing.memory), [seen])
     assert len(found.margins) == len(found.values)
     assert (found.margins >= 0.0).all()
     shift = whole.first - found.first
@@ -47,7 +47,7 @@ def test_the_last_chip_is_the_last_one_that_a_row_shows(exposure: float) -> None
     seen = gather(np.zeros(50), timing)
     last = int(np.floor(0.13 + 49 * 0.2 + exposure))
     assert seen.first + len(seen.energy) - 1 == last
-    found = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), seen)
+    (found,) = find_all_best_chips(make_trellis(FREE_CHIPS, timing.memory), [seen])
     assert found.first + len(found.values) - 1 == last
     assert found.first == seen.first - timing.memory
 

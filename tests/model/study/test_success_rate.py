@@ -127,7 +127,7 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     at = scene.replace(distance=1.0371)
     rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
     assert len(simulated) == 3
-    module.forget_images()
+    module._observed.clear()
     settings = RateSettings(3, ("threshold", "matched"), 81)
     right = module.count_right_and_whole(at, settings)[0]
     assert rates == [100.0 * each / 30 for each in right]
@@ -143,7 +143,7 @@ def test_a_rate_does_not_depend_on_which_of_its_pictures_are_kept_from_before(
     alone = occ.success_rate(at, 10, seed=83)
     assert 0.0 < alone < 100.0
     monkeypatch.setattr(module, "_MOST_KEPT", 12)
-    module.forget_images()
+    module._observed.clear()
     occ.success_rate(at, 5, seed=83)
     occ.success_rate(at, 7, seed=84)  # now those of the first rate are the oldest
     assert occ.success_rate(at, 10, seed=83) == alone

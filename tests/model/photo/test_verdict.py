@@ -34,7 +34,7 @@ def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     with pytest.raises(occ.MatchError, match="as those of any regular object are") as refused:
         occ.match_photo(photo_of(bars), scene)
     assert refused.value.reasons[0] == PLAIN_STRIPES
-    assert str(refused.value).count("a lamp is sent") == 1
+    assert str(refused.value).count(PLAIN_STRIPES) == 1
     assert occ.match_photo(photo_of(bars), scene.replace(pattern="10")).lamp is not None
 
 

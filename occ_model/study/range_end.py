@@ -9,10 +9,12 @@ o(u) = o_0 (1 + b (u - u_0) / m)^m, growing outwards,
 
 with u the logarithm of the value, u_0 that of the end, and o_0 the odds at the required rate. The
 power m describes how losses set in: suddenly (1), logistically (infinite), or with a longer tail
-inside the end (-4, -2). How steeply they do is unknown: the end's probability is the mean of its
-likelihood over all slopes b, evenly in their logarithm, and over the powers; the interval leaves
-2.5 % of it on each side. Unlike the slope that fits best, the mean counts what few pictures leave
-open. Values beyond the first that refutes the rate are left out, as the curve need not hold there.
+inside the end (-4, -2). How steeply they do is unknown, and a second cause may soon add losses: in
+half of the curves, the rates beyond a cliff anywhere outside the end follow no law, and each is
+evenly likely. The end's probability is the mean of its likelihood over all slopes b, evenly in
+their logarithm, over the powers, and over no cliff and all cliffs; the interval leaves 2.5 % of it
+on each side. Unlike the curve that fits best, the mean counts what few pictures leave open. Values
+beyond the first that refutes the rate are left out, as the curve need not hold there.
 A picture may lose only some of its bits: it then counts as the fraction that it loses, divided by
 the typical fraction of lost pictures, (sum of squares) / sum.
 """
@@ -20,6 +22,7 @@ the typical fraction of lost pictures, (sum of squares) / sum.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from math import lgamma
 from typing import TypeAlias
 
 import numpy as np
@@ -189,7 +192,7 @@ def interval_of_end(
     width = math.log(outside / inside)
     within = {
         math.log(value / inside) / width: pictures
-        for value, pictures in lost.items()
+        for value, pictures in sorted(lost.items(), reverse=outside < inside)
         if pictures and (value - outside) * (outside - inside) <= 0.0
     }
     fractions = np.concatenate([np.asarray(pictures) for pictures in within.values()])
@@ -213,13 +216,16 @@ def interval_of_end(
 def _likelihoods(
     distances: FloatArray, images: FloatArray, images_lost: FloatArray, at_end: float
 ) -> FloatArray:
-    """Return each end's likelihood, the mean over slopes and powers, up to a common factor.
+    """Return each end's likelihood, the mean over all curves, up to a common factor.
 
-    ``distances``, shape (ends, values): of each value from each end. ``at_end``: fraction of the
-    images that are lost at the end.
+    ``distances``, shape (ends, values), rising: of each value from each end. ``at_end``: fraction
+    of the images that are lost at the end.
     """
     log_odds_at_end = math.log(at_end / (1.0 - at_end))
     scaled = _SLOPES[:, None, None] * distances
+    beyond_cliff = _log_mean_likelihoods(images, images_lost)
+    after_each = np.append(np.cumsum(beyond_cliff[:0:-1])[::-1], 0.0)
+    log_weights = _log_weights_of_cliffs(distances)
     logarithms = []
     for power in _POWERS:
         increase = scaled
@@ -227,6 +233,28 @@ def _likelihoods(
             increase = power * np.log(np.maximum(1.0 + scaled / power, _LEAST_BASE))
         log_odds = log_odds_at_end + increase
         log_read = -np.logaddexp(0.0, log_odds)
-        logarithms.append((images_lost * log_odds + images * log_read).sum(axis=2))
+        up_to_each = np.cumsum(images_lost * log_odds + images * log_read, axis=2)
+        logarithms.append(up_to_each + after_each + log_weights)
     every = np.concatenate(logarithms)
-    return np.asarray(np.exp(every - every.max()).sum(axis=0))
+    return np.asarray(np.exp(every - every.max()).sum(axis=(0, 2)))
+
+
+def _log_weights_of_cliffs(distances: FloatArray) -> FloatArray:
+    """Return the logarithm of the part of the curves with a cliff after each value from each end.
+
+    Cliffs are evenly spread over the values' range. Half of the curves have none before its end.
+    """
+    gaps = np.diff(distances[0])
+    is_outside = distances[:, 1:] >= 0.0
+    weights = np.full(distances.shape, 0.5)
+    weights[:, :-1] = 0.5 * is_outside * gaps / gaps.sum()
+    return np.asarray(np.log(np.maximum(weights, np.finfo(float).tiny)))
+
+
+def _log_mean_likelihoods(images: FloatArray, images_lost: FloatArray) -> FloatArray:
+    """Return the logarithm of the mean likelihood over all rates: Euler's beta function."""
+    counts = zip(images.tolist(), images_lost.tolist(), strict=True)
+    return np.array([
+        lgamma(lost + 1.0) + lgamma(count - lost + 1.0) - lgamma(count + 2.0)
+        for count, lost in counts
+    ])  # fmt: skip

@@ -316,6 +316,7 @@ LOSSES: dict[str, Callable[[float], float]] = {
     "straight": lambda at: min(max(0.01 + 2.0 * at, 0.0), 1.0),
     "normal": lambda at: NormalDist().cdf(NormalDist().inv_cdf(0.01) + at / 0.02),
     "half of them at once": lambda at: 0.5 * (at >= 0.0),
+    "shoulder": lambda at: 1.0 if at > 0.01 else 0.03 * (at >= 0.0),
     "sudden, in part": lambda at: 0.0 if at < -0.001 else min(0.01 + 10.0 * max(at, 0.0), 0.3),
 }
 

@@ -82,7 +82,7 @@ def test_dark_stripes_show_a_short_exposure_of_a_square_wave() -> None:
     photo = photo_of(occ.render(scene, tolerance=math.inf).image)
     match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
     assert (match.verdict, match.exposure_verdict) == ("sure", "doubtful")
-    assert abs(match.exposure_time - 60e-6) < 3.0 * match.uncertainties["exposure_time"] < 6e-6
+    assert abs(match.exposure_time - 60e-6) < 3.0 * match.uncertainties["exposure_time"] < 15e-6
     assert match.other_exposures == pytest.approx((200e-6,), rel=0.01)  # of a pulse of 60 us
 
 

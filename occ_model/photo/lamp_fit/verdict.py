@@ -60,26 +60,30 @@ def doubts(cues: Cues, gap: float, other: float | None, *, is_confirmed: bool) -
 def _measures(cues: Cues) -> Iterator[tuple[float, float, float, str]]:
     """Yield measures, above which limits each is doubted and refused, and a sentence on it."""
     most = floor_limit(cues)
+    value, limit = distinct_texts(100.0 * cues.floor, 100.0 * most, 0)
     yield (
         cues.floor, most, max(_REFUSED_FLOOR, most),
-        f"Between the stripes there is {100.0 * cues.floor:.2g} % of their height more or less "
-        "light than any duty and exposure leave, as of things that are no lamp; at most "
-        f"{100.0 * most:.2g} %.",
+        f"Between the stripes there is {value} % of their height more or less light than any duty "
+        f"and exposure leave, as of things that are no lamp; at most {limit} %.",
     )  # fmt: skip
+    value, limit = distinct_texts(100.0 * cues.misfit, 100.0 * _MOST_MISFIT, 0)
     yield (
         cues.misfit, _MOST_MISFIT, _REFUSED_MISFIT,
-        f"The stripes' shape differs by {100.0 * cues.misfit:.2g} % of their height from a lamp's; "
-        f"at most {100.0 * _MOST_MISFIT:.0f} %.",
+        f"The stripes' shape differs by {value} % of their height from a lamp's; at most "
+        f"{limit} %.",
     )  # fmt: skip
+    value, limit = distinct_texts(100.0 * cues.unexplained, 100.0 * _MOST_UNEXPLAINED, 0)
     yield (
         cues.unexplained, _MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED,
-        f"Columns differ by {100.0 * cues.unexplained:.2g} % of the stripes' height from those of "
-        f"a lamp; at most {100.0 * _MOST_UNEXPLAINED:.0f} %.",
+        f"Columns differ by {value} % of the stripes' height from those of a lamp; at most "
+        f"{limit} %.",
     )  # fmt: skip
     most = max(_MOST_BLUR, _BLUR_PART * cues.ramp)
     yield (
         cues.blur, most, math.inf,
-        f"The stripes are blurred over {cues.blur:.2g} columns; at most {most:.2g}.",
+        "The stripes are blurred over {} columns; at most {}.".format(
+            *distinct_texts(cues.blur, most)
+        ),
     )  # fmt: skip
     yield (
         abs(cues.drift), _MOST_DRIFT + _DRIFT_DEVIATIONS * cues.drift_error, math.inf,
@@ -96,7 +100,9 @@ def _measures(cues: Cues) -> Iterator[tuple[float, float, float, str]]:
     )
     yield (
         cues.scatter, most, max(_REFUSED_SCATTER * cues.period, most),
-        f"The stripes' edges lie {cues.scatter:.2g} columns off even spacing; at most {most:.2g}.",
+        "The stripes' edges lie {} columns off even spacing; at most {}.".format(
+            *distinct_texts(cues.scatter, most, 2)
+        ),
     )  # fmt: skip
     yield (
         -cues.bits, -_LEAST_BITS, -_REFUSED_BITS,

@@ -101,13 +101,12 @@ class LiveVideo(Video):
         with self._condition:
             self._condition.wait_for(lambda: self._newest is not None or self.has_ended)
             picture, self._newest = self._newest, None
-            index = self.picture_count - 1
-        if picture is None:
-            return None
-        grey = self._grey(picture.pixels)
-        self.shape = (grey.shape[0], grey.shape[1])
-        self.last_frame = VideoFrame(index, picture.time, grey)
-        return self.last_frame
+            if picture is None:
+                return None
+            grey = self._grey(picture.pixels)
+            self.shape = (grey.shape[0], grey.shape[1])
+            self.last_frame = VideoFrame(self.picture_count - 1, picture.time, grey)
+            return self.last_frame
 
     def _grey(self, pixels: ByteArray) -> ByteArray:
         """Return the luma with the scan axis as columns, as for a film from a file."""
@@ -230,10 +229,13 @@ class LiveController(QObject):
         video = self.video
         if video is None:
             return
+        has_ended = video.has_ended
+        if has_ended:
+            next(video.frames(), None)  # the last picture, if no reader has taken it yet
         if video.last_frame is not None and video.last_frame.index != self._shown_index:
             self._shown_index = video.last_frame.index
             self._films.show_live(video.last_frame)
-        if video.has_ended:
+        if has_ended:
             problem = video.problem or ""
             self.stop_filming()
             self.ended.emit(problem)

@@ -132,6 +132,16 @@ def test_a_camera_that_is_unplugged_leaves_its_last_picture_and_a_sentence(
     assert pane.view.pictures.are_visible == (False, True)
 
 
+def test_the_last_picture_of_a_camera_is_shown_though_nothing_reads_its_film(
+    pane: VideoWiring, wait: Wait, qtbot: QtBot, film: Video
+) -> None:
+    pane.live.start(ListedSource([film.frame(0).image]))
+    pane.readings.cancel()
+    qtbot.waitUntil(lambda: not pane.live.is_filming)
+    wait()
+    assert pane.view.pictures.are_visible[0]
+
+
 def test_a_camera_that_cannot_hold_its_exposure_says_so(
     pane: VideoWiring, qtbot: QtBot, film: Video
 ) -> None:

@@ -126,6 +126,8 @@ def test_a_pane_larger_than_the_screen_is_made_smaller() -> None:
 @pytest.mark.qt_log_ignore("This plugin does not support")
 def test_a_floating_pane_is_near_its_place(application: Application, qtbot: QtBot) -> None:
     dock = application.window.docks["controls"]
+    application.window.resize(1000, 700)  # another test may leave it higher than the screen
+    qtbot.waitUntil(lambda: dock.height() < 700)
     place = QRect(dock.mapToGlobal(QPoint()), dock.size())
     dock.setFloating(True)
     screen = dock.screen().availableGeometry()

@@ -19,7 +19,7 @@ from occ_model.arrays import ByteArray
 
 LINES, COLUMNS, RATE = 48, 64, 30
 FULL, LIMITED = 2, 1
-QUIET = {"x265-params": "log-level=none:lossless=1"}
+QUIET = {"x265-params": "log-level=none:lossless=1:bframes=0"}
 
 
 @dataclass(frozen=True)
@@ -227,7 +227,7 @@ def test_each_field_is_a_frame_with_its_own_lines_and_time(
     ("ending", "encoder"),
     [
         ("avi", Encoder("mpeg4", options={"flags": "+ildct+ilme"})),
-        ("mkv", Encoder("libx265", options={"x265-params": "interlace=tff:log-level=none"})),
+        ("mkv", Encoder("libx265", options={"x265-params": "interlace=tff:log-level=none:bframes=0"})),
     ],
 )
 def test_fields_of_unknown_order_are_refused(tmp_path: Path, ending: str, encoder: Encoder) -> None:

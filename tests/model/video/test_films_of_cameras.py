@@ -227,7 +227,10 @@ def test_each_field_is_a_frame_with_its_own_lines_and_time(
     ("ending", "encoder"),
     [
         ("avi", Encoder("mpeg4", options={"flags": "+ildct+ilme"})),
-        ("mkv", Encoder("libx265", options={"x265-params": "interlace=tff:log-level=none:bframes=0"})),
+        (
+            "mkv",
+            Encoder("libx265", options={"x265-params": "interlace=tff:log-level=none:bframes=0"}),
+        ),
     ],
 )
 def test_fields_of_unknown_order_are_refused(tmp_path: Path, ending: str, encoder: Encoder) -> None:

@@ -232,10 +232,3 @@ class FileEffect(Effect):
     @abstractmethod
     def steps(self, scene: Scene) -> FloatArray:
         """Return the steps to which the cosine coefficients of 8 x 8 pixels are rounded."""
-
-    @abstractmethod
-    def rounding_of_means(self, scene: Scene) -> float:
-        """Return the rounding error of a column's mean over one block, in grey levels.
-
-        It is the standard deviation if the coefficients are distributed uniformly over the steps.
-        """

@@ -51,17 +51,6 @@ class Jpeg(FileEffect):
     def steps(self, scene: Scene) -> FloatArray:
         return quantization_steps(scene.camera.jpeg_quality)
 
-    def rounding_of_means(self, scene: Scene) -> float:
-        """Return the error by the coefficients of vertical frequency 0; no others change the mean.
-
-        Each has the standard deviation q / sqrt(12) for its step q; that of the mean over a block's
-        eight rows is the root of the sum of their squares, divided by 8.
-        """
-        if not self.is_present(scene):
-            return 0.0
-        steps = quantization_steps(scene.camera.jpeg_quality)
-        return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0
-
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
         if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:
             raise ParameterError.of(

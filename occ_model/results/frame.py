@@ -1,8 +1,7 @@
 """A simulated picture, and the plan of the effects with which it was simulated."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Literal, Protocol, TypeAlias
 
 from occ_model.arrays import ByteArray, FloatArray
@@ -161,8 +160,6 @@ class Frame:
         Where the receiver's picture is made when it is first asked for, its time counts from then.
     pictures
         The picture, as the camera takes it and as the receiver enhances it.
-    estimate_errors
-        Returns the errors of a draft's profile and signal, by name; None if there are none.
     """
 
     scene: Scene
@@ -171,7 +168,6 @@ class Frame:
     corners: FloatArray
     timings: Mapping[str, float]
     pictures: PicturePair = field(repr=False)
-    estimate_errors: Callable[[], Mapping[str, float]] | None = field(repr=False, default=None)
 
     @property
     def rows_step(self) -> int:
@@ -208,15 +204,6 @@ class Frame:
         value, also outside the panel.
         """
         return self.pictures.signal
-
-    @cached_property
-    def draft_error(self) -> Mapping[str, float]:
-        """Error of a draft's ``profile`` and ``signal`` against the whole picture's, by name.
-
-        RMS over the columns of the panel's bounding rectangle, in grey levels, from the sampling
-        errors of both pictures. 0 if the picture is not a draft or all its rows are equal.
-        """
-        return self.estimate_errors() if self.estimate_errors else {"profile": 0.0, "signal": 0.0}
 
     def picture(self, picture_kind: str) -> ByteArray:
         """Return the picture of the ``"camera"`` or the ``"receiver"``.

@@ -27,7 +27,6 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Plan
 from occ_model.scene.scene import Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
-from occ_model.simulation.draft_error import DraftedPanel
 from occ_model.simulation.picture_noise import PictureNoise
 from occ_model.simulation.pictures import Pictures, ShownPanel
 from occ_model.simulation.pixel_draw import PictureNumbers
@@ -101,13 +100,6 @@ class PixelExposure:
             self._brightest = max(float(columns.panel.max()), float(columns.surroundings.max()))
         self._mean = mean
         timer.end_stage(self._optics.cover_stage)
-
-    def drafted_panel(self, rows: range) -> DraftedPanel:
-        columns = slice(self._region.first_column, self._region.last_column)
-        size = (self._scene.camera.rows, self._scene.camera.columns)
-        outline, blur = self._optics.outline, self._optics.blur
-        rounding = sum(file.rounding_of_means(self._scene) for file in self._files)
-        return DraftedPanel(rows, columns, outline, size, blur, rounding)
 
     def _prepare_noise(self, numbers: PictureNumbers) -> PictureNoise | None:
         if self._noise is None:

@@ -1,20 +1,19 @@
 """Render a scene: simulate its picture stage by stage, in the order that light travels."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.enhancement import to_bytes
-from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturation_value
+from occ_model.camera.photometry import WHITE, saturation_value
 from occ_model.camera.picture_rows import split_into_blocks
 from occ_model.camera.projection import check_size, paint
-from occ_model.effects.effect import NoiseEffect, PaperView, paper_view_of
+from occ_model.effects.effect import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import NAMES, effects_planned
+from occ_model.effects.registry import NAMES
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Frame, Plan
 from occ_model.scene.argument_checks import check_count
@@ -24,8 +23,7 @@ from occ_model.scene.scene import (
     Scene,
     SimulationSettings,
 )
-from occ_model.simulation.columns import Columns, expose_columns
-from occ_model.simulation.draft_error import DraftedMeans, DraftedPanel, ExposeRows, draft_errors
+from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.pictures import PaintedColumns, Pictures
 from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.pixels import PixelExposure
@@ -80,9 +78,8 @@ def render(
         Ignored: noise is always drawn for every pixel.
     rows_step
         From 2 on, the frame is a draft: it has only every ``rows_step``-th row of the picture,
-        equal to that row. A file is made of the draft's rows as if
-        they were a picture, and only where they show the panel. How far its column means may be
-        from those of the picture is :attr:`occ_model.Frame.draft_error`.
+        equal to that row. A file is made of the draft's rows as if they were a picture, and only
+        where they show the panel.
 
     Raises
     ------
@@ -164,7 +161,6 @@ def render_plan(
     timer.end_stage("enhancement")
     around, corners = to_bytes(columns.around), view.corners
     rows = draft_rows(scene.camera.rows, rows_step)
-    errors: Callable[[], Mapping[str, float]] | None = None  # None if all rows are equal
     made: Pictures | PaintedColumns
     if chosen.kinds <= {"column"}:
         image = paint(enhanced, corners, rows, around)
@@ -182,9 +178,6 @@ def render_plan(
         )
         numbers = PictureNumbers(seed, scene.camera.columns)
         made = exposure.pictures(enhancement, numbers, heartbeat)
-        if rows_step > 1:
-            expose = partial(_expose_rows, view, chosen, columns, seed=seed)
-            errors = partial(_draft_errors, exposure.drafted_panel(rows), made, columns, expose)
     return Frame(
         scene=scene,
         plan=chosen,
@@ -192,46 +185,7 @@ def render_plan(
         corners=corners,
         timings=timer.timings,
         pictures=made,
-        estimate_errors=errors,
     )
-
-
-def _draft_errors(
-    panel: DraftedPanel, made: Pictures, columns: Columns, expose: ExposeRows
-) -> dict[str, float]:
-    return draft_errors(panel, describe_draft(made, columns), expose)
-
-
-def describe_draft(made: Pictures, columns: Columns) -> dict[str, DraftedMeans]:
-    """Return a draft's column means, with the values that its pixels can have."""
-    levels = np.concatenate([columns.profile, columns.around, made.profile])
-    seen = columns.enhancement(levels)
-    stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT_SPAN), 1.0)
-    return {
-        "profile": DraftedMeans(made.camera_image, made.profile, levels, 1.0),
-        "signal": DraftedMeans(made.image, made.signal, seen, stretch),
-    }
-
-
-def _expose_rows(
-    view: PaperView,
-    chosen: Plan,
-    columns: Columns,
-    shown: NDArray[np.bool_],
-    times: int,
-    *,
-    seed: int,
-) -> dict[str, FloatArray]:
-    """Expose some rows of the whole picture a few times with other noise; return column means."""
-    blocks = split_into_blocks(range(view.scene.camera.rows), view.scene.camera.columns)
-    bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
-    exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
-    seeds = range(seed + 1, seed + 1 + (times if effects_planned(chosen, NoiseEffect) else 1))
-    numbers = (PictureNumbers(other, view.scene.camera.columns) for other in seeds)
-    made = (exposure.pictures(columns.enhancement, own) for own in numbers)
-    # Only one picture at a time is in memory.
-    profiles, signals = zip(*((one.profile, one.signal) for one in made), strict=True)
-    return {"profile": np.array(profiles), "signal": np.array(signals)}
 
 
 def draft_rows(rows: int, step: int) -> range:

@@ -9,7 +9,7 @@ MOST_RECENT = 8  # most recent files in the list
 _FILES, _FOLDER = "files/recent", "files/folder"
 _EXPORTS = "files/exports"
 _FOLDERS = (_FOLDER, _EXPORTS)
-_STRIPS, _FORMER_STRIPS, _NO = "view/strips", "view/margins", "no"
+_STRIPS, _NO = "view/strips", "no"
 
 _MAX_TEXT_LENGTH = 1_000_000  # maximum characters of a stored text
 
@@ -51,8 +51,7 @@ class Preferences(QObject):
 
     @property
     def slider_strips(self) -> bool:
-        stored = self._read_value(_STRIPS)
-        return (self._read_value(_FORMER_STRIPS) if stored is None else stored) != _NO
+        return self._read_value(_STRIPS) != _NO
 
     def keep_slider_strips(self, are_visible: bool) -> None:
         self._write(_STRIPS, "yes" if are_visible else _NO)

@@ -56,9 +56,6 @@ _VIEW: Mapping[str, tuple[object, ...]] = {
 }
 """Settings of how results are shown, with their possible values."""
 
-_FORMER_NAMES = {"picture_kind": "whose"}
-"""Names of settings in sessions of former versions."""
-
 
 @dataclass(frozen=True, slots=True)
 class SavedSession:
@@ -179,8 +176,8 @@ def read_session(record: Mapping[str, Any] | None) -> SavedSession | None:
     workspace = Workspace(
         scene,
         _read_or_keep(FIRST_SETTINGS, lambda: _read_settings(values["settings"])),
-        photo=_read_photo(values.get("photo"), values.get("region")),
-        film=_read_film(values.get("film")),
+        photo=_read_or_keep(PhotoChoice(), lambda: _read_photo(values["photo"])),
+        film=_read_or_keep(FilmChoice(), lambda: _read_film(values["film"])),
         room=_read_room(values.get("room"), RoomChoice()),
         pins=_read_pins(values.get("pins")),
         preset=_read_preset(values.get("preset")),
@@ -197,24 +194,21 @@ def read_session(record: Mapping[str, Any] | None) -> SavedSession | None:
 def _read_view(workspace: Workspace, values: Any) -> Workspace:
     settings: dict[str, Any] = {}
     for name, allowed in _VIEW.items():
-        value = values.get(name, values.get(_FORMER_NAMES.get(name)))
+        value = values.get(name)
         if value in allowed:
             settings[name] = allowed[allowed.index(value)]  # turns a 1 into True
     return replace(workspace, **settings)
 
 
-def _read_photo(values: Any, region: Any) -> PhotoChoice:
-    """Read the settings of photos; in the first format, these were a path and a region."""
-    if not isinstance(values, dict):
-        values = {"path": values, "region": region}
+def _read_photo(values: Any) -> PhotoChoice:
     path = _read_path(values.get("path"))
     part = _read_or_keep(None, lambda: _read_region(values["region"]))
     parts = {} if path is None or part is None else {PhotoFrame(path): part}
     photo = PhotoChoice(path, parts=parts)
 
     def read() -> PhotoChoice:
-        options = LoadOptions(**(values.get("load_options") or values["reading"]))  # its former key
-        form, known = _read_form(values["form"], values["certain"])
+        options, form = LoadOptions(**values["load_options"]), MatchChoice(**values["form"])
+        known = dict(values["certain"])
         certain = {name: quantity(name).check(value) for name, value in known.items()}
         quantity("lamp_frequency").check(form.lamp_frequency)
         _require(
@@ -228,22 +222,7 @@ def _read_photo(values: Any, region: Any) -> PhotoChoice:
     return _read_or_keep(photo, read)
 
 
-def _read_form(values: Any, certain: Any) -> tuple[MatchChoice, dict[str, float]]:
-    """Read the choices of a match; in a former format, a lamp was a square wave of two chips."""
-    values, certain = dict(values), dict(certain)
-    if "square_frequency" in values:
-        values["lamp_frequency"] = values.pop("square_frequency")
-        if values["sent"] == "square":
-            values["sent"] = "lamp"
-            if certain.get("switching_frequency") == 2.0 * values["lamp_frequency"]:
-                certain["lamp_frequency"] = 0.5 * certain.pop("switching_frequency")
-    return MatchChoice(**values), certain
-
-
 def _read_film(values: Any) -> FilmChoice:
-    """Read the settings of films; in the former format, these were a path."""
-    if not isinstance(values, dict):
-        return FilmChoice(_read_path(values))
     film = FilmChoice(_read_path(values.get("path")))
 
     def read() -> FilmChoice:
@@ -291,16 +270,15 @@ def _read_pin(values: Any) -> PinnedScene:
 
 
 def _read_history(values: Any) -> History:
-    """Read the steps if each of them leads to a valid scene; the former format has no rooms."""
+    """Read the steps if each of them leads to a valid scene."""
     first = UndoState(
         Scene.from_toml(values["scene"]),
         _read_force(values["force"]),
-        _read_room(values.get("room"), RoomChoice()),
-        _read_preset(values.get("preset")),
+        _read_room(values["room"], RoomChoice()),
+        _read_preset(values["preset"]),
     )
     steps, room = list[StepChange](), first.room
-    for title, changed, force, *more in values["steps"]:
-        preset, room_record = more or ("", None)
+    for title, changed, force, preset, room_record in values["steps"]:
         room = room if room_record is None else _read_room(room_record, room)
         steps.append(
             StepChange(str(title), dict(changed), _read_force(force), room, _read_preset(preset))

@@ -163,15 +163,9 @@ def add_switches(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES
         )
 
 
-def add_noise_options(parser: argparse.ArgumentParser) -> None:
-    # Of former versions, and ignored: noise is always drawn for every pixel.
-    parser.add_argument("--noise", help=argparse.SUPPRESS)
-    add_option(parser, "--seed", SimulationSettings().seed)
-
-
 def add_simulation_options(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES) -> None:
     add_plan_options(parser, effects)
-    add_noise_options(parser)
+    add_option(parser, "--seed", SimulationSettings().seed)
 
 
 def simulation_settings_of(

@@ -47,13 +47,11 @@ def test_a_file_that_is_opened_again_moves_to_the_front_and_only_so_many_are_rem
     assert Preferences().files == ()
 
 
-def test_a_choice_about_strips_under_the_former_key_holds_until_the_next(file: Path) -> None:
+def test_the_choice_about_strips_is_stored(file: Path) -> None:
     kept = settings(file)
-    kept.setValue("view/margins", "no")
-    preferences = Preferences(kept)
-    assert not preferences.slider_strips
-    preferences.keep_slider_strips(True)
-    assert Preferences(kept).slider_strips
+    for choice in (False, True):
+        Preferences(kept).keep_slider_strips(choice)
+        assert Preferences(kept).slider_strips is choice
 
 
 def test_every_change_is_emitted_and_nothing_else(tmp_path: Path) -> None:

@@ -9,8 +9,7 @@ import pytest
 from gui.kinds import not_none
 from small_rooms import small_room
 
-from occ_gui.core.store import History, StepChange
-from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.session import LARGEST_FILE, SessionFile
 from occ_gui.files.session_record import SavedSession, make_record, read_session
 from occ_gui.values.choices import (
@@ -41,7 +40,7 @@ def everything_set() -> Workspace:
         frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
     )
     film = FilmChoice(HERE, "lines", recording=recording, frames=7)
-    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
+    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, 7)
     pin = PinnedScene(SimulationRequest(scene, settings, more_decoders=("sequence",)), "phone-68us")
     return Workspace(
         scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,
@@ -104,50 +103,6 @@ def test_an_invalid_part_alone_gets_its_first_value(place: tuple[str, ...], valu
     at[place[-1]] = value
     kept = not_none(read_session(record))
     assert kept.workspace == replace(workspace, **{place[0]: first[place[0]]})
-
-
-def test_a_file_of_the_former_format_is_read() -> None:
-    scene, pinned = Scene().replace(iso=321.0), Scene().replace(iso=99.0)
-    settings = {"tolerance": 2.0, "observable": "signal", "force": {"jpeg": True}, "noise": "exact",
-                "seed": 7}  # fmt: skip
-    record = {
-        "scene": scene.to_toml(), "settings": settings, "scene_file": __file__,
-        "photo": {"path": __file__}, "film": {"path": __file__}, "preset": "phone-68us",
-        "pins": [{"scene": pinned.to_toml(), "settings": settings, "decoders": []}, None],
-        "history": {"scene": pinned.to_toml(), "force": {}, "done": 1,
-                    "steps": [["change", {"iso": 321.0}, {"jpeg": True}]]},
-    }  # fmt: skip
-    here, known = Path(__file__), SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
-    workspace = Workspace(
-        scene, known, photo=PhotoChoice(here), film=FilmChoice(here), preset="phone-68us",
-        pins=(PinnedScene(SimulationRequest(pinned, known)), None), scene_file=here,
-    )  # fmt: skip
-    step = StepChange("change", {"iso": 321.0}, {"jpeg": True})
-    assert read_session(record) == SavedSession(
-        workspace, History(UndoState(pinned, {}), (step,), done=1)
-    )
-
-
-def test_names_of_a_former_version_are_read() -> None:
-    workspace = replace(everything_set(), picture_kind="receiver")
-    record: Any = make_record(SavedSession(workspace))
-    record["photo"]["reading"] = record["photo"].pop("load_options")
-    record["view"]["whose"] = record["view"].pop("picture_kind")
-    assert not_none(read_session(record)).workspace == workspace
-
-
-@pytest.mark.parametrize(("stated", "sent"), [("square", "lamp"), ("auto", "auto")])
-def test_a_lamp_that_was_a_square_wave_in_a_former_session_is_read(stated: str, sent: str) -> None:
-    record: Any = make_record(SavedSession(everything_set()))
-    record["photo"]["form"] |= {"sent": stated, "square_frequency": 750.0}
-    del record["photo"]["form"]["lamp_frequency"]
-    record["photo"]["certain"] = {"switching_frequency": 1500.0}
-    photo = not_none(read_session(record)).workspace.photo
-    assert (photo.form.sent, photo.form.lamp_frequency) == (sent, 750.0)
-    name, value = ("lamp_frequency", 750.0) if sent == "lamp" else ("switching_frequency", 1500.0)
-    assert photo.certain == {name: value}
-    record["photo"]["form"]["square_frequency"] = -1.0
-    assert not_none(read_session(record)).workspace.photo.form == MatchChoice()
 
 
 LONG_NUMBER = "9" * 4000

@@ -3,6 +3,7 @@
 import time
 from dataclasses import dataclass
 from fractions import Fraction
+from math import ceil, floor
 
 import numpy as np
 
@@ -10,7 +11,6 @@ import occ_model as occ
 from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.recording import Recording, Waypoint
-from occ_model.study.film_study import ShutterTiming
 from occ_model.study.observation import panel_span
 from occ_model.video.period import SentPeriod
 from occ_model.video.render import SimulatedVideo, render_video
@@ -26,6 +26,35 @@ _SCHEMES = (
     ("c-ook", "4b6b"),
     ("raw", "4b6b"),
 )
+
+
+@dataclass(frozen=True)
+class ShutterTiming:
+    """The exact timing of a frame, from which the chips and packets that it shows are counted.
+
+    A frame that starts at s shows the chips that lie completely between the start of its first
+    column's exposure and the end of its last one's: chip n if n / f >= s + a t_r and
+    (n + 1) / f <= s + b t_r + t, with a and b the first and the last column of the panel.
+    """
+
+    scene: occ.Scene
+    start: Fraction  # Of column 0's exposure, in seconds
+
+    def whole_chips(self) -> tuple[int, int]:
+        """Return the first whole chip, and the one after the last."""
+        span = panel_span(self.scene)
+        assert span is not None
+        camera = self.scene.camera
+        frequency = Fraction(self.scene.transmitter.switching_frequency)
+        readout = Fraction(camera.readout_time)
+        begin = self.start + span.first_column * readout
+        end = self.start + (span.last_column - 1) * readout + Fraction(camera.exposure_time)
+        return ceil(begin * frequency), floor(end * frequency)
+
+    def whole_packets(self, length: int) -> int:
+        """Return how many packets of ``length`` chips the frame shows whole."""
+        first, end = self.whole_chips()
+        return max(end // length - -(-first // length), 0)
 
 
 @dataclass(frozen=True)
@@ -132,7 +161,7 @@ def judge(one: Film) -> Judged:
     """Read a film, and compare it with the truth and with exact counting."""
     video = one.video()
     reader = occ.VideoReader(one.rough)
-    seen: list[tuple[ShutterTiming, Fraction]] = []
+    seen: list[ShutterTiming] = []
     used = 0.0
     for frame in video:
         start = time.process_time()
@@ -140,16 +169,13 @@ def judge(one: Film) -> Judged:
         used += time.process_time() - start
         assert frame.scene is not None
         assert frame.start is not None
-        span = panel_span(frame.scene)
-        assert span is not None
-        timing = ShutterTiming.of(frame.scene, (span.first_column, span.last_column))
-        seen.append((timing, frame.start))
+        seen.append(ShutterTiming(frame.scene, frame.start))
     start = time.process_time()
     reading = reader.reading()
     used += time.process_time() - start
     counts = np.zeros(SentPeriod(one.scene.transmitter).length, dtype=np.int64)
-    for timing, begins in seen:
-        first, end = timing.whole_chips(begins)
+    for timing in seen:
+        first, end = timing.whole_chips()
         np.add.at(counts, np.arange(first, end) % len(counts), 1)
     right = reading.bits.tolist() == list(bits_of_payload(one.scene.transmitter.payload))
     return Judged(one, reading, bool((counts > 0).all()), right, 1e3 * used / one.frames)

@@ -14,7 +14,7 @@ from occ_model.version import __version__
 
 _MODULES = {  # the module of each command
     "render": "render", "plan": "render", "film": "film", "animate": "film",
-    "film-study": "film_study", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits",
+    "accuracy": "accuracy", "sweep": "sweep", "limits": "limits",
     "most-bits": "limits", "bench": "bench", "bands": "bands", "decode": "decode", "match": "match",
     "camera": "camera", "figures": "figures", "room": "room", "transmit": "transmit",
     "codes": "listing", "presets": "listing", "parameters": "listing",

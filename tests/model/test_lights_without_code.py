@@ -20,7 +20,6 @@ from occ_model.scene.light_words import describe_light
 from occ_model.scene.scene import OBSERVABLES, Scene
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.code_length import code_lengths
-from occ_model.study.film_study import FilmRequest
 from occ_model.study.room_map import RoomMapRequest
 from occ_model.study.sweep.request_check import build_request
 
@@ -49,7 +48,6 @@ DOORS: dict[str, Callable[[Scene], object]] = {
     "limits": occ.limits,
     "bit error rate": lambda scene: occ.bit_error_rate(scene, bits=10),
     "most bits": lambda scene: occ.most_bits(scene, ["threshold"]),
-    "film study": lambda scene: FilmRequest(scene, (8e3,), (0.1,), (16,)),
     "code lengths": _code_lengths,
 }
 FILM_DOORS: dict[str, Callable[[Scene], object]] = {
@@ -110,7 +108,7 @@ def test_a_sweep_over_a_parameter_of_another_light_is_refused(name: str) -> None
 READING = [
     "sweep --vary distance=1 --images 1", "limits", "most-bits", "decode p.png",
     "decode p.png --decoder sequence", "decode film.mkv", "decode --follow film.mkv",
-    "film-study", "plan --observable decision",
+    "plan --observable decision",
 ]  # fmt: skip
 SEEING = [
     "render -o q.png",

@@ -25,7 +25,6 @@ from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.study.bench.bench import bench
 from occ_model.study.bit_error_rate import check_frame_rate
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.film_study import FilmRequest
 from occ_model.study.spectrum import profile_spectrum
 from occ_model.teaching.light_over_columns import exposure_window, light_over_columns
 
@@ -218,7 +217,6 @@ ROWS: list[Row] = [
         )
         for limit in (0.0, -1.0, 2.0, math.nan)
     ),
-    (lambda: FilmRequest(SCENE, (8e3,), (0.95,), (16,)), "gap", "95 % of a frame", "0 to 90 %"),
     (lambda: check_frame_rate(SCENE, 0.0), "frames_a_second", "0.0", "above 0 to 36.17, where"),
     (
         lambda: occ.most_bits(SCENE, ("threshold",), frames_a_second=100.0),

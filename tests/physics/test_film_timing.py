@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from hard_cases.references import ExactTimes
 from hypothesis import given, strategies as st
+from simulated_films import ShutterTiming
 
 import occ_model as occ
 from occ_model.effects.light_effects import ambient_fractions
 from occ_model.scene.scene import Scene
+from occ_model.video.period import SentPeriod
 
 SMALL = Scene().replace(rows=24, columns=256, readout_time=1e-4, distance=0.8)
 
@@ -103,3 +105,34 @@ def test_clocks_that_drift_alike_show_the_same_stripes() -> None:
         # Rounding of frequency and readout time gives a difference of some 1e-16 of the elapsed
         # chips.
         assert np.abs(lit - other).max() < 1e-9
+
+
+def test_the_packets_of_a_published_example_are_received_as_counted() -> None:
+    """CamComSim's example: 33.3 ms a frame, a gap of 0.2, 8,000 chips/s, packets of 52 chips.
+
+    They are 4 start chips, 8 bits of header and 16 of payload in Manchester code
+    (``vlc-citi-lab/camcomsim``, ``simu_params_template.json``), as many as those of 24 bits here.
+    """
+    period, gap, columns = Fraction(333, 10_000), Fraction(1, 5), 1080
+    bits = np.random.default_rng(1).integers(0, 2, 24)
+    scene = Scene().replace(
+        line_code="manchester", framing="paper", payload="bits:" + "".join(map(str, bits)),
+        switching_frequency=8e3, exposure_time=25e-6, iso=800.0,
+        readout_time=float((1 - gap) * period / columns), rows=48, columns=columns,
+        distance=0.4, panel_width=2.0, panel_height=2.0,
+    )  # fmt: skip
+    length = SentPeriod(scene.transmitter).part_length
+    assert length == 52
+    frames = 33
+    video = occ.render_video(scene, frames, occ.Recording(frame_rate=float(1 / period)))
+    reading = occ.decode_video(video, scene)
+    assert reading.bits.tolist() == bits.tolist()
+    counted = sum(
+        ShutterTiming(scene, video.start_of(number)).whole_packets(length)
+        for number in range(frames)
+    )
+    sent = len(reading.packets)
+    assert reading.read / sent == pytest.approx(counted / sent, abs=0.02)
+    # A view of V >= L chips contains on average (V - L) / L whole packets of L chips.
+    average = float(((1 - gap) * period - Fraction(length, 8000)) / period)
+    assert counted / sent == pytest.approx(average, abs=0.02)

@@ -28,8 +28,6 @@ WITHOUT_FILES = {
     "room locate --set distance=2m": "A room has no distance: ",
     "sweep --vary distance=1 --vary distance=2": "distance is varied twice",
     "sweep --vary distance=1 --jobs 100000": "allowed: a whole number from 1 to 1,024.",
-    "film-study --frequencies ,": "switching_frequency is '', which is not a number in kHz",
-    "film-study --gaps 10,": "gaps has ''; allowed: numbers",
     "limits --jobs 3": "jobs is 3; allowed: a whole number from 1 to 2.",
     "limits --rate 0": "rate is 0.0 %; allowed: above 0 % to 100 %.",
     f"sweep --vary distance=1 --images {'9' * 4000}": "a whole number from 1 to 1,000,000.",
@@ -185,7 +183,7 @@ NAMED = (  # N stands for a name of 5,000 letters
     "match p.png --region N", "match 0.png p.png --out N.csv", "decode N", "sweep --vary N=1",
     "sweep --vary distance=1 --out N.csv", "film --waypoint 1s:N=1 -o f.mkv", "presets N",
     "film --exposures N -o f.mkv", "bench --data N", "room render --room N", "room locate N",
-    "room render --room N.toml", "room render --room long.toml", "film-study --gaps N",
+    "room render --room N.toml", "room render --room long.toml",
 )  # fmt: skip
 
 

@@ -26,7 +26,6 @@ from occ_model.figures.bands import bands_drawing, flicker_drawing
 from occ_model.figures.bench import bench_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import Drawing, house_style
-from occ_model.figures.films import films_drawing
 from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.sweep import sweep_drawing
 from occ_model.figures.transmitter_files import wiring_figure
@@ -37,7 +36,6 @@ from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, ShownQuantity, SweepRequest
 from occ_model.results.teaching import AnsweredStep, CheckedAnswer
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.film_study import FilmPoint
 from occ_model.study.paper_grid import (
     DISTANCES as PAPERS_DISTANCES,
     FREQUENCIES as PAPERS_FREQUENCIES,
@@ -112,19 +110,6 @@ def test_the_bit_errors_of_a_bench(is_as_stored: Compare) -> None:
     ]  # fmt: skip
     drawing = bench_drawing(request, points, 30.0)
     is_as_stored("bench", draw_in_style(drawing), *drawing.header, *drawing.rows())
-
-
-def test_what_films_carry(is_as_stored: Compare) -> None:
-    points = [
-        FilmPoint(frequency, gap, bits, 54, 40, int(40 * (1 - gap)) - bits % 7, 38, 0.9,
-                  bits * 10.0, None if gap > 0.5 else 1.5, gap < 0.5, None)
-        for frequency in (2e3, 5e3)
-        for bits in (10, 50)
-        for gap in (0.1, 0.4, 0.7)
-    ]  # fmt: skip
-    points.append(FilmPoint(9e3, 0.2, 10, 54, 0, 0, 0, 0.0, 0.0, None, False, "It is too fast."))
-    drawing = films_drawing(points)
-    is_as_stored("films", draw_in_style(drawing), *drawing.header, *drawing.rows())
 
 
 def table_of(axes: dict[str, tuple[float, ...]]) -> SweepTable:

@@ -35,7 +35,6 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "render": ("-o", "{out}.png"),
     "animate": ("--vary", "distance=0.5:1:x3", "-o", "{out}.gif"),
     "film": ("--frames", "3", "-o", "{out}.mkv"),
-    "film-study": ("--frequencies", "4kHz", "--gaps", "10", "--bits", "8", "--frames", "4"),
     "plan": (),
     "accuracy": (),
     "sweep": ("--vary", "distance=0.5,1", "--images", "1", "--out", "{out}.csv"),
@@ -58,16 +57,16 @@ _SCENELESS = ("bench", "figures", "codes", "presets", "parameters")
 _SMALL = ("--scene", "{in}.toml")
 
 OPTIONS = (
-    "--preset", "--scene", "--set", "--tolerance", "--observable", "--on", "--off", "--noise",
-    "--seed", "-o", "--out", "--vary", "--decoder", "--rate", "--back", "--frames", "--frame-rate",
+    "--preset", "--scene", "--set", "--tolerance", "--observable", "--on", "--off", "--seed",
+    "-o", "--out", "--vary", "--decoder", "--rate", "--back", "--frames", "--frame-rate",
     "--frame-jitter", "--camera-drift", "--transmitter-drift", "--exposures", "--waypoint",
-    "--frequencies", "--gaps", "--bits", "--example", "--images", "--fps", "--jobs", "--plot",
-    "--show", "--path", "--scheme", "--exposure", "--snr", "--at-exposure", "--at-snr", "--rows",
-    "--payload-bits", "--data", "--pictures", "--scan-axis", "--channel", "--follow",
-    "--readout-tolerance", "--led-frequency", "--sent", "--estimate", "--fit-gamma", "--region",
-    "--lamps", "--chips", "--photo-68us", "--photo-136us", "--board", "--markdown", "--picture",
-    "--rows-step", "--save-scene", "--help", "-h", "--version", "--pre", "--s", "--o", "--no-such",
-    "-x", "--", "-", "---", "--set=", "-oo", "--out=", "--photo", "--match", "--overlay", "--size",
+    "--bits", "--images", "--fps", "--jobs", "--plot", "--show", "--path", "--scheme",
+    "--exposure", "--snr", "--at-exposure", "--at-snr", "--rows", "--payload-bits",
+    "--pictures", "--scan-axis", "--channel", "--follow", "--readout-tolerance",
+    "--led-frequency", "--sent", "--estimate", "--fit-gamma", "--region", "--lamps", "--chips",
+    "--photo-68us", "--photo-136us", "--board", "--markdown", "--picture", "--rows-step",
+    "--save-scene", "--help", "-h", "--version", "--pre", "--s", "--o", "--no-such", "-x", "--",
+    "-", "---", "--set=", "-oo", "--out=", "--photo", "--match", "--overlay", "--size",
     "--screenshot", "--mode", "--dock", "--theme", "--fresh",
 )  # fmt: skip
 

@@ -5,17 +5,13 @@ from pathlib import Path
 
 from occ_model.commands.files import folder_of_figures
 from occ_model.commands.options import Commands, add_option, decoder_name, number, progress_bar
-from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decode import decoders
 from occ_model.results.bit_errors import FRAMES_A_SECOND, BenchPoint, BenchRequest
 from occ_model.study.bench.bench import (
-    DataSetReading,
     bench,
     bench_scene,
     check_bench,
-    load_pictures,
-    read_pictures,
 )
 from occ_model.study.bit_error_rate import check_frame_rate
 
@@ -30,9 +26,7 @@ _NUMBERS = {  # the option of each number of a request: flag, metavar and meanin
 
 
 def add_to(commands: Commands) -> None:
-    parser = commands.add_parser(
-        "bench", help="compare bit error rates against exposure and noise, or read a data set"
-    )
+    parser = commands.add_parser("bench", help="compare bit error rates against exposure and noise")
     defaults = _DEFAULT_REQUEST
     for flag, field, kind, metavar, meaning, default in (
         ("--scheme", "schemes", str, "LINE_CODE[/FRAMING]", "", defaults.schemes[0]),
@@ -50,10 +44,6 @@ def add_to(commands: Commands) -> None:
     add_option(parser, "--fps", FRAMES_A_SECOND, "pictures a second, one payload each")
     add_option(parser, "--seed", defaults.seed)
     parser.add_argument(
-        "--data", type=Path, metavar="CSV",
-        help="the table of a data set, whose pictures are read instead",
-    )  # fmt: skip
-    parser.add_argument(
         "--out", type=Path, metavar="FOLDER", help="write bench.csv, bench.pdf and bench.png there"
     )
     parser.set_defaults(command=_run, writes={"out": folder_of_figures("bench")})
@@ -62,8 +52,6 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     names = tuple(dict.fromkeys(options.decoders or decoders()))
     schemes = tuple(dict.fromkeys(options.schemes or _DEFAULT_REQUEST.schemes))
-    if options.data is not None:
-        return _read_data_set(options.data, names, schemes[0])
     request = BenchRequest(
         schemes,
         names,
@@ -104,30 +92,6 @@ def _table_lines(points: tuple[BenchPoint, ...], frames_a_second: float) -> list
     lines += [f"{decoder}: {note}" for decoder, note in notes.items() if note]
     lines += dict.fromkeys(filter(None, (point.errors.why_above_half for point in points)))
     return lines
-
-
-def _read_data_set(table: Path, names: tuple[str, ...], scheme: str) -> int:
-    pictures = load_pictures(table)
-    line_code = scheme.partition("/")[0]
-    with progress_bar(total=len(pictures), unit=" pictures", leave=False, delay=0.5) as bar:
-        readings = tuple(
-            read_pictures(pictures, names, line_code, lambda done, _all: bar.update(done - bar.n))
-        )
-    print("picture                      exposure  rows  decoder     chips  correlation  wrong")
-    for reading in readings:
-        print(_format_reading(reading))
-    return 0
-
-
-def _format_reading(reading: DataSetReading) -> str:
-    picture = reading.picture
-    correlation = "" if reading.correlation is None else f"{reading.correlation:.4f}"
-    wrong = "" if reading.wrong_chips is None else f"{reading.wrong_chips:.2g}"
-    return (
-        f"{one_line(picture.path.name)[-28:]:<28} {picture.exposure / picture.symbol:8.2f}  "
-        f"{picture.symbol / picture.sampling:4.1f}  {reading.decoder:<11} {reading.chips:5}  "
-        f"{correlation:>11}  {wrong or reading.failure or ''}"
-    )
 
 
 def _format_list(values: tuple[float, ...]) -> str:

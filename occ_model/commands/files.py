@@ -14,7 +14,6 @@ INPUTS = {  # options that name files to read, with the files' names in messages
     "more": "one of the photos",
     "files": "one of the files to open",
     "scene": "the file of --scene",
-    "data": "the file of --data",
     "photo": "the file of --photo",
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",

@@ -16,9 +16,8 @@ from occ_model.commands.options import (
     add_simulation_options,
     number,
     simulation_settings_of,
-    whole_number,
 )
-from occ_model.commands.sweep import add_work_options, add_worker_options, run_with_bar
+from occ_model.commands.sweep import add_work_options, run_with_bar
 from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
@@ -30,7 +29,6 @@ from occ_model.room.room import Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import change_scene
 from occ_model.scene.scene import TOLERANCE, SimulationSettings
-from occ_model.study.code_length import CodeLength, code_lengths
 from occ_model.study.room_map import (
     RoomMapRequest,
     RoomMapText,
@@ -76,23 +74,6 @@ def add_to(commands: Commands) -> None:
     _add_floor(floor, 5)
     add_work_options(floor)
     floor.set_defaults(command=_run_map, writes={"out": TABLE})
-    _add_codes(kinds)
-
-
-def _add_codes(kinds: Commands) -> None:
-    parser = kinds.add_parser(
-        "codes",
-        help="compare lengths of codes for many lamps: their distances, and what is read",
-    )
-    _add_room(parser, AXES[2:])
-    add_option(parser, "--lamps", 1024, "lamps with a code each, some of which are in the room")
-    parser.add_argument(
-        "--bits", type=whole_number, action="append", default=[],
-        help="a length of code; may be repeated; default: the shortest, and 2 and 4 bits more",
-    )  # fmt: skip
-    _add_floor(parser, 3)
-    add_worker_options(parser)
-    parser.set_defaults(command=_run_codes)
 
 
 def _add_floor(parser: argparse.ArgumentParser, side: int) -> None:
@@ -182,42 +163,6 @@ def _run_map(options: argparse.Namespace) -> int:
         f"{inflect(pictures, 'picture')}: {named} of {shown} whole lamps named, "
         f"{inflect(wrong, 'lamp')} named wrongly; {inflect(sure, 'place')} sure{median}"
     )
-    return 0
-
-
-def _run_codes(options: argparse.Namespace) -> int:
-    request = _request_of(options)
-
-    def run(executor: Executor | None, progress: Progress) -> tuple[CodeLength, ...]:
-        return code_lengths(
-            request, options.lamps, options.bits, executor=executor, jobs=options.jobs,
-            progress=progress,
-        )  # fmt: skip
-
-    lengths = run_with_bar(run, options)
-    if lengths is None:
-        return EXIT_INTERRUPTED
-    print("bits    codes  chips  columns  packets  distance     named  misread  named wrongly")
-    for length in lengths:
-        print(
-            f"{length.bits:4} {length.codes:8} {length.chips:6} {length.columns:8.0f} "
-            f"{length.packets:8.2f} {length.distance:9} {length.named:5}/{length.whole:<4} "
-            f"{length.misread:7} {length.expected_mix_ups(options.lamps):14.2g}"
-        )
-    gains = [length.named - length.expected_mix_ups(options.lamps) for length in lengths]
-    best = lengths[gains.index(max(gains))]
-    print(
-        f"Of these, {best.bits} bits serve {inflect(options.lamps, 'lamp')} best: {best.named} of "
-        f"{best.whole} whole lamps named correctly in these pictures."
-    )
-    equal_lengths = [
-        f"{length.bits}" for length, gain in zip(lengths, gains, strict=True) if gain == max(gains)
-    ]
-    if len(equal_lengths) > 1:
-        print(
-            f"{', '.join(equal_lengths[1:])} bits do as well; these pictures are too few to "
-            "distinguish them."
-        )
     return 0
 
 

@@ -4,7 +4,6 @@ import csv
 from pathlib import Path
 
 import pytest
-from model.study.bench.test_data_set import make_data_set
 
 from occ_model.cli import main
 
@@ -38,20 +37,3 @@ def test_a_decoder_that_reads_nothing_says_why(capsys: pytest.CaptureFixture[str
     *_, reason = capsys.readouterr().out.splitlines()
     assert reason.startswith("threshold: ")
     assert reason.endswith(".")
-
-
-def test_a_data_set_is_read_by_its_table(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    table = make_data_set(tmp_path, (2.0,))
-    name = "\x1b[31m0.png"  # which would colour the rest of a terminal
-    (tmp_path / "images" / "0.png").rename(tmp_path / "images" / name)
-    table.write_text(table.read_text("utf-8").replace("0.png", name), "utf-8")
-    assert main(["bench", "--data", str(table), "--decoder", "sequence"]) == 0
-    _, line = capsys.readouterr().out.splitlines()
-    picture, exposure, rows, decoder, chips, correlation, _ = line.split()
-    assert (picture, exposure, rows, decoder) == (
-        r"\x1b[31m0.png", "2.00", "5.0", "sequence",
-    )  # fmt: skip
-    assert int(chips) > 200
-    assert float(correlation) > 0.99

@@ -56,7 +56,6 @@ READING = {
     "match text.txt": "text.txt is not an image that can be read.",
     "match grey.png": "No stripes",
     "match black.png --lamps": "No lamp was found: no place is much brighter than the rest of the ",
-    "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
         f"decode p.png {kind} --readout-tolerance={percent}": (
             f"--readout-tolerance is '{percent}'; allowed: above 0 % up to 50 %, such as 1% or "
@@ -182,7 +181,7 @@ NAMED = (  # N stands for a name of 5,000 letters
     "match 0.png p.png --known N=1kHz", "match 0.png p.png --known 0.png=N",
     "match p.png --region N", "match 0.png p.png --out N.csv", "decode N", "sweep --vary N=1",
     "sweep --vary distance=1 --out N.csv", "film --waypoint 1s:N=1 -o f.mkv", "presets N",
-    "film --exposures N -o f.mkv", "bench --data N", "room render --room N", "room locate N",
+    "film --exposures N -o f.mkv", "room render --room N", "room locate N",
     "room render --room N.toml", "room render --room long.toml",
 )  # fmt: skip
 

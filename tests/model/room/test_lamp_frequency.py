@@ -13,7 +13,6 @@ from occ_model.effects.light_effects import ambient_fractions
 from occ_model.room.reading import ReadLamp
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import scene_with_lamp
-from occ_model.study.code_length import code_lengths
 from occ_model.study.room_map import RoomMapRequest, room_map
 
 
@@ -183,9 +182,7 @@ def test_no_lamp_of_a_random_room_has_a_wrong_name_or_error() -> None:
     assert 0.3 < np.sqrt(np.mean(np.square(deviations))) < 1.5
 
 
-def test_a_map_counts_lamps_named_by_frequency_and_compares_no_codes_of_them() -> None:
+def test_a_map_counts_lamps_named_by_frequency() -> None:
     request = RoomMapRequest(_room(_lamp(700.0), _lamp(500.0)), (0.6,), (0.0,))
     (point,) = room_map(request)
     assert (point.whole, point.named, point.misread, point.named_wrongly) == (2, 2, 0, 0)
-    with pytest.raises(occ.ParameterError, match=r"light is lamp; .*, map the room"):
-        code_lengths(request, 8)

@@ -1,4 +1,4 @@
-"""Tables: a sweep's results that are gone on with, data sets, and the table of many photos."""
+"""Tables: a sweep's results that are gone on with, and the table of many photos."""
 
 import csv
 from functools import cache
@@ -18,7 +18,6 @@ from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results.photo_table import csv_text
 from occ_model.results.sweep import csv_row
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
-from occ_model.study.bench.bench import COLUMNS, load_pictures, read_pictures
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.request_check import build_request
 from occ_model.study.sweep.sweep import run_sweep
@@ -87,28 +86,6 @@ def _resumed(chance: Random, folder: Path) -> list[str]:
     return []
 
 
-def _samples(chance: Random, folder: Path) -> list[str]:
-    (folder / "photo.png").write_bytes(damaged_photos.whole_files()["png"])
-    names = chance.sample(COLUMNS, len(COLUMNS))
-    cells = dict(zip(COLUMNS, ("photo.png", "1e-6", "20", "100", "400"), strict=True))
-    if chance.random() < 0.3:
-        cells[chance.choice(COLUMNS)] = chance.choice(
-            (hostile.number(chance), hostile.word(chance))
-        )
-    row = ",".join(cells[name] for name in names)
-    table = "\n".join([",".join(names), row, row.rpartition(",")[0], ""])
-    if chance.random() < 0.6:
-        table = hostile.damaged(chance, table)
-    path = folder / chance.choice(("table.csv", "ta\x1bble\n", "é" * 80))
-    path.write_bytes(hostile.encoded(chance, table))
-    samples = load_pictures(path)
-    failures = []
-    for reading in read_pictures(samples[:2], ("threshold",)):
-        assert 0.0 < reading.picture.symbol < np.inf
-        failures += [reading.failure] if reading.failure else []
-    return failures
-
-
 _PHOTO_NAMES = ("photo", "a,b", "a;b", "=1+1", "a\nb", "é", "#")
 
 
@@ -131,7 +108,7 @@ def _many_photos(chance: Random, folder: Path) -> list[str]:
 
 
 def _table(chance: Random, folder: Path) -> list[str]:
-    return chance.choice((_resumed, _resumed, _samples, _many_photos))(chance, folder)
+    return chance.choice((_resumed, _resumed, _many_photos))(chance, folder)
 
 
 TABLES = Door(

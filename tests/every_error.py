@@ -10,7 +10,6 @@ import pkgutil
 from importlib import import_module
 
 import occ_model
-from occ_model.commands.sweep import ClusterError
 from occ_model.errors import DecodeInputError, OccError
 from occ_model.parallel.job import Abandoned
 from occ_model.scene.parameter_kinds import Choice, Count, OpenChoice, Parameter, Payload, Quantity
@@ -27,7 +26,6 @@ NOT_IN_THE_WINDOW: dict[ErrorClass, str] = {
     MistakeError: "holds the key at fault until the lesson's reader names the line instead",
     DecodeInputError: "tells a caller in Python that an array is no picture; what the programs "
     "decode is their own picture, or a photo that was checked when it was read",
-    ClusterError: "the window measures on this computer alone",
 }
 
 

@@ -4,7 +4,6 @@ import argparse
 import math
 import sys
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from pathlib import Path
 
 import numpy as np
@@ -139,10 +138,8 @@ def _request_of(options: argparse.Namespace) -> RoomMapRequest:
 def _run_map(options: argparse.Namespace) -> int:
     request = _request_of(options)
 
-    def run(executor: Executor | None, progress: Progress) -> tuple[RoomPoint, ...]:
-        return room_map(
-            request, executor=executor, jobs=options.jobs, progress=progress, results=options.out
-        )
+    def run(progress: Progress) -> tuple[RoomPoint, ...]:
+        return room_map(request, jobs=options.jobs, progress=progress, results=options.out)
 
     points = run_with_bar(run, options)
     if points is None:

@@ -1,13 +1,10 @@
 """The command ``occ-model sweep``: measure the success rate against any parameters."""
 
 import argparse
-import asyncio
-import logging
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -24,7 +21,7 @@ from occ_model.commands.options import (
     scene_of,
 )
 from occ_model.commands.vary import SYNTAX, axes_of
-from occ_model.errors import OccError, ParameterError, inflect, one_line, quote
+from occ_model.errors import ParameterError, inflect, one_line
 from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
@@ -97,15 +94,9 @@ def add_to(commands: Commands) -> None:
     parser.set_defaults(command=_run, writes={"out": TABLE})
 
 
-def add_worker_options(parser: argparse.ArgumentParser) -> None:
-    work = parser.add_mutually_exclusive_group()
-    add_option(work, "--jobs", 1, "processes", metavar="N")
-    work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
-
-
 def add_work_options(parser: argparse.ArgumentParser) -> None:
     """Add the options for where a study runs, and where its results go."""
-    add_worker_options(parser)
+    add_option(parser, "--jobs", 1, "processes", metavar="N")
     parser.add_argument(
         "--out", type=Path, metavar="FILE.csv",
         help="file of results, point by point; if it has a part of them, only the rest is measured",
@@ -123,16 +114,14 @@ def _run(options: argparse.Namespace) -> int:
         options.path,
         options.fps,
     )
-    # All arguments are checked before a cluster is contacted or minutes of work begin.
+    # All arguments are checked before minutes of work begin.
     request = build_request(scene, axes, settings)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
     if options.plot:
         _check_plot(options.plot, len(axes))
 
-    def run(executor: Executor | None, progress: Progress) -> SweepTable:
-        return run_sweep(
-            request, executor=executor, jobs=options.jobs, progress=progress, results=options.out
-        )
+    def run(progress: Progress) -> SweepTable:
+        return run_sweep(request, jobs=options.jobs, progress=progress, results=options.out)
 
     table = run_with_bar(run, options)
     if table is None:
@@ -176,11 +165,8 @@ def _check_plot(path: Path, axes: int) -> None:
     check_replaceable(path)
 
 
-def run_with_bar(
-    run: Callable[[Executor | None, Progress], Study], options: argparse.Namespace
-) -> Study | None:
+def run_with_bar(run: Callable[[Progress], Study], options: argparse.Namespace) -> Study | None:
     """Run a study with a progress bar that shows the time left; None after Ctrl-C."""
-    workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
     progress_text = "before the first point"
     with ExitStack() as stack:
         bar: Any = None
@@ -194,15 +180,13 @@ def run_with_bar(
 
         try:
             stack.enter_context(_print_warnings_as_sentences())
-            return run(stack.enter_context(workers), progress)
+            return run(progress)
         except KeyboardInterrupt:
             pass
-    out = getattr(options, "out", "")
-    outcome = f"the results are in {one_line(str(out))}, and the same command continues from there."
-    if out == "":
-        outcome = "no results are kept."
-    elif not out:
-        outcome = "with --out FILE.csv the results would be kept."
+    outcome = "with --out FILE.csv the results would be kept."
+    if options.out:
+        out = one_line(str(options.out))
+        outcome = f"the results are in {out}, and the same command continues from there."
     print(f"occ-model: stopped {progress_text}; {outcome}", file=sys.stderr)
     return None
 
@@ -218,55 +202,3 @@ def _print_warnings_as_sentences() -> Iterator[None]:
         warnings.simplefilter("always", RuntimeWarning)
         warnings.showwarning = show
         yield
-
-
-SECONDS = 5  # timeout of a scheduler's answer
-
-
-class ClusterError(OccError):
-    """A cluster cannot be reached, or has no workers."""
-
-
-@contextmanager
-def cluster_executor(address: str) -> Iterator[Executor]:
-    """Return an executor on the dask cluster of a scheduler, such as ``tcp://10.0.0.5:8786``."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise ClusterError(
-            "A cluster needs the package distributed: pip install 'occ-explorer[cluster]'."
-        ) from None
-    # A failed connection is reported below in one sentence, instead of dask's log.
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    if not asyncio.run(_count_workers(address)):
-        raise ClusterError(
-            f"The cluster at {quote(address)} has no workers; start one with "
-            f"'dask worker {one_line(address)}'."
-        )
-    client: Any = Client(address, timeout=SECONDS, set_as_default=False)
-    try:
-        yield client.get_executor()
-    finally:
-        client.close(timeout=SECONDS)
-
-
-async def _count_workers(address: str) -> int:
-    """Ask a scheduler for its number of workers, since a client without one is slow to close."""
-    from distributed.core import rpc
-    from distributed.security import Security
-
-    try:
-        # As in the client, certificates for tls:// come from dask's configuration.
-        keys: Any = Security().get_connection_args("client")
-        async with asyncio.timeout(SECONDS):
-            async with rpc(address, connection_args=keys) as scheduler:
-                identity = await scheduler.identity()
-            return len(identity["workers"])
-    except TimeoutError:
-        reason = f"no answer within {SECONDS} s"
-    except Exception as error:  # noqa: BLE001 - anything may listen and answer there
-        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
-    raise ClusterError(
-        f"No dask scheduler answers at {quote(address)}: {one_line(reason)}. Allowed: the address "
-        "of one, such as tcp://127.0.0.1:8786."
-    )

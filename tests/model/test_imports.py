@@ -15,7 +15,7 @@ import pytest
 
 HEAVY = ("PySide6", "pyqtgraph", "superqt", "matplotlib", "scipy", "skimage", "PIL", "pandas")
 
-PROCESSES = {"concurrent.futures.process", "multiprocessing", "distributed", "tqdm"}
+PROCESSES = {"concurrent.futures.process", "multiprocessing", "tqdm"}
 """What only several processes need."""
 
 USE = f"""

@@ -216,7 +216,7 @@ def run_sweep(
     """Measure the points of a sweep's request.
 
     ``executor``: any executor of ``concurrent.futures`` whose workers can import this package, such
-    as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. If it breaks, this
+    as ``ProcessPoolExecutor(2)`` or a dask ``client.get_executor()``. If it breaks, this
     process finishes the sweep and issues a ``RuntimeWarning``. Without an executor, ``jobs``
     processes are started, at most one per point and a few per core, and replaced if they die. With
     one job, the sweep runs in this process; so it does, with a ``RuntimeWarning``, if the system

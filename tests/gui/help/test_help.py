@@ -83,13 +83,15 @@ def test_a_link_is_followed_to_its_heading_and_undone(manual: HelpWindow, qtbot:
 
 
 def test_a_web_page_is_opened_by_the_system_only(
-    qtbot: QtBot, manual: HelpWindow, system: SystemBrowser
+    qtbot: QtBot, tmp_path: Path, system: SystemBrowser
 ) -> None:
-    manual.show_page("limits.md")
-    web = "https://distributed.dask.org/en/stable/tls.html"
-    click(qtbot, manual.browser, "configuration", web)
+    web = "https://example.org/x.html"
+    (tmp_path / "page.md").write_text(f"Read [the standard]({web}).", encoding="utf-8")
+    browser = show_widget(qtbot, HelpBrowser())
+    browser.setSource(QUrl.fromLocalFile(str(tmp_path / "page.md")))
+    click(qtbot, browser, "standard", web)
     assert system.opened == [web]
-    assert manual.browser.source().fileName() == "limits.md"
+    assert browser.source().fileName() == "page.md"
 
 
 def test_only_files_on_this_computer_are_read(manual: HelpWindow) -> None:

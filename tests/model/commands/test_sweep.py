@@ -2,13 +2,11 @@
 
 import csv
 import signal
-import socket
 import subprocess
 import sys
 import time
 from argparse import Namespace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,7 +15,6 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands import sweep as cluster
 from occ_model.commands.sweep import decoders_of, run_with_bar
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
@@ -130,54 +127,6 @@ def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str])
     assert "# effects switched: jpeg off" in lines
 
 
-@pytest.mark.whole
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.MonkeyPatch) -> None:
-    def rpc(address: str, connection_args: object = None) -> None:
-        raise ConnectionError(f"{address} by {connection_args}")
-
-    monkeypatch.setattr("distributed.core.rpc", rpc)
-    monkeypatch.setattr(
-        "distributed.security.Security.get_connection_args", lambda _, role: f"keys of a {role}"
-    )
-    with (
-        pytest.raises(cluster.ClusterError, match="tls://there:1 by keys of a client"),
-        cluster.cluster_executor("tls://there:1"),
-    ):
-        pass
-
-
-@pytest.mark.whole  # importing dask takes two seconds
-def test_an_unreachable_cluster_gives_a_sentence_in_time(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(cluster, "SECONDS", 0.2)
-    with socket.create_server(("127.0.0.1", 0)) as silent:  # for which dask's client waits forever
-        for port in (9, silent.getsockname()[1]):
-            address = f"127.0.0.1:{port}"
-            assert main(["sweep", "--vary", "distance=1", "--cluster", f"tcp://{address}"]) == 2
-            stated = capsys.readouterr().err
-            assert f"{address}': no answer within 0.2 s. Allowed: " in stated
-
-
-def test_a_cluster_that_refuses_is_named_in_a_sentence(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(address: str, connection_args: object) -> None:
-        raise ConnectionError(f"{address} is closed to {connection_args}.")
-
-    keys = SimpleNamespace(get_connection_args=lambda role: f"a {role}")
-    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=None))
-    monkeypatch.setitem(sys.modules, "distributed.core", SimpleNamespace(rpc=refuse))
-    security = SimpleNamespace(Security=lambda: keys)
-    monkeypatch.setitem(sys.modules, "distributed.security", security)
-    assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://there:9"]) == 2
-    assert capsys.readouterr().err == (
-        "occ-model: No dask scheduler answers at 'tcp://there:9': tcp://there:9 is closed to a "
-        "client. Allowed: the address of one, such as tcp://127.0.0.1:8786.\n"
-    )
-
-
 def test_ctrl_c_keeps_the_results_and_says_how_to_continue(tmp_path: Path) -> None:
     out = tmp_path / "r.csv"
     program = "import sys; from occ_model.cli import main; sys.exit(main(sys.argv[1:]))"
@@ -214,13 +163,15 @@ def test_ctrl_c_keeps_the_results_and_says_how_to_continue(tmp_path: Path) -> No
 def test_a_stopped_study_says_how_far_it_came(
     done: int | None, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def run(_executor: object, progress: Progress) -> None:
+    def run(progress: Progress) -> None:
         if done is not None:
             progress(done, 27, 1.0)
         raise KeyboardInterrupt
 
-    assert run_with_bar(run, Namespace(cluster=None)) is None
-    assert capsys.readouterr().err.endswith(f"occ-model: {said}; no results are kept.\n")
+    assert run_with_bar(run, Namespace(out=None)) is None
+    assert capsys.readouterr().err.endswith(
+        f"occ-model: {said}; with --out FILE.csv the results would be kept.\n"
+    )
 
 
 def table_of(**axes: object) -> occ.SweepTable:

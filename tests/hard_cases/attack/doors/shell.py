@@ -70,8 +70,8 @@ OPTIONS = (
     "--screenshot", "--mode", "--dock", "--theme", "--fresh",
 )  # fmt: skip
 
-_KEPT = ("--jobs", "--images", "--cluster")
-"""Options whose valid values may start processes, networks or hours of work."""
+_KEPT = ("--jobs", "--images")
+"""Options whose valid values may start processes or hours of work."""
 
 
 def _value(chance: Random, folder: Path) -> str:

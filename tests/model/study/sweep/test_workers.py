@@ -7,8 +7,6 @@ import multiprocessing
 import multiprocessing.synchronize
 import os
 import signal
-import subprocess
-import sys
 import tempfile
 import weakref
 from collections.abc import Callable
@@ -73,50 +71,6 @@ def test_a_long_path_of_the_temporary_folder_does_not_prevent_workers(
         monkeypatch.setattr(tempfile, "tempdir", str(folder))
         method = process_context([]).get_start_method()
         assert method == ("spawn" if len(str(folder)) > 70 else "forkserver")
-
-
-DASK = """
-import os, signal, sys
-
-def main():
-    from distributed import Client, LocalCluster
-    import occ_model as occ
-
-    with (
-        LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None)
-        as cluster,
-        Client(cluster) as client,
-    ):
-        workers = list(client.run(os.getpid).values())
-
-        def kill_one(done, total, left):
-            if done and len(workers) == 2:
-                os.kill(workers.pop(), signal.SIGKILL)
-
-        for progress in (None, kill_one):
-            table = occ.sweep(
-                occ.load_preset("phone-136us"), AXES, 3, ("threshold", "matched"), 7,
-                executor=client.get_executor(), progress=progress,
-            )
-            sys.stdout.writelines(table.csv())
-        assert len(workers) == 1
-
-if __name__ == "__main__":
-    main()
-"""
-
-
-@pytest.mark.whole
-def test_a_cluster_gives_the_same_table_even_if_a_worker_dies(
-    tmp_path: Path, table: SweepTable
-) -> None:
-    # In a separate process, because its workers import the main program and it issues warnings.
-    program = tmp_path / "cluster.py"
-    program.write_text(DASK.replace("AXES", repr(AXES)))
-    done = subprocess.run(
-        [sys.executable, program], capture_output=True, text=True, timeout=90, check=True
-    )
-    assert done.stdout == 2 * "".join(table.csv())
 
 
 def test_when_a_given_executor_breaks_this_process_finishes(

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache
-from threading import get_ident
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from occ_model.errors import ParameterError, PluginError, one_line, quote
@@ -21,29 +20,6 @@ DECODERS = "occ_explorer.decoders"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")  # allowed names of plug-ins
 
 _Kind = TypeVar("_Kind")
-
-
-_running: dict[int, str] = {}  # the plug-in that each thread runs
-
-
-@contextmanager
-def at_work(who: str) -> Iterator[None]:
-    """Note that this thread runs a plug-in, to name the plug-in if it hangs."""
-    thread = get_ident()
-    previous = _running.get(thread)
-    _running[thread] = who
-    try:
-        yield
-    finally:
-        if previous is None:
-            del _running[thread]
-        else:
-            _running[thread] = previous
-
-
-def name_running_plugins() -> tuple[str, ...]:
-    """Name the plug-ins that threads of this process run, each as the start of a sentence."""
-    return tuple(dict.fromkeys(_running.copy().values()))
 
 
 @lru_cache(maxsize=8)
@@ -105,8 +81,7 @@ def call(
     An exception of either becomes a sentence, also one that would end the program. Ctrl-C passes.
     """
     try:
-        with at_work(who):
-            return check(function(*arguments))
+        return check(function(*arguments))
     except (ParameterError, PluginError):
         raise
     except (Exception, SystemExit) as error:  # noqa: BLE001 - a plug-in raises anything

@@ -14,7 +14,6 @@ from occ_gui.files.session import Session
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.outdated_marks import OutdatedMarks
 from occ_gui.window.docks import CurrentPane
-from occ_model.plugins import name_running_plugins
 from occ_model.scene.parameters import PARAMETERS
 
 
@@ -169,9 +168,6 @@ class Application(Parts):
     def _prepare_to_close(self) -> None:
         # First, because the next steps wait for work, and the user may kill the program.
         self.session.write()
-        for plugin in name_running_plugins():
-            self.messages.say(f"{plugin} has not finished yet; please wait.")
-            self.window.repaint()
         self.simulation.stop()  # the scene that is restored needs no picture
         self.lessons.end()
 

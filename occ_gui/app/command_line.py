@@ -28,7 +28,6 @@ from occ_model.commands.options import (
 )
 from occ_model.errors import one_line, quote
 from occ_model.files.writing import check_replaceable, write_whole
-from occ_model.plugins import name_running_plugins
 from occ_model.program import EXIT_MISUSE, run_program, say
 from occ_model.scene.from_text import DEFAULT_PRESET
 
@@ -168,9 +167,7 @@ def _run(options: argparse.Namespace) -> int:
     application.window.setWindowIcon(program_icon())
     if start_state.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.shell.pane("welcome").show_once()
-    code = qt.exec()
-    exit_despite_plugins(code, start_state.preferences)
-    return code
+    return qt.exec()
 
 
 def _open_photo(options: argparse.Namespace, application: "Application") -> None:
@@ -186,17 +183,6 @@ def _check_pane(name: str | None, application: "Application") -> None:
     if name is not None and name not in docks:
         application.stop()
         raise occ.OccError(f"--dock: there is no pane {quote(name)}; allowed: {', '.join(docks)}.")
-
-
-def exit_despite_plugins(code: int, preferences: "QSettings | None") -> None:
-    """End the process at once if a plug-in hangs, because a usual exit would wait for it."""
-    plugins = name_running_plugins()
-    if plugins:
-        for plugin in plugins:
-            say("occ-gui", f"{plugin} does not return: the window has ended without it.")
-        if preferences is not None:
-            preferences.sync()
-        os._exit(code)
 
 
 def _prepare(options: argparse.Namespace) -> None:

@@ -7,16 +7,8 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from PySide6.QtCore import QObject, Qt, QThread, QTimer, Signal, Slot
 
-from occ_model import plugins
 from occ_model.errors import OccError
 from occ_model.scene.refusal import sentence_with_label
-
-PATIENCE_MS = 2000  # total time that all threads wait for plug-ins when they end
-
-_POLL_MS = 50
-
-hanging_threads: list[QThread] = []
-"""Threads with a plug-in that hangs, kept because Qt aborts the process if one is deleted."""
 
 _log = logging.getLogger(__name__)
 
@@ -104,8 +96,6 @@ class Task(QObject, Generic[Request, Result]):
 
     _begun = Signal(object)
 
-    _plugin_wait_ms = 0  # of all tasks
-
     def __init__(
         self, work: Callable[[Request, TaskReporter], Result], name: str, impatient: bool = False
     ) -> None:
@@ -146,15 +136,11 @@ class Task(QObject, Generic[Request, Result]):
             self._current_run.abandon()
 
     def stop(self) -> None:
-        """End the thread after its running work; do not wait for a plug-in that hangs."""
+        """End the thread after its running work."""
         self._is_stopped = True
         self.cancel()
         self._thread.quit()
-        while not self._thread.wait(_POLL_MS):
-            Task._plugin_wait_ms += _POLL_MS if plugins.name_running_plugins() else 0
-            if Task._plugin_wait_ms >= PATIENCE_MS and plugins.name_running_plugins():
-                hanging_threads.append(self._thread)
-                return
+        self._thread.wait()
 
     def _begin(self) -> None:
         self._current_run, self._next_run = self._next_run, None

@@ -1,4 +1,4 @@
-"""Starts of the window: in every locale, interrupted at any moment, and with plug-ins that hang."""
+"""Starts of the window: in every locale, and interrupted at any moment."""
 
 import itertools
 import os
@@ -12,9 +12,6 @@ import pytest
 from _pytest.mark import ParameterSet
 from gui.starts import Starts
 from interruption import MOMENTS, interrupted
-
-from occ_gui.app import command_line
-from occ_model import plugins
 
 KINDS = ("window", "screenshot")
 
@@ -66,22 +63,6 @@ def test_the_help_is_shown_in_any_encoding(starts: Starts) -> None:
     scene = ("--preset", "--scene", "--set", "--photo", "--tolerance", "--on", "--off")
     for option in (*scene, "--screenshot", "--size", "--dock", "--match", "--overlay"):
         assert option in done.stdout
-
-
-def test_the_process_ends_without_a_plug_in_that_hangs_and_names_it(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    exits: list[int] = []
-    monkeypatch.setattr(os, "_exit", exits.append)
-    command_line.exit_despite_plugins(0, None)
-    assert exits == []
-    with plugins.at_work("The plug-in 'sleeper' of the package 'hanging'"):
-        command_line.exit_despite_plugins(0, None)
-    assert exits == [0]
-    assert capsys.readouterr().err == (
-        "occ-gui: The plug-in 'sleeper' of the package 'hanging' does not return: the window "
-        "has ended without it.\n"
-    )
 
 
 BEGIN = """

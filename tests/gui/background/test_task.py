@@ -12,9 +12,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.background import task as tasks
 from occ_gui.background.task import Task, TaskReporter
-from occ_model import plugins
 
 
 class Bench:
@@ -215,48 +213,3 @@ def test_work_waits_until_what_it_has_reported_is_painted(qtbot: QtBot) -> None:
         task.ask(None)
     task.stop()
     assert order == ["a part", "painted", "goes on"]
-
-
-Busy = tuple[Task[None, None], threading.Event, list[str]]
-
-
-@pytest.fixture
-def busy(qtbot: QtBot) -> Iterator[Busy]:
-    """Return a task whose work ends with an event, the event, and what was done."""
-    done: list[str] = []
-    begun, go_on = threading.Event(), threading.Event()
-
-    def work(_request: None, _report: TaskReporter) -> None:
-        with plugins.at_work("The plug-in"):
-            begun.set()
-            go_on.wait()
-        done.append("plug-in")
-
-    task: Task[None, None] = Task(work, "test of the plug-in")
-    task.ask(None)
-    assert begun.wait(PATIENCE_S)
-    yield task, go_on, done
-    go_on.set()
-    while tasks.hanging_threads:
-        tasks.hanging_threads.pop().wait()
-
-
-def test_a_plug_in_that_does_not_come_back_is_left_behind(
-    busy: Busy, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tasks, "PATIENCE_MS", 20)
-    task, _, done = busy
-    task.stop()
-    assert done == []
-    assert plugins.name_running_plugins() == ("The plug-in",)
-
-
-def test_a_plug_in_that_comes_back_in_time_is_waited_for(
-    busy: Busy, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tasks, "PATIENCE_MS", 1e9)
-    task, go_on, done = busy
-    threading.Timer(0.1, go_on.set).start()
-    task.stop()
-    assert done == ["plug-in"]
-    assert plugins.name_running_plugins() == ()

@@ -92,6 +92,7 @@ def render_room(
     seed: int = 1,
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,
+    noise: object = None,  # noqa: ARG001 - of former versions
 ) -> RoomFrame:
     """Simulate the picture that a room's camera takes.
 
@@ -100,7 +101,7 @@ def render_room(
 
     Parameters
     ----------
-    tolerance, seed, observable, force
+    tolerance, seed, observable, force, noise
         As for :func:`occ_model.render`; the tolerance holds for each lamp.
 
     Raises

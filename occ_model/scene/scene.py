@@ -3,7 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 from typing import Any, Literal, Self, TypeAlias
 
 from occ_model.errors import ParameterError, SceneFileError, one_line, quote
@@ -60,6 +60,8 @@ class SimulationSettings:
         The quantity to which the tolerance refers.
     force
         Effects that the user has switched on (True) or off (False).
+    noise
+        Ignored: noise is always drawn for every pixel.
     seed
         Seed of all random numbers.
     """
@@ -67,6 +69,7 @@ class SimulationSettings:
     tolerance: float = TOLERANCE.default
     observable: Observable = "image"
     force: Mapping[str, bool] = field(default_factory=dict)
+    noise: InitVar[object] = None
     seed: int = 1
 
     def check(self, effects: Sequence[str]) -> Self:

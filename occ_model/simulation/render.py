@@ -59,6 +59,7 @@ def render(
     seed: int = 1,
     observable: Observable = "image",
     force: Mapping[str, bool] | None = None,
+    noise: object = None,  # noqa: ARG001 - of former versions
     rows_step: int = 1,
 ) -> Frame:
     """Simulate the picture that the scene's camera takes.
@@ -73,6 +74,8 @@ def render(
     observable, force
         The quantity to which the tolerance refers, and effects that are switched on or off; see
         :func:`occ_model.plan`.
+    noise
+        Ignored: noise is always drawn for every pixel.
     rows_step
         From 2 on, the frame is a draft: it has only every ``rows_step``-th row of the picture,
         equal to that row. A file is made of the draft's rows as if they were a picture, and only

@@ -40,7 +40,7 @@ def everything_set() -> Workspace:
         frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
     )
     film = FilmChoice(HERE, "lines", recording=recording, frames=7)
-    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, 7)
+    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, seed=7)
     pin = PinnedScene(SimulationRequest(scene, settings, more_decoders=("sequence",)), "phone-68us")
     return Workspace(
         scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,

@@ -12,6 +12,7 @@ import pytest
 import occ_model as occ
 from occ_model.camera.exposure import lit_fraction, lit_fractions
 from occ_model.camera.projection import panel_corners
+from occ_model.commands.command_line import make_parser
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
 
@@ -114,6 +115,15 @@ def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:
     as_a_value = render_with(scene, settings)
     assert as_a_value.plan == one_by_one.plan
     np.testing.assert_array_equal(as_a_value.image, one_by_one.image)
+
+
+def test_a_source_of_noise_of_former_versions_is_ignored(scene: Scene) -> None:
+    former = SimulationSettings(0.5, "image", {}, "reused", 7)
+    assert former == SimulationSettings(seed=7)
+    frames = (render_with(scene, former), occ.render(scene, noise="reused", seed=7))
+    np.testing.assert_array_equal(frames[0].image, frames[1].image)
+    command = ["render", "--noise", "reused", "-o", "picture.png"]
+    assert make_parser("render").parse_args(command).command
 
 
 def test_a_planned_scene_is_not_planned_again(scene: Scene) -> None:

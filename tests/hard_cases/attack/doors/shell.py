@@ -57,7 +57,8 @@ _SCENELESS = ("bench", "figures", "codes", "presets", "parameters")
 _SMALL = ("--scene", "{in}.toml")
 
 OPTIONS = (
-    "--preset", "--scene", "--set", "--tolerance", "--observable", "--on", "--off", "--seed",
+    "--preset", "--scene", "--set", "--tolerance", "--observable", "--on", "--off", "--noise",
+    "--seed",
     "-o", "--out", "--vary", "--decoder", "--rate", "--back", "--frames", "--frame-rate",
     "--frame-jitter", "--camera-drift", "--transmitter-drift", "--exposures", "--waypoint",
     "--bits", "--images", "--fps", "--jobs", "--plot", "--show", "--path", "--scheme",

@@ -91,7 +91,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
     add_simulation_options(parser)
-    # Noise that is fast enough for sliders; a preset that is named replaces the last session.
+    # The default only marks that no preset was named; a named one replaces the last session.
     parser.set_defaults(preset=DefaultOption(DEFAULT_PRESET))
     parser.add_argument(
         "files", nargs="*", type=Path, metavar="FILE", help="open a scene (.toml) or photos"

@@ -14,7 +14,10 @@ _REACH = 0.4  # of a tile's width to which the deepest bar reaches
 
 
 class BarsPicture(QWidget):
-    """Shows a picture; in each tile across its lines a curve that goes right where it is bright."""
+    """Shows a picture, and the fitted brightness of each of its tiles as a curve along the tile.
+
+    The curve moves to the right where the tile is bright; for bars along columns, down.
+    """
 
     def __init__(self, name: str) -> None:
         super().__init__()

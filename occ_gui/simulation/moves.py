@@ -12,7 +12,7 @@ _KEPT = 9  # last moves that count
 
 @dataclass(frozen=True, slots=True)
 class MoveTime:
-    """What one move took: the picture, the draft before it, or both."""
+    """The time that one move took for its picture, for the draft before it, or for both."""
 
     size: tuple[int, int]  # rows and columns of the picture
     effects: frozenset[str]
@@ -21,7 +21,7 @@ class MoveTime:
 
     @classmethod
     def of(cls, frame: Frame, draft_seconds: float | None = None) -> "MoveTime":
-        """Return the time of a picture; with ``draft_seconds``, of the draft that it is."""
+        """Return the time of a whole picture, or of a draft, which took ``draft_seconds``."""
         camera, times = frame.scene.camera, TimeFractions.of(frame)
         size = camera.rows, camera.columns
         picture = times if draft_seconds is None else None

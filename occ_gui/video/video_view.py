@@ -75,7 +75,7 @@ class FilmBar(QWidget):
         buttons = fill(QHBoxLayout(), *left, None, self.read, margins=0)
         fill(QVBoxLayout(self), buttons, self.title, margins=0, spacing=4)
         self.show_film("", is_film=False, is_live=False)
-        self.show_reading(False)
+        self.show_state(is_reading=False, is_read=False)
 
     def show_film(self, title: str, *, is_film: bool, is_live: bool) -> None:
         """Show what is open: a film, a camera, or else the simulated film."""
@@ -91,11 +91,13 @@ class FilmBar(QWidget):
         self.lock.setVisible(is_live)
         self.read.setVisible(not is_live)
 
-    def show_reading(self, reading: bool, done: bool = False) -> None:
-        self.read.setText("Stop reading" if reading else "Read again" if done else "Read the film")
+    def show_state(self, *, is_reading: bool, is_read: bool) -> None:
+        """Let the button offer what comes next: to read the film, to stop, or to read it again."""
+        start = "Read again" if is_read else "Read the film"
+        self.read.setText("Stop reading" if is_reading else start)
         self.read.setToolTip(
             "Stop; what has been read so far stays."
-            if reading
+            if is_reading
             else "Find the packets in all frames, and measure the camera's clock."
         )
 
@@ -169,7 +171,7 @@ _LEAST_PAGE = QSize(240, 80)
 
 
 class DataView(QWidget):
-    """What was read in a line, the text, remarks, and the facts that unfold beside it."""
+    """What was read from a film: a sentence, the text, remarks, and a table of facts."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -276,7 +276,7 @@ class VideoWiring(Pane[FilmChoice]):
         readings = self.readings
         reading = readings.reading
         self.view.show_reading(reading, self._make_marks())
-        self.view.bar.show_reading(readings.is_running, readings.is_done)
+        self.view.bar.show_state(is_reading=readings.is_running, is_read=readings.is_done)
         if self.films.is_live:
             self.view.timeline.show_index(len(reading.times) - 1)
         elif self.films.film is not None and (readings.is_done or not self.films.count):

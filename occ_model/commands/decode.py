@@ -189,7 +189,7 @@ _MIN_RATE_PACKETS = 50  # fewest packets for which the rates of parts are report
 
 
 def read_film(options: argparse.Namespace, scene: Scene, tolerances: Tolerances) -> int:
-    """Read the film of a command line, of a colour camera in three colours; print the results."""
+    """Read the film that the options name, a colour camera's in three colours, and print all."""
     channel = "colours" if is_colour(scene) else film_channel(options.channel)
     video = load_video(options.file, options.scan_axis, channel=channel)
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:

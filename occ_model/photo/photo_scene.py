@@ -81,7 +81,7 @@ def fit_to_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
 
 
 def with_levels(scene: Scene, low: float, high: float) -> Scene:
-    """Let dark and lit columns have two grey levels."""
+    """Set the light of panel and surroundings so that dark and lit columns have these levels."""
     levels = np.array([max(low, 0.0), max(high, low, 0.0)])
     dark, bright = luminance_of(levels, scene.camera).tolist()
     scene = with_allowed(scene, luminance=bright - dark)

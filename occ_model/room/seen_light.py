@@ -116,10 +116,8 @@ def find_enhancement(
         edge_light = effect.apply(scene, edge_light)
     counts = np.bincount(pixels, minlength=256)
     best_curve, best_gain = None, 0.0
-    for variant in (
-        edge_light,
-        column_light,
-    ):  # a picture may be simulated without the lamp's edges
+    # A picture may be simulated without the lamp's edges.
+    for variant in (edge_light, column_light):
         values = panel_values(scene, variant)
         law = _law_of(scene, values)
         curve = enhancement_of(scene, _limit(values, scene), values, law).curve
@@ -132,7 +130,7 @@ def find_enhancement(
 
 
 def _law_of(scene: Scene, values: FloatArray) -> GreyLaw:
-    """Return the law of the grey levels of a scene's pixels, all of whose sensor noise is seen."""
+    """Return the law of the grey levels of a scene's pixels, with all of the sensor's noise."""
     law = law_of(scene, NAMES, values)
     assert law is not None  # noqa: S101 - all light has shot noise
     return law

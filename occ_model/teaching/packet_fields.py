@@ -63,11 +63,12 @@ def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ..
 
 
 def received_edges(result: DecodeResult) -> FloatArray | None:
-    """Return the columns at which received chips begin, and last the end of the last chip; or None.
+    """Return where each received chip begins and the last one ends, in columns; None if unknown.
 
-    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``, and a chip that is found
-    by its columns begins and ends with them. A decoder that finds chips by their light gives the
-    times at which they are sent, on an axis on which the exposure of column ``i`` begins at ``i``.
+    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``. The threshold decoder's
+    chips are runs of whole columns, so their edges lie between columns. Decoders that estimate the
+    light state instead when a chip is sent, and count time in columns, too: ``i`` is the time at
+    which the exposure of column ``i`` begins.
     """
     if result.chip_starts is None or result.region is None or not result.chips.size:
         return None

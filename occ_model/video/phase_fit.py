@@ -147,7 +147,7 @@ def _solve(
     jitter = 0.0
     for _ in range(8):
         weights = np.where(is_kept, 1.0 / (errors**2 + jitter**2), 0.0)
-        products = (design * scale**-1.0).T * weights @ (design / scale)
+        products = (design / scale).T * weights @ (design / scale)
         inverse = np.linalg.pinv(products, rcond=1e-13)
         coefficients = inverse @ ((design / scale).T @ (weights * unwrapped_phases)) / scale
         residuals = unwrapped_phases - design @ coefficients

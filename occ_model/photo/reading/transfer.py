@@ -38,10 +38,10 @@ def _is_linear_profile(profile: bytes) -> bool:
 
 
 def _is_straight(curve: bytes) -> bool:
-    if curve.startswith(b"para"):  # a power of this function type 0, with its exponent
+    if curve.startswith(b"para"):  # its function of type 0 is a power; linear if the exponent is 1
         return struct.unpack_from(">HxxL", curve, 8) == (0, 1 << 16)
     (count,) = struct.unpack_from(">L", curve, 8)
     if not curve.startswith(b"curv") or count > 1:
         return False
-    # Without a number it is the identity, with one a power.
+    # A curve of no numbers is the identity; a single number is the exponent of a power.
     return count == 0 or struct.unpack_from(">H", curve, 12) == (1 << 8,)

@@ -27,7 +27,7 @@ BANDS = 12
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Bands:
-    """What of a picture's rows does not depend on the light that is sent."""
+    """Bands of rows, as far as they do not depend on the light that is sent."""
 
     size: tuple[int, int]  # Rows and columns of the picture
     # The rectangle round the panel's image, all of whose rows the bands stand for; None if no panel
@@ -143,10 +143,10 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
 
 
 def _weights(panel: Pixels, outline: FloatArray, span: Region, columns: int, seen: slice) -> Pixels:
-    """Return the bands' weights: the part of a column's rows that each stands for.
+    """Return the bands' weights: the fraction of a column's rows that each stands for.
 
-    Of rows in which the panel ends within a band's part, those beside it are left to the
-    surroundings.
+    A band at the panel's edge stands only for rows inside the panel; the surroundings stand for
+    the rest of its part.
     """
     count = len(panel)
     ends = np.linspace(span.first_row, span.last_row, count + 1)

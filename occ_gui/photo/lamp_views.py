@@ -35,7 +35,7 @@ _HALF_SIDE = 1e6  # of the area for drawing, in pixels
 _HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be hit
 
 
-class LampForm(QWidget):
+class PartForm(QWidget):
     """Lets the user choose what is matched: the photo, a lamp, or a rectangle drawn by hand."""
 
     find_asked = Signal()

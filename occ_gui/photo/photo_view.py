@@ -6,7 +6,7 @@ from pathlib import Path
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
-from occ_gui.photo.lamp_views import LampForm
+from occ_gui.photo.lamp_views import PartForm
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
@@ -119,7 +119,7 @@ class PhotoView(QWidget):
         hidden_parent.hide()
         self.many = ManyPhotosView(hidden_parent)
         """The table of several photos; its own pane takes it over when it is made."""
-        self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), LampForm()
+        self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), PartForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.verdict = PhotoVerdictBar()
         """The verdict on the photo, which the window shows above the picture."""

@@ -37,7 +37,7 @@ class BoardTiming:
 
 
 @dataclass(frozen=True, slots=True)
-class LampTiming(BoardTiming):
+class LampBoardTiming(BoardTiming):
     """Timing of a lamp: divided cycles of its period, and of its lit part."""
 
     lit_count: int
@@ -79,7 +79,7 @@ def choose_lamp_timing(
     name: str,
     frequency: float,
     lit_time: Callable[[Fraction], Fraction],
-) -> LampTiming:
+) -> LampBoardTiming:
     """Choose the timer's setting with a lamp's nearest frequency, and then the nearest lit time.
 
     ``name`` is that of the frequency's parameter; ``lit_time`` returns the requested
@@ -103,7 +103,7 @@ def choose_lamp_timing(
             nearest = round(requested_lit_time * board.clock / prescaler)
             lit = min(max(nearest, timer.least_part), count - timer.least_part)
             timings.append(
-                LampTiming(board.clock, prescaler, count, requested, lit, requested_lit_time)
+                LampBoardTiming(board.clock, prescaler, count, requested, lit, requested_lit_time)
             )
     return min(
         timings,

@@ -15,7 +15,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.boards.board import TransmitterBoard
-from occ_model.boards.timing import BoardTiming, LampTiming, choose_lamp_timing, choose_timing
+from occ_model.boards.timing import BoardTiming, LampBoardTiming, choose_lamp_timing, choose_timing
 from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
@@ -91,7 +91,7 @@ class Transmission:
 class LampTransmission(Transmission):
     """One period of a lamp that a board blinks: lit, then dark."""
 
-    timing: LampTiming
+    timing: LampBoardTiming
 
     unit: ClassVar = "period"
     frequency: ClassVar = "frequency"

@@ -10,7 +10,7 @@ from occ_model.commands.options import is_stated, progress_bar, whole_number
 from occ_model.errors import ParameterError, inflect, one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
-from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
+from occ_model.photo.many.other_programs import format_lines, frame_readout_time
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.results.match import known_parameter, known_value
 from occ_model.results.match_sentence import estimate_text
@@ -62,7 +62,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
         return EXIT_INTERRUPTED
     is_assumed = table.rests_on_the_scene and not is_stated(table.known, options)
     known = assumption(*known_value(table.estimate, table.scene)) if is_assumed else ""
-    paste_lines = stated_lines(table, known)
+    paste_lines = format_lines(table, known)
     if options.out:
         write_whole(options.out, csv_text(table, paste_lines, known).encode("utf-8"))
     for line in [*_report_lines(table, known), *paste_lines]:

@@ -68,7 +68,7 @@ def convert_to_light(signal: FloatArray, scene: Scene) -> Light:
     clipped = (signal >= WHITE - 0.5) & (signal.max() <= WHITE)
     if not is_curve_known(scene):
         ranks = Ranks.of(signal)
-        light = ranks.to_light(_ordered_light(*_exposed(scene)))
+        light = ranks.to_light(_ordered_light(*_scheme_and_exposure(scene)))
         return Light(light, np.zeros_like(clipped), ranks)
     if model.enhancement == "stretch":
         clipped = np.zeros_like(clipped)  # the brightest column is white but not clipped
@@ -80,10 +80,10 @@ def convert_to_light(signal: FloatArray, scene: Scene) -> Light:
 
 def expected_light(scene: Scene) -> FloatArray:
     """Return the lit fractions of exposures of random data in time order, 16 per chip."""
-    return _expected_light(*_exposed(scene))
+    return _expected_light(*_scheme_and_exposure(scene))
 
 
-def _exposed(scene: Scene) -> tuple[Scheme | None, float]:
+def _scheme_and_exposure(scene: Scene) -> tuple[Scheme | None, float]:
     """Return the scheme, None of a pattern, and the exposure in chips."""
     transmitter = scene.transmitter
     exposure = scene.camera.exposure_time * transmitter.switching_frequency

@@ -52,7 +52,7 @@ def state_measurement(costs: MeasuredCosts) -> str:
 def state_saving(costs: MeasuredCosts, forecast: Forecast) -> str:
     """State what the plan leaves out and the time that this saves, or what could save time."""
     plan = forecast.plan
-    omitted = _omitted(plan)
+    omitted = _list_omitted(plan)
     if not omitted:
         return (
             f"{_capitalize(state_error(forecast))}. {_state_best_saving(costs, forecast)}".strip()
@@ -81,7 +81,7 @@ def state_error(forecast: Forecast) -> str:
     """State the error of all that is left out, and how it is known."""
     plan = forecast.plan
     if forecast.error is None:
-        is_off = any(d.forced for d in _omitted(plan))
+        is_off = any(d.forced for d in _list_omitted(plan))
         if is_off or plan.tolerance == math.inf:
             return "error not measured yet"
         return f"error about {format_levels(plan.left_out)} {plan.unit} (estimated)"
@@ -163,7 +163,7 @@ def _present(plan: Plan) -> frozenset[str]:
     return frozenset(d.effect for d in plan.decisions if d.estimate)
 
 
-def _omitted(plan: Plan) -> list[Decision]:
+def _list_omitted(plan: Plan) -> list[Decision]:
     return [d for d in plan.decisions if d.estimate and not d.included]
 
 

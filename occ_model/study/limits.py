@@ -106,7 +106,7 @@ _POLL_SECONDS = 0.1  # between two polls of other processes
 
 
 @dataclass(frozen=True, slots=True)
-class _Task:
+class _Search:
     """A search along a parameter for one decoder."""
 
     name: str  # of the parameter
@@ -135,10 +135,10 @@ class _SearchRunner:
         self._scene, self._rate, self._settings = scene, rate, settings
         self._heartbeat, self._progress = heartbeat, progress
         self._waiting = [
-            _Task(name, decoder) for decoder in settings.decoders for name in SEARCHED_PARAMETERS
+            _Search(name, decoder) for decoder in settings.decoders for name in SEARCHED_PARAMETERS
         ]
         self._decoders = list(settings.decoders)  # whose limits are not complete
-        self._ranges: dict[_Task, WorkingRange] = {}
+        self._ranges: dict[_Search, WorkingRange] = {}
         self._read = 0
         self._expected = len(self._waiting) * estimate_range_images(settings.images)
 
@@ -153,57 +153,57 @@ class _SearchRunner:
                     pools.append((ProcessPool(1, __name__), name))
                     stack.callback(pools[-1][0].close)
                 yield from self._run_in(pools)
-        while (task := self._take_next(SEARCHED_PARAMETERS[0])) is not None:
-            beat = partial(self._on_image, task.description)
-            self._ranges[task] = working_range(*self._arguments(task), beat)
+        while (search := self._take_next(SEARCHED_PARAMETERS[0])) is not None:
+            beat = partial(self._on_image, search.description)
+            self._ranges[search] = working_range(*self._arguments(search), beat)
             yield from self._take_found()
 
     def _run_in(self, pools: "Sequence[tuple[ProcessPool, str]]") -> Iterator[Limits]:
-        idle, running = list(pools), dict[Future[JobResult], tuple[_Task, Any]]()
+        idle, running = list(pools), dict[Future[JobResult], tuple[_Search, Any]]()
         try:
             while True:
-                while idle and (task := self._take_next(idle[0][1])) is not None:
+                while idle and (search := self._take_next(idle[0][1])) is not None:
                     pool = idle.pop(0)
-                    running[self._submit(pool[0], task)] = task, pool
+                    running[self._submit(pool[0], search)] = search, pool
                 if not running:
                     return
                 done, _ = wait(running, timeout=_POLL_SECONDS, return_when=FIRST_COMPLETED)
                 self._read = sum(pool.count_heartbeats(0) for pool, _ in pools)
                 self._report(next(iter(running.values()))[0].description)
                 for future in done:
-                    task, pool = running[future]
-                    self._ranges[task] = _unwrap_result(future.result())
+                    search, pool = running[future]
+                    self._ranges[search] = _unwrap_result(future.result())
                     del running[future]
                     idle.append(pool)
                 yield from self._take_found()
         finally:  # what lost processes have not done
-            self._waiting[:0] = [task for task, _ in running.values()]
+            self._waiting[:0] = [search for search, _ in running.values()]
 
-    def _arguments(self, task: _Task) -> tuple[Scene, str, float, RateSettings]:
-        settings = replace(self._settings, decoders=(task.decoder,))
-        return self._scene, task.name, self._rate, settings
+    def _arguments(self, search: _Search) -> tuple[Scene, str, float, RateSettings]:
+        settings = replace(self._settings, decoders=(search.decoder,))
+        return self._scene, search.name, self._rate, settings
 
-    def _submit(self, pool: "ProcessPool", task: _Task) -> "Future[JobResult]":
+    def _submit(self, pool: "ProcessPool", search: _Search) -> "Future[JobResult]":
         try:
-            return pool.submit(Job(working_range, self._arguments(task)), 0, 1)
+            return pool.submit(Job(working_range, self._arguments(search)), 0, 1)
         except Exception:
-            self._waiting.insert(0, task)
+            self._waiting.insert(0, search)
             raise
 
-    def _take_next(self, name: str) -> _Task | None:
-        """Take a task of the first decoder that has one, best along a parameter."""
+    def _take_next(self, name: str) -> _Search | None:
+        """Take a search of the first decoder that has one, best along a parameter."""
         if not self._waiting:
             return None
-        wanted = _Task(name, self._waiting[0].decoder)
+        wanted = _Search(name, self._waiting[0].decoder)
         return self._waiting.pop(self._waiting.index(wanted) if wanted in self._waiting else 0)
 
     def _take_found(self) -> Iterator[Limits]:
         settings = self._settings
         while self._decoders:
-            tasks = [_Task(name, self._decoders[0]) for name in SEARCHED_PARAMETERS]
-            if not self._ranges.keys() >= {*tasks}:
+            searches = [_Search(name, self._decoders[0]) for name in SEARCHED_PARAMETERS]
+            if not self._ranges.keys() >= {*searches}:
                 return
-            decoder, ranges = self._decoders.pop(0), (self._ranges[task] for task in tasks)
+            decoder, ranges = self._decoders.pop(0), (self._ranges[search] for search in searches)
             if not self._decoders:
                 self._progress(1.0, "")
             yield Limits(self._scene, decoder, self._rate, settings.images, settings.seed, *ranges)

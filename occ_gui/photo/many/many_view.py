@@ -18,7 +18,7 @@ from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, p
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import inflect
-from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
+from occ_model.photo.many.other_programs import format_lines, frame_readout_time, lines_to_paste
 from occ_model.photo.match_facts import LABELS
 from occ_model.results.match import known_parameter, known_value
 from occ_model.results.match_sentence import estimate_text
@@ -316,4 +316,4 @@ class ManyPhotosView(QWidget):
         if table is None:
             return ""
         condition = self._condition(table.estimate, table.scene)
-        return csv_text(table, stated_lines(table, condition), condition)
+        return csv_text(table, format_lines(table, condition), condition)

@@ -98,7 +98,7 @@ def note_on(lines: Mapping[str, str]) -> str:
     return DIRECTION_NOTE if "Gyroflow" in lines else ""
 
 
-def stated_lines(table: PhotoTable, condition: str) -> list[str]:
+def format_lines(table: PhotoTable, condition: str) -> list[str]:
     """Format a table's lines to paste, each after its program's name and the condition."""
     lines = lines_to_paste(table)
     texts = [f"{program}: {condition}{line}" for program, line in lines.items()]

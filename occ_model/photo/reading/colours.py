@@ -15,7 +15,7 @@ from occ_model.photo.reading.image_decoding import (
     DecodedPicture,
     take_channel,
 )
-from occ_model.photo.reading.load import in_grey_levels, turned_upright
+from occ_model.photo.reading.load import in_grey_levels, turn_upright
 from occ_model.photo.reading.raw import MOSAIC, WHITE_SAMPLE, is_raw, read_mosaic
 from occ_model.photo.reading.watched_file import Reporter
 from occ_model.scene.argument_checks import check_choice
@@ -67,5 +67,5 @@ def load_colours(path: str | Path, *, gamma: float, scan_axis: str = "auto") -> 
             return ColourPhoto(np.rint(table).astype(np.uint8)[light], pattern)
         decoded = DecodedPicture(open_picture(file, opened, MAX_PIXELS, DECODED_FRACTION))
         samples, _ = take_channel(decoded, None, report)
-    turned = turned_upright(samples, decoded.orientation, scan_axis == "lines")
+    turned = turn_upright(samples, decoded.orientation, scan_axis == "lines")
     return ColourPhoto(in_grey_levels(turned), "")

@@ -155,7 +155,7 @@ def load_photo(
                 lambda fraction: report(DECODED_FRACTION + (1.0 - DECODED_FRACTION) * fraction),
             )
             turned = _is_turned(samples, orientation, scan_axis)
-    samples = turned_upright(samples, orientation, turned)
+    samples = turn_upright(samples, orientation, turned)
     white = int(white_of(samples))
     return Photo(
         path=file,
@@ -189,7 +189,7 @@ def _is_turned(samples: Samples, orientation: int, scan_axis: str) -> bool:
     return scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, transposed))
 
 
-def turned_upright(samples: Samples, orientation: int, turned: bool) -> Samples:
+def turn_upright(samples: Samples, orientation: int, turned: bool) -> Samples:
     """Turn samples upright, and then make the scan axis the columns."""
     transpose, mirror_rows, mirror_columns = turns_of(orientation)
     if turned:

@@ -165,7 +165,7 @@ def _find_best_code(
     correlations = np.where(has_swing, correlations, 0.0)
     second, best = np.argsort(correlations)[-2:].tolist()
     r1, r2 = float(correlations[best]), float(correlations[second])
-    confidence = 1.0 - _unexplained(r1) / _unexplained(r2)
+    confidence = 1.0 - _unexplained_variance(r1) / _unexplained_variance(r2)
     code = int(candidates[best])
     result = replace(
         result, correlation=r1, confidence=confidence, folded=signals[best], model=models[best]
@@ -251,7 +251,7 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(np.clip(fractions, 0.0, 1.0)))
 
 
-def _unexplained(correlation: float) -> float:
+def _unexplained_variance(correlation: float) -> float:
     """Return the fraction of the signal's variance that a code leaves unexplained."""
     return max(1.0 - correlation**2, _NEGLIGIBLE_UNEXPLAINED)
 

@@ -45,7 +45,7 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
     raise ParameterError(f"There is no parameter {quote(name)}; {hint}")
 
 
-def _declared_as(name: str, kind: type[_Kind]) -> _Kind:
+def _declaration_of_kind(name: str, kind: type[_Kind]) -> _Kind:
     """Return a declaration; TypeError if it is of another kind."""
     declared = PARAMETERS[name]
     if not isinstance(declared, kind):
@@ -54,16 +54,16 @@ def _declared_as(name: str, kind: type[_Kind]) -> _Kind:
 
 
 def count(name: str) -> Count:
-    return _declared_as(name, Count)
+    return _declaration_of_kind(name, Count)
 
 
 def quantity(name: str) -> Quantity:
-    return _declared_as(name, Quantity)
+    return _declaration_of_kind(name, Quantity)
 
 
 def open_choice(name: str) -> OpenChoice:
-    return _declared_as(name, OpenChoice)
+    return _declaration_of_kind(name, OpenChoice)
 
 
 def payload_parameter() -> Payload:
-    return _declared_as("payload", Payload)
+    return _declaration_of_kind("payload", Payload)

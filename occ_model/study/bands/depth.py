@@ -119,7 +119,7 @@ def light_depth(scene: Scene) -> Depth:
     if isinstance(light, Cosine):
         amplitude = float(abs(_phasors(scene, light) @ [lamp, flicker]))
         return Depth(2.0 * amplitude, amplitude / math.sqrt(2.0))
-    exposed, units = _exposed(scene, light)
+    exposed, units = _light_of_exposure(scene, light)
     low, high = exposed.extremes
     lamp /= units
     flicker *= depth_in_exposure(scene)
@@ -137,7 +137,7 @@ def _phasors(scene: Scene, light: Cosine) -> NDArray[np.complex128]:
     return np.array([swing * light.response(edge) * delay, complex(swing)])
 
 
-def _exposed(scene: Scene, light: PiecewiseLight) -> tuple[ExposedLight, float]:
+def _light_of_exposure(scene: Scene, light: PiecewiseLight) -> tuple[ExposedLight, float]:
     """Return the light of the scene's exposure, and the exposure in the waveform's units."""
     units = Fraction(scene.camera.exposure_time) * light.rate
     edge = Fraction(scene.transmitter.edge_time) * light.rate
@@ -152,7 +152,7 @@ def _extremes(scene: Scene) -> FloatArray:
         total = phasors @ np.array(light_fractions(scene))
         in_phase = (phasors * np.conj(total)).real / (abs(total) or 1.0)
         return panel_values(scene, ColumnLight(*(1.0 + part * ends for part in in_phase)))
-    exposed, units = _exposed(scene, light)
+    exposed, units = _light_of_exposure(scene, light)
     lit = light.mean + np.array(exposed.extremes) / units
     ambient = 1.0 + depth_in_exposure(scene) * ends
     return panel_values(scene, ColumnLight(np.clip(lit, 0.0, 1.0), ambient))

@@ -87,7 +87,7 @@ def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observa
     return profile, signal, observation
 
 
-def _alike(images: Sequence[Image]) -> Iterator[tuple[Sequence[int], "_Pictures"]]:
+def _alike(images: Sequence[Image]) -> Iterator[tuple[Sequence[int], "_Batch"]]:
     """Group images by what does not depend on the light; yield their numbers, too."""
     keys: dict[int, Scene] = {}  # of scenes, most of which have many images
     groups: dict[tuple[Scene, frozenset[str]], list[int]] = {}
@@ -103,10 +103,10 @@ def _alike(images: Sequence[Image]) -> Iterator[tuple[Sequence[int], "_Pictures"
         count = min(max(_MOST_VALUES // size, 1), _MOST_IMAGES)
         for start in range(0, len(numbers), count):
             part = numbers[start : start + count]
-            yield part, _Pictures([images[number] for number in part], bands)
+            yield part, _Batch([images[number] for number in part], bands)
 
 
-class _Pictures:
+class _Batch:
     """Some pictures of scenes that differ only in light."""
 
     def __init__(self, images: Sequence[Image], bands: Bands) -> None:

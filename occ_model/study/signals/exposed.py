@@ -16,7 +16,12 @@ from occ_model.camera.photometry import ColumnLight, panel_values, surroundings_
 from occ_model.effects.effect import LightEffect
 from occ_model.effects.registry import effects_named
 from occ_model.scene.scene import Scene
-from occ_model.study.signals.grey_tables import GreyTable, split, table_of_law, table_without_noise
+from occ_model.study.signals.grey_tables import (
+    GreyDistribution,
+    split,
+    table_of_law,
+    table_without_noise,
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -97,7 +102,7 @@ def columns_of(places: Places, columns: IndexArray) -> Places:
     return places[0][..., columns], places[1][..., columns]
 
 
-def weights_of_levels(places: Places, weights: Pixels, table: GreyTable) -> FloatArray:
+def weights_of_levels(places: Places, weights: Pixels, table: GreyDistribution) -> FloatArray:
     """Return the sums of weights at each level of a table, for each picture: (images, levels)."""
     below, fraction = places
     count, levels = len(below), len(table.below)

@@ -40,7 +40,7 @@ def product(left: FloatArray, right: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class GreyTable:
+class GreyDistribution:
     """The probability of grey levels at each level of a pixel's mean value."""
 
     greys: IndexArray  # Shape (greys,): the grey levels that pixels can have
@@ -77,19 +77,19 @@ class GreyTable:
         return fractions
 
 
-def table_of_law(law: GreyLaw) -> GreyTable:
-    return GreyTable(law.greys, law.below)
+def table_of_law(law: GreyLaw) -> GreyDistribution:
+    return GreyDistribution(law.greys, law.below)
 
 
 @lru_cache(maxsize=1)
-def table_without_noise() -> GreyTable:
+def table_without_noise() -> GreyDistribution:
     """Return the table of pixels that all have their rounded mean value, at levels of one grey."""
     greys = np.arange(GREYS)
-    return GreyTable(greys, (greys[:, None] <= greys[:-1]).astype(np.float64))
+    return GreyDistribution(greys, (greys[:, None] <= greys[:-1]).astype(np.float64))
 
 
 @lru_cache(maxsize=8)
-def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyTable:
+def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyDistribution:
     """Return the table of pixels that are read from a file, by their mean after it.
 
     Of a pixel's deviation from its mean a fraction remains: the mean, over the coefficients, of how
@@ -99,7 +99,9 @@ def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyTable:
     means = np.arange(_FILE_LEVELS) / _PER_GREY
     if law is None:
         rounded = np.rint(means)[:, None]
-        return GreyTable(np.arange(GREYS), (rounded <= np.arange(GREYS - 1)).astype(np.float64))
+        return GreyDistribution(
+            np.arange(GREYS), (rounded <= np.arange(GREYS - 1)).astype(np.float64)
+        )
     rising = np.maximum.accumulate(law.means)
     levels = np.interp(means, rising, np.arange(len(rising)))
     noise = np.interp(levels, np.arange(len(rising)), law.deviations)
@@ -111,7 +113,7 @@ def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyTable:
     kept = (weights * density_at_boundaries(relative)).mean(axis=(1, 2))
     variance = (weights * square_of_rounded_noise(relative) * step**2).mean(axis=(1, 2))
     rest = np.sqrt(np.maximum(variance - (kept * noise) ** 2, 0.0))
-    return GreyTable(np.arange(GREYS), _spread(law, levels, means, kept, rest))
+    return GreyDistribution(np.arange(GREYS), _spread(law, levels, means, kept, rest))
 
 
 def moved_after_file(law: GreyLaw, moved: FloatArray) -> FloatArray:

@@ -23,7 +23,7 @@ from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import ResultsStore
 from occ_gui.values.choices import LoadOptions, MatchChoice
 from occ_model.photo.many import match_photos
-from occ_model.photo.many.other_programs import stated_lines
+from occ_model.photo.many.other_programs import format_lines
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results.match import Match
@@ -180,7 +180,7 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
     view.show_table(table())
     said = collect(view.copied)
     for condition in ("if f = 10 kHz: ", ""):
-        paste = stated_lines(table(), condition)
+        paste = format_lines(table(), condition)
         assert [line.split(":")[0] for line in paste[:2]] == ["OpenDroneMap", "Gyroflow"]
         assert paste[0].startswith(f"OpenDroneMap: {condition}")
         qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)

@@ -50,10 +50,12 @@ from .results.bands import (
 from .results.bars_answer import BarsAnswer as BarsAnswer, UnlitRows as UnlitRows
 from .results.bit_errors import BitErrors as BitErrors, MostBits as MostBits
 from .results.camera import CameraMeasurement as CameraMeasurement
+from .results.clock import Clock as Clock
 from .results.colour import (
     ColourFrame as ColourFrame,
     ColourReading as ColourReading,
 )
+from .results.comparison import Comparison as Comparison
 from .results.decoding import (
     DecodeResult as DecodeResult,
     Region as Region,
@@ -69,7 +71,6 @@ from .results.limits import Limits as Limits
 from .results.match import (
     Alternative as Alternative,
     ChipReading as ChipReading,
-    Comparison as Comparison,
     Match as Match,
     Stripes as Stripes,
 )
@@ -81,7 +82,6 @@ from .results.video import (
     VideoFrame as VideoFrame,
 )
 from .results.video_reading import (
-    Clock as Clock,
     FilmProgress as FilmProgress,
     FrameReading as FrameReading,
     VideoReading as VideoReading,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.results.video_reading import ClockSolution, MeasuredValue
+from occ_model.results.clock import ClockSolution, MeasuredValue
 from occ_model.video.film_clock import FilmClock, FilmPhases
 from occ_model.video.frame_times import fit_frame_times
 from occ_model.video.known_timing import CRYSTAL_TOLERANCE, KnownTiming

@@ -8,7 +8,7 @@ from math import ceil, floor
 import numpy as np
 
 import occ_model as occ
-from occ_model.results.video_reading import MeasuredValue
+from occ_model.results.clock import MeasuredValue
 from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.recording import Recording, Waypoint
 from occ_model.study.observation import panel_span

@@ -18,8 +18,9 @@ from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
+from occ_model.results.comparison import Comparison
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Comparison, known_value
+from occ_model.results.match import ChipReading, known_value
 from occ_model.scene.scene import Scene
 
 PartOfPhoto = tuple[Photo, Part]

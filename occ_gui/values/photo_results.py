@@ -10,8 +10,9 @@ from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:  # a window without a photo starts without them
     from occ_model.photo.reading.load import Photo
+    from occ_model.results.comparison import Comparison
     from occ_model.results.lamp import Lamp
-    from occ_model.results.match import Comparison, Match, Stripes
+    from occ_model.results.match import Match, Stripes
     from occ_model.results.photo_table import PhotoRow
 
 

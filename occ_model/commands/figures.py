@@ -17,7 +17,8 @@ from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS, SweepRequest
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.units import HERTZ
 from occ_model.study.paper_grid import DEVICES, IMAGES, find_detection_limit, grid_request
-from occ_model.study.sweep.sweep import Progress, run_sweep
+from occ_model.study.sweep.measure import Progress
+from occ_model.study.sweep.sweep import run_sweep
 
 
 def add_to(commands: Commands) -> None:

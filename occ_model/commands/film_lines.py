@@ -5,8 +5,9 @@ import sys
 from typing import TypedDict
 
 from occ_model.errors import ParameterError, quote
+from occ_model.results.clock import Clock
 from occ_model.results.video import Video
-from occ_model.results.video_reading import Clock, VideoReading
+from occ_model.results.video_reading import VideoReading
 from occ_model.scene.units import Unit
 from occ_model.video.known_timing import CRYSTAL_TOLERANCE, MOST_TOLERANCE, READOUT_TOLERANCE
 

@@ -12,7 +12,7 @@ from occ_model.commands.film_lines import (
 from occ_model.commands.options import progress_bar
 from occ_model.errors import ParameterError
 from occ_model.program import EXIT_FAILURE
-from occ_model.results.video_reading import Clock
+from occ_model.results.clock import Clock
 from occ_model.scene.scene import Scene
 from occ_model.study.reading_facts import clock_facts
 from occ_model.video.decode_film import decode_video

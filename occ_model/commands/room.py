@@ -35,7 +35,7 @@ from occ_model.study.room_map import (
     places_under,
     room_map,
 )
-from occ_model.study.sweep.sweep import Progress
+from occ_model.study.sweep.measure import Progress
 
 _FOCAL_LENGTH = "equivalent_focal_length"
 

@@ -36,8 +36,9 @@ from occ_model.results.sweep_request import (
 )
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.scene import TOLERANCE
+from occ_model.study.sweep.measure import Progress
 from occ_model.study.sweep.request_check import build_request
-from occ_model.study.sweep.sweep import Progress, run_sweep
+from occ_model.study.sweep.sweep import run_sweep
 
 BOTH, ALL = "both", "all"
 

@@ -13,9 +13,9 @@ from matplotlib.patches import Rectangle
 from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, THRESHOLD, Drawing
+from occ_model.results.comparison import Comparison
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.frame import PICTURES, Frame
-from occ_model.results.match import Comparison
 from occ_model.scene.light_words import blinking_lamp, describe_light
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene

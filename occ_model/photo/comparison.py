@@ -8,7 +8,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError, ParameterError, inflect
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of, weighted_correlation
-from occ_model.results.match import Comparison
+from occ_model.results.comparison import Comparison
 
 _LEAST_DEVIATION = 1e-9  # standard deviation below which a profile is constant except for rounding
 

@@ -1,7 +1,8 @@
 """What was read from a film, in one line."""
 
 from occ_model.errors import one_line
-from occ_model.results.video_reading import Clock, FilmProgress, VideoReading
+from occ_model.results.clock import Clock
+from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
 
 _LONGEST_TEXT = 40  # characters of a payload in a sentence

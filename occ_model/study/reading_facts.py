@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterator
 
+from occ_model.results.clock import Clock
 from occ_model.results.fact import Fact
-from occ_model.results.video_reading import Clock, FilmProgress, VideoReading
+from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.confidence import wilson_interval
 

@@ -21,7 +21,7 @@ from occ_model.room.room import Room
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import TOLERANCE
-from occ_model.study.sweep.sweep import Progress, measure_study
+from occ_model.study.sweep.measure import Progress, measure_study
 from occ_model.study.sweep.workers import StudyWork
 from occ_model.version import __version__
 

@@ -6,7 +6,7 @@ A rise of the light is seen to a frame period: its time is rounded to that.
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.results.video_reading import MeasuredValue
+from occ_model.results.clock import MeasuredValue
 from occ_model.video.frame_period import fit_line, fit_rounded_period
 
 _MIN_RISES = 4

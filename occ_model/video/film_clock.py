@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.results.video_reading import Clock, ClockSolution, MeasuredValue
+from occ_model.results.clock import Clock, ClockSolution, MeasuredValue
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.video.clock import fit_clock, is_as_good
 from occ_model.video.frame_times import FrameTimes, Part

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from occ_model.arrays import FloatArray
-from occ_model.results.video_reading import MeasuredValue
+from occ_model.results.clock import MeasuredValue
 
 _SCATTERS = (1 / 32, 1 / 8, 1 / 4, 1 / 2)  # scatters tried, in steps of rounding
 _MAX_ROUNDED_SCATTER = 0.6  # scatter in steps from which rounding only adds to it

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
-from occ_model.results.video_reading import MeasuredValue
+from occ_model.results.clock import MeasuredValue
 from occ_model.scene.units import SECOND
 from occ_model.video.frame_period import fit_line, fit_rounded_period
 

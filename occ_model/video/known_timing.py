@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from occ_model.errors import ParameterError, quote
-from occ_model.results.video_reading import MeasuredValue
+from occ_model.results.clock import MeasuredValue
 from occ_model.scene.argument_checks import is_number
 from occ_model.scene.light_words import CYCLIC_LIGHTS, cycle_frequency
 from occ_model.scene.scene import Scene

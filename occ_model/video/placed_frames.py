@@ -11,7 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.results.video_reading import Clock, FrameReading
+from occ_model.results.clock import Clock
+from occ_model.results.video_reading import FrameReading
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.video.film_clock import FilmClock, FilmFit, FilmPhases, describe_clock
 from occ_model.video.frame_times import FrameTimes, Part, fit_frame_times

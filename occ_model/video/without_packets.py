@@ -11,8 +11,8 @@ from occ_model.errors import inflect
 from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_fraction
 from occ_model.receiver.signal import column_means
+from occ_model.results.clock import Clock
 from occ_model.results.decoding import Region
-from occ_model.results.video_reading import Clock
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.video.blinking import fit_blinking
 from occ_model.video.film_clock import FilmPhases, clock_of_lamp, describe_clock

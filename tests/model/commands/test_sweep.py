@@ -20,7 +20,7 @@ from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
 from occ_model.figures.sweep import write_sweep_figure
 from occ_model.receiver.decode import DECODERS
-from occ_model.study.sweep.sweep import Progress
+from occ_model.study.sweep.measure import Progress
 
 VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.8m,120cm")
 

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.figures.drawing import Drawing
 from occ_model.figures.window_panes import Difference, PhotoLayer, picture_drawing, profile_drawing
-from occ_model.results.match import Comparison
+from occ_model.results.comparison import Comparison
 
 SCENE = occ.load_preset("phone-68us").replace(rows=300, columns=400, panel_height=0.01)
 FRAME = occ.render(SCENE, tolerance=np.inf)

@@ -5,15 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from occ_model.results.clock import Clock, MeasuredValue
 from occ_model.results.film_sentence import describe_film
 from occ_model.results.sent_packets import SentPackets
-from occ_model.results.video_reading import (
-    Clock,
-    FilmProgress,
-    FrameReading,
-    MeasuredValue,
-    VideoReading,
-)
+from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 
 
 def value(number: float, error: float = 0.01) -> MeasuredValue:

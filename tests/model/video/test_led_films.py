@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
-from occ_model.results.video_reading import Clock
+from occ_model.results.clock import Clock
 
 FOLDER = Path(__file__).parent / "films"
 ENDINGS = ("mkv", "mp4", "avi")

@@ -145,7 +145,7 @@ def test_an_exception_from_progress_ends_the_sweep_and_pending_work(
 def test_a_slow_point_reports_progress_from_image_to_image(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.study.sweep import sweep as module
+    from occ_model.study.sweep import measure as module
 
     monkeypatch.setattr(module, "REPORT_PERIOD", 0.0)
     told: list[int] = []

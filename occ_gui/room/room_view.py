@@ -71,15 +71,7 @@ class RoomView(QWidget):
         self.close_photo = push_button(
             "&Close the photo", "Show what the camera of the plan sees.", self.photo_closed
         )
-        self.focal_length = QDoubleSpinBox()
-        limits = quantity("equivalent_focal_length")
-        self.focal_length.setRange(1e3 * limits.low, 1e3 * limits.high)
-        self.focal_length.setDecimals(2)
-        self.focal_length.setPrefix("Focal length: ")
-        self.focal_length.setSuffix(" mm equivalent")
-        self.focal_length.setKeyboardTracking(False)
-        self.focal_length.setAccessibleName("Equivalent focal length of the photo")
-        self.focal_length.setToolTip("That of the photo's lens; a value entered counts as exact.")
+        self.focal_length = _make_focal_length_field()
         self.focal_length.valueChanged.connect(lambda mm: self.focal_length_entered.emit(1e-3 * mm))
         self.height_field = name_widget(
             QuantityEdit(replace(HEIGHT, name="height")), _HEIGHT, "The height above the floor, z."
@@ -148,6 +140,18 @@ class RoomView(QWidget):
     def show_map(self, floor_map: FloorMap | None) -> None:
         self.plan.show_map(floor_map)
         self.floor.setText(_describe_map(floor_map) if floor_map else "")
+
+
+def _make_focal_length_field() -> QDoubleSpinBox:
+    field, limits = QDoubleSpinBox(), quantity("equivalent_focal_length")
+    field.setRange(1e3 * limits.low, 1e3 * limits.high)
+    field.setDecimals(2)
+    field.setPrefix("Focal length: ")
+    field.setSuffix(" mm equivalent")
+    field.setKeyboardTracking(False)
+    field.setAccessibleName("Equivalent focal length of the photo")
+    field.setToolTip("That of the photo's lens; a value entered counts as exact.")
+    return field
 
 
 def _make_headline(reading: RoomReading) -> str:

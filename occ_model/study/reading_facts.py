@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from occ_model.results.clock import Clock
+from occ_model.results.clock import Clock, MeasuredValue
 from occ_model.results.fact import Fact
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.units import HERTZ, SECOND, Unit
@@ -86,44 +86,21 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
 
 def clock_facts(clock: Clock) -> Iterator[Fact]:
     """List what a film reveals about the clocks of the camera and of the transmitter."""
-    doubts = {
-        name: "" if clock.is_sure_of(name) else ", not sure"
-        for name in ("switching_frequency", "readout_time", "gap", "frame_period")
-    }
-    lamp, drift = clock.lamp_frequency, clock.lamp_drift or clock.drift
-    name = "lamp frequency" if lamp else "switching frequency"
-    spacing = clock.spacing
-    if spacing is not None and spacing > _MOST_SPACING * clock.switching_frequency.value:
-        spacing = None
-    if spacing is not None and lamp:
-        spacing /= clock.chips_of_cycle
-    for key, label, unit, measured, suffix, note, meaning in (
+    yield _frequency_fact(clock)
+    slow_motion = f"slow motion of 1/{clock.slow_motion}" if clock.slow_motion > 1 else ""
+    for key, label, note, meaning in (
+        ("readout_time", "Readout time", "", "Time from one column to the next."),
         (
-            "frequency", "Lamp frequency" if lamp else "Frequency", HERTZ,
-            lamp or clock.switching_frequency, doubts["switching_frequency"],
-            "" if spacing is None else f"another one every {HERTZ.format(spacing, 4)}",
-            f"The {name} by the clock of the frames, which any other whole number of steps away "
-            "would fit as well; what is known of the lamp or the camera selects one.",
-        ),
-        (
-            "readout_time", "Readout time", SECOND, clock.readout_time,
-            doubts["readout_time"], "",
-            "Time from one column to the next.",
-        ),
-        (
-            "gap", "Gap", SECOND, clock.gap, doubts["gap"], "",
+            "gap", "Gap", "",
             f"The part of a frame's period, {_PERCENT * clock.gap_ratio:.3g} %, in which no "
             "column begins.",
         ),
-        (
-            "frame_period", "Frame period", SECOND, clock.frame_period,
-            doubts["frame_period"],
-            f"slow motion of 1/{clock.slow_motion}" if clock.slow_motion > 1 else "",
-            "From one frame to the next.",
-        ),
+        ("frame_period", "Frame period", slow_motion, "From one frame to the next."),
     ):  # fmt: skip
-        text = unit.format_estimate(measured.value, measured.error) + suffix
+        measured: MeasuredValue = getattr(clock, key)
+        text = SECOND.format_estimate(measured.value, measured.error) + _doubt_on(clock, key)
         yield Fact(key, label, text, note, meaning)
+    drift = clock.lamp_drift or clock.drift
     if clock.beat is not None:
         text = HERTZ.format_estimate(clock.beat.value, clock.beat.error)
         meaning = (
@@ -133,7 +110,7 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
         yield Fact("beat", "Beat", text, meaning=meaning)
     if drift is not None:
         text = _RATE.format_estimate(drift.value, drift.error)
-        meaning = f"Change of the {name} during the film."
+        meaning = f"Change of the {_name_frequency(clock)} during the film."
         yield Fact("drift", "Drift", text, meaning=meaning)
     if clock.timing_noise is not None:
         yield Fact(
@@ -144,6 +121,31 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
             "Deviation of the frames' starts from equal steps, or from their stated times where "
             "these explain them better.",
         )
+
+
+def _frequency_fact(clock: Clock) -> Fact:
+    frequency = clock.lamp_frequency or clock.switching_frequency
+    note, spacing = "", math.inf if clock.spacing is None else clock.spacing
+    if spacing <= _MOST_SPACING * clock.switching_frequency.value:
+        spacing /= clock.chips_of_cycle or 1
+        note = f"another one every {HERTZ.format(spacing, 4)}"
+    return Fact(
+        "frequency",
+        "Lamp frequency" if clock.lamp_frequency else "Frequency",
+        HERTZ.format_estimate(frequency.value, frequency.error)
+        + _doubt_on(clock, "switching_frequency"),
+        note,
+        f"The {_name_frequency(clock)} by the clock of the frames, which any other whole number of "
+        "steps away would fit as well; what is known of the lamp or the camera selects one.",
+    )
+
+
+def _name_frequency(clock: Clock) -> str:
+    return "lamp frequency" if clock.lamp_frequency else "switching frequency"
+
+
+def _doubt_on(clock: Clock, name: str) -> str:
+    return "" if clock.is_sure_of(name) else ", not sure"
 
 
 def error_rate(count: int, total: int, what: str) -> tuple[str, str]:

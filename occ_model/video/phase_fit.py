@@ -130,27 +130,17 @@ def fit_parabola(phases: FramePhases, unwrapped_phases: FloatArray) -> ClockFit:
 def _solve(
     phases: FramePhases, unwrapped_phases: FloatArray, is_kept: BoolArray, jumps: list[int]
 ) -> ClockFit:
-    times = phases.times
-    middle = float(times[is_kept].mean())
-    elapsed = times - middle
-    extent = max(float(np.ptp(elapsed)), 1e-12)
+    middle = float(phases.times[is_kept].mean())
+    elapsed = phases.times - middle
     has_drift = int(is_kept.sum()) >= _MIN_FOR_DRIFT + len(jumps)
-    basis = [np.ones(len(times)), elapsed]
-    if has_drift:
-        # The quadratic's mean is subtracted, so that the frequency is that of the middle.
-        quadratic = 0.5 * elapsed**2
-        basis.append(quadratic - float(quadratic[is_kept].mean()))
-    basis += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
-    design = np.column_stack(basis)
-    scale = np.array([1.0, extent, extent**2][: 2 + has_drift] + [1.0] * len(jumps))
+    design, scale = _scaled_design(elapsed, is_kept, jumps, has_drift)
     errors = np.maximum(phases.errors, _MIN_DEVIATION)
     jitter = 0.0
     for _ in range(8):
         weights = np.where(is_kept, 1.0 / (errors**2 + jitter**2), 0.0)
-        products = (design / scale).T * weights @ (design / scale)
-        inverse = np.linalg.pinv(products, rcond=1e-13)
-        coefficients = inverse @ ((design / scale).T @ (weights * unwrapped_phases)) / scale
-        residuals = unwrapped_phases - design @ coefficients
+        inverse = np.linalg.pinv(design.T * weights @ design, rcond=1e-13)
+        scaled_coefficients = inverse @ (design.T @ (weights * unwrapped_phases))
+        residuals = unwrapped_phases - design @ scaled_coefficients
         freedom = max(1, int(is_kept.sum()) - design.shape[1])
         excess = float(weights @ residuals**2) / freedom
         previous_jitter = jitter
@@ -159,17 +149,12 @@ def _solve(
         jitter = math.sqrt(max(0.0, unexplained / freedom))
         if abs(jitter - previous_jitter) <= 1e-3 * max(jitter, _MIN_DEVIATION):
             break
-    # Frames may agree better than their own errors imply if they share a part of these errors, such
-    # as that of the sensor's fixed pattern. That part still shifts the fit.
-    scatter = max(1.0, excess)
-    if jitter > 0.0 and freedom > 2:
-        # A few may agree by chance: variance of Student's t
-        scatter *= freedom / (freedom - 2.0)
+    scatter = _scatter_of_fit(excess, jitter, freedom)
     covariance = inverse * scatter * _correlated_count(residuals[is_kept]) / np.outer(scale, scale)
     noise = float(np.sqrt(residuals[is_kept] @ residuals[is_kept] / freedom))
+    coefficients = scaled_coefficients / scale
     if has_drift:
         # Undo the subtraction of the quadratic's mean in the phase of the middle.
-        coefficients = coefficients.copy()
         coefficients[0] -= coefficients[2] * float((0.5 * elapsed[is_kept] ** 2).mean())
     step, step_error = mean_step(phases)
     deviations = np.sqrt(np.diag(covariance))
@@ -192,6 +177,33 @@ def _solve(
         chi_squared=float(chi @ chi),
         noise=noise,
     )
+
+
+def _scaled_design(
+    elapsed: FloatArray, is_kept: BoolArray, jumps: list[int], has_drift: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Return the terms of the fit, shape (frames, terms), each divided by its scale, and these."""
+    extent = max(float(np.ptp(elapsed)), 1e-12)
+    terms, scale = [np.ones(len(elapsed)), elapsed], [1.0, extent]
+    if has_drift:
+        # The quadratic's mean is subtracted, so that the frequency is that of the middle.
+        quadratic = 0.5 * elapsed**2
+        terms.append(quadratic - float(quadratic[is_kept].mean()))
+        scale.append(extent**2)
+    terms += [(np.arange(len(elapsed)) >= frame).astype(np.float64) for frame in jumps]
+    scales = np.array(scale + [1.0] * len(jumps))
+    return np.column_stack(terms) / scales, scales
+
+
+def _scatter_of_fit(excess: float, jitter: float, freedom: int) -> float:
+    """Return the factor of the fit's variances by how much the frames scatter about it."""
+    # Frames may agree better than their own errors imply if they share a part of these errors, such
+    # as that of the sensor's fixed pattern. That part still shifts the fit.
+    scatter = max(1.0, excess)
+    if jitter > 0.0 and freedom > 2:
+        # A few may agree by chance: variance of Student's t
+        scatter *= freedom / (freedom - 2.0)
+    return scatter
 
 
 def _correlated_count(residuals: FloatArray) -> float:

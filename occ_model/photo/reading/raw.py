@@ -19,6 +19,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from occ_model.arrays import BoolArray, IndexArray
 from occ_model.camera.pixel_arrays import Samples
 from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.dng import (
@@ -52,7 +53,6 @@ _RAW_STARTS = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILMCCD-RAW", b"FOVb")
 
 _CR3 = b"ftypcrx "  # bytes 4 to 11 of Canon's newer files
 
-_GREEN = b"G"[0]
 _ANY = "brightest"
 MOSAIC = "mosaic"  # all photosites, of a sensor with colours
 _NO_COLOUR = 6  # LibRaw's colour number for a sensor without filters
@@ -206,25 +206,7 @@ def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any])
             "photosites; allowed: a Bayer pattern, or a sensor without colours."
         )
     sizes = raw.sizes
-    colours = np.array(
-        [
-            [raw.raw_color(sizes.top_margin + row, sizes.left_margin + column) for column in (0, 1)]
-            for row in (0, 1)
-        ]
-    )
-    if pattern.shape == (1, 1) or (colours == _NO_COLOUR).all():
-        is_green, colours = np.ones((2, 2), np.bool_), np.zeros((2, 2), np.int64)
-        letters = ""
-    else:
-        letters = "".join(chr(raw.color_desc[c]) for c in colours.ravel()).lower()
-        is_green = np.array([[raw.color_desc[c] == _GREEN for c in line] for line in colours])
-    if pattern.shape not in ((1, 1), (2, 2)) or not (
-        is_green.all() or (is_green.sum() == 2 and is_green[0, 0] == is_green[1, 1])
-    ):
-        raise PhotoError(
-            f"{name} cannot be read: its sensor's colours are in another pattern; allowed: a "
-            "Bayer pattern, or a sensor without colours."
-        )
+    colours, is_green, letters = _colours_of(name, raw, pattern.shape)
     white = min(_white_level(raw, colour) for colour in set(colours[is_green].tolist()))
     black = black_of_lines(file, photosites.shape, (sizes.top_margin, sizes.left_margin))
     if black is None:
@@ -250,6 +232,27 @@ def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any])
         orientation=_ORIENTATIONS.get(sizes.flip, 1),
         pattern=letters if sorted(letters) == ["b", "g", "g", "r"] else "",
     )
+
+
+def _colours_of(
+    name: str, raw: "RawPy", shape: tuple[int, ...]
+) -> tuple[IndexArray, BoolArray, str]:
+    """Return LibRaw's colours of 2 x 2 photosites, which of them are green, and their letters."""
+    top, left = raw.sizes.top_margin, raw.sizes.left_margin
+    colours = np.array(
+        [[raw.raw_color(top + row, left + column) for column in (0, 1)] for row in (0, 1)]
+    )
+    if shape == (1, 1) or (shape == (2, 2) and (colours == _NO_COLOUR).all()):
+        return np.zeros((2, 2), np.int64), np.ones((2, 2), np.bool_), ""
+    letters = "".join(chr(raw.color_desc[colour]) for colour in colours.ravel()).lower()
+    is_green = np.array([letter == "g" for letter in letters]).reshape(2, 2)
+    is_bayer = is_green.sum() == 2 and is_green[0, 0] == is_green[1, 1]
+    if shape != (2, 2) or not (is_bayer or is_green.all()):
+        raise PhotoError(
+            f"{name} cannot be read: its sensor's colours are in another pattern; allowed: a "
+            "Bayer pattern, or a sensor without colours."
+        )
+    return colours, is_green, letters
 
 
 def _white_level(raw: "RawPy", colour: int) -> float:

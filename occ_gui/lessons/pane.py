@@ -59,7 +59,7 @@ class LessonReports(QObject):
         proposal = Path(self._preferences.export_folder, f"{lesson.name}{_SUFFIX}")
         name, _ = QFileDialog.getSaveFileName(
             self._window, "Save the report", str(proposal),
-            "PDF document (*.pdf);;Markdown (*.md);;PNG picture (*.png);;SVG drawing (*.svg)",
+            "PDF document (*.pdf);;PNG picture (*.png);;SVG drawing (*.svg)",
         )  # fmt: skip
         if name:
             path = Path(name)

@@ -1,9 +1,8 @@
-"""Reports of lessons: a student's answers and results, as pages for print or as Markdown."""
+"""Reports of lessons: a student's answers and results, as pages for print."""
 
 from collections.abc import Iterator, Sequence
 from io import BytesIO
 from pathlib import Path
-from urllib.parse import quote
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
@@ -12,10 +11,10 @@ from matplotlib.font_manager import FontProperties
 
 from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError, one_line, printable
-from occ_model.figures.drawing import PHOTO, SIMULATION, figure_bytes, house_style, write_figure
+from occ_model.figures.drawing import PHOTO, SIMULATION, house_style, write_figure
 from occ_model.figures.page import break_lines, replace_missing_letters
 from occ_model.figures.window_panes import caption
-from occ_model.files.writing import make_folder, write_whole
+from occ_model.files.writing import write_whole
 from occ_model.results.match import Match
 from occ_model.results.teaching import AnsweredStep, Lesson
 from occ_model.scene.parameters import quantity
@@ -24,15 +23,11 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import explanation
 from occ_model.version import __version__
 
-_FIGURE = (7.0, 2.6)  # size in inches of a figure in Markdown
-
-_MATCHED_FIGURE = (7.0, 4.2)
-
 
 def write_lesson_report(
     path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], *, author: str = "", date: str = ""
 ) -> None:
-    """Write a lesson's report as .pdf, as .md with a folder of figures, or one page as a picture.
+    """Write a lesson's report as .pdf, or one page as a picture.
 
     An OutputError is raised if there are no steps, the ending is another one, a picture would need
     a second page, or the disk fails.
@@ -43,14 +38,10 @@ def write_lesson_report(
     provenance = Provenance(f"Report of the lesson: {lesson.title}", scenes, date=date)
     about = ", ".join(text for text in (author, date) if text) or lesson.summary
     with house_style():
-        if path.suffix.lower() == ".md":
-            _write_markdown(path, lesson, steps, about)
-            return
         parts = tuple(split_into_pages(steps))
         if len(parts) > 1 and path.suffix.lower() != ".pdf":
             raise OutputError(
-                f"{one_line(path.name)}: the report has {len(parts)} pages; "
-                "allowed endings: .pdf and .md."
+                f"{one_line(path.name)}: the report has {len(parts)} pages; allowed ending: .pdf."
             )
         pages = [
             draw_page(lesson.title, about, _footer(place, len(parts)), part, first)
@@ -74,55 +65,6 @@ def _write_pdf(pages: Sequence[Figure], provenance: Provenance) -> bytes:
         for page in pages:
             pdf.savefig(page)
     return content.getvalue()
-
-
-def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], about: str) -> None:
-    folder = path.with_name(f"{path.stem}-figures")
-    make_folder(folder)
-    lines = [f"# {_escape_markdown(lesson.title)}", "", _escape_markdown(about), ""]
-    for place, answered in enumerate(steps, 1):
-        figure = folder / f"step-{place}.png"
-        _write_step_figure(figure, answered)
-        lines += [f"## {place}. {_escape_markdown(answered.step.question)}", ""]
-        if answered.answer is None:
-            lines += ["*(no answer)*", ""]
-        else:
-            lines += [
-                f"**Answer:** {_escape_markdown(answered.step.with_unit(answered.answer.text))}",
-                "",
-                _escape_markdown(answered.answer.sentence),
-                "",
-            ]
-        if answered.match is not None:
-            lines += [
-                *(
-                    f"* {_escape_markdown(line)}"
-                    for line in match_lines(answered.match, answered.photo)
-                ),
-                "",
-            ]
-        lines += [f"![What was seen]({quote(folder.name)}/{figure.name})", ""]
-        lines += [f"> {_escape_markdown(explanation(answered.step, answered.scene))}", ""]
-    scene = steps[-1].scene.to_toml()
-    lines += [f"Scene of the last step, occ-explorer {__version__}:", "", "```toml", scene, "```"]
-    write_whole(path, ("\n".join(lines) + "\n").encode())
-
-
-def _write_step_figure(path: Path, answered: AnsweredStep) -> None:
-    figure = Figure(figsize=_FIGURE if answered.match is None else _MATCHED_FIGURE)
-    if answered.match is None:
-        draw_profile(figure.subplots(), answered.scene)
-    else:
-        draw_match(figure.subplots(2, 1, sharex=True, height_ratios=(2, 1)), answered.match)
-    title = answered.step.question
-    write_whole(path, figure_bytes(figure, "png", Provenance(title, {"step": answered.scene})))
-
-
-def _escape_markdown(text: str) -> str:
-    text = printable(text)
-    for sign in "\\`*_[]<>#|&":
-        text = text.replace(sign, f"\\{sign}")
-    return text
 
 
 _PAGE = (8.27, 11.69)  # inches of an A4 page

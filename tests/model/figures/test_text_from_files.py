@@ -19,7 +19,6 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.results.photo_table import PhotoRow, csv_text
 from occ_model.results.teaching import AnsweredStep, CheckedAnswer, Lesson, LessonStep
 from occ_model.scene.provenance import Provenance, first_scene_in, scene_inside
-from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import read_lesson
 
 pytestmark = pytest.mark.usefixtures("plain_figures")
@@ -60,18 +59,6 @@ def test_a_lessons_text_is_text_in_its_report(tmp_path: Path, ending: str, text:
     lesson, steps = make_lesson(text)
     write_lesson_report(path, lesson, steps, author=text, date="today")
     check_drawing(path)
-
-
-def test_a_lessons_text_is_text_in_markdown(tmp_path: Path) -> None:
-    path = tmp_path / "my (own) report.md"
-    sheet, steps = make_lesson(EVIL + "\n\n# Heading\n\n[a](javascript:b)")
-    write_lesson_report(path, sheet, steps, author=EVIL)
-    written, _, scene = path.read_text(encoding="utf-8").partition("```toml")
-    assert not re.search(r"(?<!\\)<|(?<!\\)\]\((?!my%20)", written)
-    assert [line for line in written.splitlines() if line.startswith("#")][1].startswith("## 1. ")
-    assert written.count("\n#") == 1
-    assert all(letter.isprintable() or letter == "\n" for letter in written)
-    assert Scene.from_toml(scene.partition("```")[0]) == SCENE
 
 
 def test_a_lessons_file_gives_texts_of_one_printable_line(tmp_path: Path) -> None:

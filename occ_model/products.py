@@ -88,3 +88,25 @@ def solved_positive(matrix: FloatArray, sums: FloatArray) -> FloatArray:
         factors[place] = 0.0
         both -= np.outer(factors, row)
     return both[:, -1]
+
+
+def least_squares(parts: FloatArray, values: FloatArray) -> FloatArray:
+    """Return the factors of columns whose sum is nearest to some values, by normal equations."""
+    products = row_products(parts.T, parts.T)
+    products.flat[:: len(products) + 1] *= 1.0 + 1e-9
+    return np.asarray(np.linalg.solve(products, parts.T @ values), dtype=np.float64)
+
+
+def two_factors(parts: FloatArray, values: FloatArray) -> FloatArray:
+    """Return the factors of two columns, none below 0, whose sum is nearest to some values.
+
+    No number in ``parts`` is below 0. SciPy's takes 0.2 s to import.
+    """
+    products, towards = parts.T @ parts, parts.T @ values
+    both = np.linalg.lstsq(products, towards, rcond=None)[0]
+    if both.min() >= 0.0:
+        return np.asarray(both, dtype=np.float64)
+    # Of the two factors one is 0; the other one explains more.
+    alone = np.maximum(towards, 0.0) / np.maximum(np.diag(products), 1e-300)
+    is_better = np.arange(2) == np.argmax(alone * towards)
+    return np.where(is_better, alone, 0.0)

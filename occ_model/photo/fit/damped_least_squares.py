@@ -6,14 +6,37 @@ for one exposure, which was farther off.
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.products import dot, row_products
 
-_LEAST_GAIN = 0.05  # minimum decrease of the sum of squares for a further iteration
-_MOST_TRIES = 6  # maximum number of shorter steps after one without a gain
+_LEAST_GAIN = 0.02  # minimum decrease of the sum of squares for a further iteration
+_MOST_TRIES = 7  # maximum number of shorter steps after one without a gain
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Bounds:
+    """The least and the largest value of each parameter, and the largest change of it in a step."""
+
+    low: FloatArray
+    high: FloatArray
+    most_change: FloatArray | float = math.inf
+
+    def held(self, place: FloatArray, gradient: FloatArray) -> FloatArray:
+        """Return 0 for the parameters at a bound that less of the sum lies beyond, else 1."""
+        below, above = (place <= self.low) & (gradient > 0.0), (place >= self.high) & (gradient < 0)
+        return np.where(below | above, 0.0, 1.0)
+
+    def limited(self, place: FloatArray, there: FloatArray) -> FloatArray:
+        """Return where a step from a place to another one may end."""
+        there = np.clip(there, place - self.most_change, place + self.most_change)
+        return np.clip(there, self.low, self.high)
+
+
+_NO_BOUNDS = Bounds(np.array(-math.inf), np.array(math.inf))
 
 
 def minimized(
@@ -21,6 +44,8 @@ def minimized(
     slopes: Callable[[FloatArray], FloatArray],
     first: FloatArray,
     rounds: int,
+    *,
+    bounds: Bounds = _NO_BOUNDS,
     fraction: float = 0.0,
     hopeless: float = math.inf,
 ) -> tuple[FloatArray, FloatArray]:
@@ -28,25 +53,27 @@ def minimized(
 
     It ends where a step gains next to nothing: after as many steps as are worth their time.
 
-    ``residual`` is in standard deviations of the noise, over parameters scaled so that each changes
-    the sum by about 1 over 1; ``slopes`` are its own, shape (residuals, parameters). ``fraction``:
-    where the noise is not known, the part of the sum of squares whose decrease does not matter.
-    ``hopeless``: the sum of squares above which it ends after any step, as it is not worth others.
+    ``residual`` is in standard deviations of the noise; ``slopes`` are its own, shape (residuals,
+    parameters). ``fraction``: where the noise is not known, the part of the sum of squares whose
+    decrease does not matter. ``hopeless``: the sum of squares above which it ends after any step,
+    as it is not worth others.
     """
     here, value = first, residual(first)
     damping = 1e-2
     for _ in range(rounds):
         steep = slopes(here)
-        products = row_products(steep.T, steep.T)
         gradient = row_products(value, steep.T)
+        held = bounds.held(here, gradient)
+        products = row_products(steep.T, steep.T)
+        products *= np.outer(held, held)
         gain, before = 0.0, dot(value, value)
         for _ in range(_MOST_TRIES):
             damped = products + np.diag(damping * np.diag(products) + 1e-9)
-            there = here - np.linalg.solve(damped, gradient)
+            there = bounds.limited(here, here - np.linalg.solve(damped, held * gradient))
             new = residual(there)
             gain = before - dot(new, new)
             if gain > 0.0:
-                damping = max(0.1 * damping, 1e-6)
+                damping = max(0.2 * damping, 1e-7)
                 here, value = there, new
                 break
             damping *= 5.0

@@ -13,13 +13,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.photo.fit.damped_least_squares import minimized
+from occ_model.photo.fit.damped_least_squares import Bounds, minimized
 from occ_model.photo.fit.joint_fit import CORRELATED_COLUMNS, JointFit, covariance_of
 from occ_model.photo.fit.least_squares import level_freedom
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
-from occ_model.photo.fit.scaled_parameters import ScaledParameters
 from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, OF_TONE, BlurShape, SeenStripes
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.products import combined, dot, row_products
@@ -50,8 +49,14 @@ _MOST_SLOW_SHAPES = 32
 combination of a few of them. The rest would count as noise of many columns, and the priors would
 outweigh the data."""
 
+_EXPOSURE_SCALE = 0.05  # of the exposure: a change that matters about as much as the others'
 _EDGE_BAND = 0.05  # from both levels, relative to the swing, at which a column is on an edge
-_GAMMA_BOUNDS = (-0.9, 0.9)  # bounds of gamma's logarithm where it is roughly known
+
+_LOW = np.array([0.5, SHORTEST_EXPOSURE, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3])
+_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3])
+"""Bounds of the parameters; those of the step are relative to a rough one."""
+
+_MOST_LOG_CHANGE = 5.0  # of the exposure, in a step of the search
 
 
 class JointModel:
@@ -90,8 +95,14 @@ class JointModel:
         self._deviation[5] = math.hypot(self._deviation[5], _EDGE_SHIFT * step)
         if wide:
             self._deviation[0] = _ANY_GAMMA
-        allowed = quantity("gamma")
-        self._allowed = np.array([allowed.low, allowed.high])
+        self._low, self._high = _LOW.copy(), _HIGH.copy()
+        self._low[0] *= step
+        self._high[0] *= step
+        if wide:
+            allowed = quantity("gamma")
+            inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
+            ends = np.array([allowed.low, allowed.high]) * inside
+            self._low[3], self._high[3] = np.log(ends / gamma)
         self._free = np.array(
             [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
         )
@@ -139,20 +150,22 @@ class JointModel:
     ) -> JointFit:
         """Fit from a first guess; end after a step where the misfit is beyond what is hopeless."""
         index = np.flatnonzero(self._free)
-        scaled, found, residual = self._minimized(first, index, rounds, shape, hopeless)
-        values = scaled.values(found)
-        slopes = self._slopes_of(scaled, found, index, shape)
-        rates = scaled.rates(values)
+        values, residual = self._minimized(first, index, rounds, shape, hopeless)
+        scale = np.where(np.arange(9) == 1, _EXPOSURE_SCALE * values[1], self._scale)
+        # What is at a bound has no slope, and so is not known.
+        inside = (values > self._low) & (values < self._high)
+        slopes = (self._slopes(values, shape).T * (inside * scale))[:, index]
+        scale = scale[index]
         covariance = np.zeros((9, 9))
         covariance[np.ix_(index, index)] = covariance_of(slopes, residual, self._block) * np.outer(
-            rates, rates
+            scale, scale
         )
         prior = residual[-len(PRIORS) :]
         shift = np.zeros(9)
         # Where pixel values are blurred, the model itself blurs the product.
         if not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
-            shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, shape))
+            shift[index] = scale * _explained(slopes, by_middle * self._displacement(values, shape))
         return JointFit(values, covariance, dot(residual, residual), float(prior @ prior), shift)
 
     def rough(
@@ -162,31 +175,43 @@ class JointModel:
         free = self._free.copy()
         free[list(fixed)] = False
         index = np.flatnonzero(free)
-        scaled, found, residual = self._minimized(first, index, rounds, "normal", hopeless)
-        return dot(residual, residual), scaled.values(found)
+        values, residual = self._minimized(first, index, rounds, "normal", hopeless)
+        return dot(residual, residual), values
 
     def _minimized(
         self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape, hopeless: float
-    ) -> tuple[ScaledParameters, FloatArray, FloatArray]:
-        """Return the scaled parameters of an index, which of them fit best, and the residual."""
-        scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
-        found = minimized(
-            lambda place: self._residual(scaled.values(place), blur),
-            lambda place: self._slopes_of(scaled, place, index, blur),
-            np.zeros(len(index)),
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the best parameters of which those of an index are fitted, and the residual.
+
+        The exposure's logarithm is searched, whose equal changes matter about as much.
+        """
+        of_tone = bool(np.isin(index, OF_TONE).any())
+        low, high = self._low.copy(), self._high.copy()
+        first = np.clip(first, low, high)
+        low[1], first[1] = math.log(low[1]), math.log(first[1])
+        most = np.where(index == 1, _MOST_LOG_CHANGE, np.inf)
+
+        def values_of(place: FloatArray) -> FloatArray:
+            values = first.copy()
+            values[index] = place
+            values[1] = math.exp(values[1])
+            return values
+
+        def slopes(place: FloatArray) -> FloatArray:
+            values = values_of(place)
+            slopes = self._slopes(values, blur, of_tone)
+            slopes[1] *= values[1]
+            return slopes[index].T
+
+        place, residual = minimized(
+            lambda place: self._residual(values_of(place), blur),
+            slopes,
+            first[index],
             rounds,
+            bounds=Bounds(low[index], high[index], most),
             hopeless=hopeless,
         )
-        return scaled, *found
-
-    def _slopes_of(
-        self, scaled: ScaledParameters, place: FloatArray, index: IndexArray, blur: BlurShape
-    ) -> FloatArray:
-        """Return the residual's slopes over scaled parameters, shape (residuals, parameters)."""
-        of_tone = bool(np.isin(index, OF_TONE).any())
-        slopes = self._slopes(scaled.values(place), blur, of_tone)[index]
-        slopes *= scaled.slopes(place)[:, None]
-        return slopes.T
+        return values_of(place), residual
 
     def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         """Return by how many chips the place of each residual is later because levels are blurred.
@@ -237,13 +262,6 @@ class JointModel:
         edges = (lit > low + _EDGE_BAND * (high - low)) & (lit < high - _EDGE_BAND * (high - low))
         count = max(1, int(edges.sum()))
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
-
-    def _gammas(self) -> tuple[float, float]:
-        if not self.is_wide:
-            return _GAMMA_BOUNDS
-        inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
-        low, high = np.log(self._allowed * inside / self.gamma).tolist()
-        return low, high
 
     def _residual(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         self._check()

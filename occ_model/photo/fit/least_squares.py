@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.photo.fit.damped_least_squares import minimized
+from occ_model.photo.fit.damped_least_squares import Bounds, minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, solved
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
@@ -160,29 +160,28 @@ class StripeModel:
         low = np.array([0.5 * start.step, SHORTEST_EXPOSURE, -np.inf, gamma.low])
         high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
-        if not with_gamma:
-            low[3] = high[3] = start.gamma
         free = np.flatnonzero([True, True, True, with_gamma])
         scale = (self._step * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
 
-        def timing_of(scaled: FloatArray) -> Timing:
+        def timing_of(place: FloatArray) -> Timing:
             values = first.copy()
-            values[free] += scaled * scale
-            return Timing(*np.clip(values, low, high).tolist())
+            values[free] = place
+            return Timing(*values.tolist())
 
-        def slopes(scaled: FloatArray) -> FloatArray:
-            return np.asarray(self._slopes(timing_of(scaled))[:, free] * scale)
+        def slopes(place: FloatArray) -> FloatArray:
+            return self._slopes(timing_of(place))[:, free]
 
         found, residual = minimized(
-            lambda scaled: self._profile - self.levels(timing_of(scaled))[2],
+            lambda place: self._profile - self.levels(timing_of(place))[2],
             slopes,
-            np.zeros(len(free)),
+            np.clip(first, low, high)[free],
             rounds,
-            _LEAST_GAIN,
-            hopeless,
+            bounds=Bounds(low[free], high[free]),
+            fraction=_LEAST_GAIN,
+            hopeless=hopeless,
         )
         covariance = np.zeros((4, 4))
-        covariance[np.ix_(free, free)] = _covariance(slopes(found), residual) * np.outer(
+        covariance[np.ix_(free, free)] = _covariance(slopes(found) * scale, residual) * np.outer(
             scale, scale
         )
         timing = timing_of(found)

@@ -11,8 +11,8 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.photo.lamp_fit.fit import LampFit
 from occ_model.photo.lamp_fit.model import COUNT
-from occ_model.photo.lamp_fit.products import products_of
 from occ_model.photo.lamp_fit.readings import readings_of
+from occ_model.products import row_products
 
 _CHANCE_SCATTER = 0.3 / 4.13  # of edges at random places, as a fraction of the period
 
@@ -120,7 +120,7 @@ def _rows_shift(fit: LampFit, rows: FloatArray) -> tuple[float, float, float]:
     parts = np.column_stack([slopes[:, 1], levels, envelope])
     weight = np.where(fit.profile.clipped, 0.0, 1.0)
     system = parts * weight[:, None]
-    products = products_of(system)
+    products = row_products(system.T, system.T)
     products[np.diag_indices_from(products)] *= 1.0 + 1e-6
     products[np.diag_indices_from(products)] += 1e-12
     off = np.linalg.solve(products, system.T @ ((rows - levels) * weight).T)[0]

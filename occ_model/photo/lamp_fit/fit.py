@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.photo.fit.damped_least_squares import Bounds, minimized
 from occ_model.photo.lamp_fit.model import (
     AMBIENT,
     BLUR,
@@ -23,9 +24,9 @@ from occ_model.photo.lamp_fit.model import (
     Levels,
     envelope_basis,
 )
-from occ_model.photo.lamp_fit.products import least_squares, products_of, two_factors
 from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.wave import Wave
+from occ_model.products import least_squares, row_products, two_factors
 
 _MULTIPLES = (1.0, 2.0, 3.0, 0.5)
 _SAME_PERIOD = 0.08  # relative difference up to which two starts are one
@@ -37,8 +38,6 @@ _ROUNDING = 0.15 / 255.0  # noise that no profile is below
 
 _FITTED_STARTS = 3  # of the best, which are fitted to the end
 _FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # of each round, after which the noise is estimated anew
-_LEAST_GAIN = 0.02
-_MOST_TRIES = 7
 _MOST_CORRELATION = 0.8
 _LEAST_FREEDOM = 0.2  # of a column, whose residual a fit follows
 
@@ -73,7 +72,8 @@ class LampFit:
 
     @cached_property
     def _slopes(self) -> FloatArray:
-        return _weighted(self.profile, self.model, self.values, self.noise)[0]
+        slopes = _weighted(self.profile, self.model, self.values, self.noise)
+        return slopes[: len(self.noise)]
 
     @cached_property
     def responses(self) -> FloatArray:
@@ -236,59 +236,33 @@ def _minimize(
     """Minimize the misfit and what contradicts the priors (Levenberg and Marquardt)."""
     most = np.concatenate([MOST_STEPS, np.ones(len(values) - COUNT)])
     most[PLACE] *= math.exp(values[PERIOD])
+    low, high = np.full((2, len(values)), [[-math.inf], [math.inf]])
+    low[list(ENDS)], high[list(ENDS)] = np.array(list(ENDS.values())).T
 
-    def misfit(at: FloatArray) -> float:
-        off = _off(profile, model.levels(at)) / noise
-        beliefs = model.beliefs(at)[0]
-        return float(off @ off + beliefs @ beliefs)
+    def residual(at: FloatArray) -> FloatArray:
+        return np.concatenate([_off(profile, model.levels(at)) / noise, model.beliefs(at)[0]])
 
-    here, damping = misfit(values), 1e-2
-    for _ in range(steps):
-        products, gradient = _equations(profile, model, values, noise)
-        gain = 0.0
-        for _ in range(_MOST_TRIES):
-            damped = products + np.diag(damping * np.diag(products) + 1e-9)
-            step = np.clip(-np.linalg.solve(damped, gradient), -most, most)
-            there = values + step
-            for place, (least, largest) in ENDS.items():
-                there[place] = min(max(there[place], least), largest)
-            gain = here - (new := misfit(there))
-            if gain > 0.0:
-                values, here, damping = there, new, max(0.2 * damping, 1e-7)
-                break
-            damping *= 5.0
-        if gain < _LEAST_GAIN:
-            break
-    return values
+    def slopes(at: FloatArray) -> FloatArray:
+        return _weighted(profile, model, at, noise)
 
-
-def _equations(
-    profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Return the products of the slopes, and the gradient."""
-    slopes, off = _weighted(profile, model, values, noise)
-    beliefs, of_beliefs = model.beliefs(values)
-    both = products_of(np.column_stack([slopes, off])) + products_of(
-        np.column_stack([of_beliefs, beliefs])
-    )
-    return both[:-1, :-1], both[:-1, -1]
+    return minimized(residual, slopes, values, steps, bounds=Bounds(low, high, most))[0]
 
 
 def _weighted(
     profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Return the slopes of the levels, and how far these are off, both in deviations."""
+) -> FloatArray:
+    """Return the slopes of the levels, and then of the beliefs, in deviations."""
     levels, slopes = model.slopes(values)
-    off = _off(profile, levels) / noise
     slopes = slopes / noise[:, None]
-    slopes[profile.clipped & (off == 0.0)] = 0.0
-    return slopes, off
+    slopes[profile.clipped & (_off(profile, levels) == 0.0)] = 0.0
+    return np.concatenate([slopes, model.beliefs(values)[1]])
 
 
 def _described(fit: LampFit) -> LampFit:
     """Return a fit with its covariance and evidence (Laplace's approximation)."""
     profile, model, values = fit.profile, fit.model, fit.values
-    products, _ = _equations(profile, model, values, fit.noise)
+    slopes = _weighted(profile, model, values, fit.noise)
+    products = row_products(slopes.T, slopes.T)
     # Before, the period is known to a factor of e, and the place to a period.
     products[PERIOD, PERIOD] += 1.0
     products[PLACE, PLACE] += math.exp(-2.0 * values[PERIOD])

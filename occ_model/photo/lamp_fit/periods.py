@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.lamp_fit.products import least_squares
+from occ_model.products import least_squares
 
 _LEAST_PERIOD = 3.0  # columns
 _LEAST_PERIODS = 1.3  # in view

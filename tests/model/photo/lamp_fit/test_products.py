@@ -6,7 +6,7 @@ from scipy.interpolate import BSpline
 from scipy.optimize import nnls
 
 from occ_model.photo.lamp_fit.model import envelope_basis
-from occ_model.photo.lamp_fit.products import two_factors
+from occ_model.products import two_factors
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -32,7 +32,7 @@ CLIPPED_FRACTION = 0.02
 """Saturated fraction of the pixels up to which saturation hardly changes the width of the
 stripes."""
 
-SAME_EXPOSURE = 0.04  # difference in chips below which two exposures are the same
+_SAME_EXPOSURE = 0.04  # difference in chips below which two exposures are the same
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -147,6 +147,6 @@ def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
     kept: list[StripeFit] = []
     for fit in fits:
         exposures = [other.timing.exposure for other in kept]
-        if all(abs(fit.timing.exposure - other) > SAME_EXPOSURE for other in exposures):
+        if all(abs(fit.timing.exposure - other) > _SAME_EXPOSURE for other in exposures):
             kept.append(fit)
     return kept

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.photo.fit.timing import Timing
 
-EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
+_EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
 """Exposures that are tried, in chips."""
 
 _ROUGH_EXPOSURES = (0.3, 1.4, 2.4, 3.5, 5.4)  # exposures with which all steps are compared
@@ -80,7 +80,7 @@ class Search:
         best = steps[np.argsort(rough)[-_BEST_STEPS:]]
         seen = self._sampled(best, self._harmonics)
         found = []
-        for exposure in EXPOSURES:
+        for exposure in _EXPOSURES:
             check()
             scores, phases = self._scores(seen, exposure, _PHASES_A_CHIP)
             top = int(scores.argmax())

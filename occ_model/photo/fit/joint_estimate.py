@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.exposure_modes import exposure_modes
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.joint_model import PRIORS, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
+from occ_model.photo.fit.mean_fit import mean_fit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells, EvenProfile
 from occ_model.results.match import Stripes
@@ -95,45 +95,25 @@ def refined(
     if not with_gamma and explanation.camera.averaging == "pixel-value":
         models.append(model_by(1.0))
     model = StripeModel(stripes.profile, chips, explanation.camera.tone, step)
-    found = exposure_modes(models, explanation, model.is_possible)
-    seen, unusual = (of(found[0].values) for of in (models[0].edges_seen, models[0].unusual))
+    found = mean_fit(models, best.timing)
+    seen, unusual = (of(found.values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:
-        found = [_with_step_of(mode, explanation) for mode in found]
-    fits = [
-        _stripe_fit(model, _widened(mode, models[0]), gamma, with_gamma=with_gamma)
-        for mode in found
-    ]
+        found = _with_step_of(found, best)
+    fit = _stripe_fit(model, _widened(found, models[0]), gamma, with_gamma=with_gamma)
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
-    if fits[0].correlation < explanation.correlation - _MOST_CORRELATION_LOSS:
+    if fit.correlation < explanation.correlation - _MOST_CORRELATION_LOSS:
         doubts = (_CONTRADICTION, *_exposure_doubts(seen))
         return Refined(explanation.fits, _doubts(unusual), doubts)
-    possible = [fit for fit in fits if fit.is_possible] or fits[:1]
-    possible.sort(key=lambda fit: fit.timing.exposure)
-    return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen))
+    return Refined((fit,), _doubts(unusual), _exposure_doubts(seen))
 
 
-def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:
+def _with_step_of(found: JointFit, best: StripeFit) -> JointFit:
     """Take the step from the mean of all pixels: it is better known where white hides the edges."""
-    best = min(explanation.fits, key=lambda fit: fit.residual)
-    values, covariance = mode.values.copy(), mode.covariance.copy()
+    values, covariance = found.values.copy(), found.covariance.copy()
     values[0] = best.timing.step
     covariance[0, :] = covariance[:, 0] = 0.0
     covariance[0, 0] = best.covariance[0, 0]
-    return replace(mode, values=values, covariance=covariance)
-
-
-def _with_steps_of_all(fits: Sequence[StripeFit]) -> tuple[StripeFit, ...]:
-    """Let each fit's step be as uncertain as far as it is from the others', one of which is right.
-
-    Where stripes are white, another exposure shifts their edges, and with them the step.
-    """
-    steps = np.array([fit.timing.step for fit in fits])
-    widened = []
-    for fit, step in zip(fits, steps.tolist(), strict=True):
-        covariance = fit.covariance.copy()
-        covariance[0, 0] += float(np.max((steps - step) ** 2))
-        widened.append(replace(fit, covariance=covariance))
-    return tuple(widened)
+    return replace(found, values=values, covariance=covariance)
 
 
 def _widened(mode: JointFit, model: JointModel) -> JointFit:
@@ -225,7 +205,7 @@ def without_rims(
     """
     start = model.start(first.timing)
     model.estimate_noise(start)
-    misfit = model.misfit_of_columns(model.rough(start, (), _ROUNDS)[1])
+    misfit = model.misfit_of_columns(model.fit(start, _ROUNDS).values)
     shows = within_rims(misfit) & within_rims((profile - first.profile) ** 2)
     found = [replace(one, kept=one.kept & shows) for one in profiles]
     return [one for one in found if one.kept.sum() >= _LEAST_KEPT] or list(profiles)

@@ -17,7 +17,7 @@ from occ_model.photo.fit.damped_least_squares import Bounds, minimized
 from occ_model.photo.fit.joint_fit import CORRELATED_COLUMNS, JointFit, covariance_of
 from occ_model.photo.fit.least_squares import level_freedom
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
-from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, OF_TONE, BlurShape, SeenStripes
+from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, BlurShape, SeenStripes
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
@@ -103,9 +103,7 @@ class JointModel:
             inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
             ends = np.array([allowed.low, allowed.high]) * inside
             self._low[3], self._high[3] = np.log(ends / gamma)
-        self._free = np.array(
-            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
-        )
+        self._free = np.flatnonzero([True] * 3 + [gamma != 1.0] * 2 + [True] * 4)
         self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
         self._seen = SeenStripes(chips, columns, gamma, values_blurred=values_blurred)
 
@@ -116,25 +114,20 @@ class JointModel:
             values[4] = 0.0
         return values
 
-    def timing(self, values: FloatArray) -> Timing:
-        """Return the timing of parameters, by the usual gamma."""
-        step, exposure, middle = values[:3].tolist()
-        return Timing(step, exposure, middle, self.gamma)
-
     def adapted(self, values: FloatArray) -> FloatArray:
         """Return another model's parameters, what this one does not fit being as usual."""
-        usual = self.start(self.timing(values))
-        return np.where(self._free, values, usual)
-
-    @property
-    def is_wide(self) -> bool:
-        """Whether gamma may be any."""
-        return bool(self._deviation[0] == _ANY_GAMMA)
+        return self._usual_but(values, self._free)
 
     def with_usual(self, values: FloatArray) -> FloatArray:
-        """Keep the timing and the blur of parameters, and let all else be as usual."""
-        usual = self.start(self.timing(values))
-        usual[7] = values[7]
+        """Keep the timing, the blur, and a gamma that may be any; let all else be as usual."""
+        is_wide = self._deviation[0] == _ANY_GAMMA
+        kept = np.flatnonzero([True] * 3 + [is_wide] + [False] * 3 + [True, False])
+        return self._usual_but(values, kept)
+
+    def _usual_but(self, values: FloatArray, kept: IndexArray) -> FloatArray:
+        step, exposure, middle = values[:3].tolist()
+        usual = self.start(Timing(step, exposure, middle, self.gamma))
+        usual[kept] = values[kept]
         return usual
 
     def take_noise(self, other: "JointModel") -> None:
@@ -149,8 +142,8 @@ class JointModel:
         hopeless: float = math.inf,
     ) -> JointFit:
         """Fit from a first guess; end after a step where the misfit is beyond what is hopeless."""
-        index = np.flatnonzero(self._free)
-        values, residual = self._minimized(first, index, rounds, shape, hopeless)
+        index = self._free
+        values, residual = self._minimized(first, rounds, shape, hopeless)
         scale = np.where(np.arange(9) == 1, _EXPOSURE_SCALE * values[1], self._scale)
         # What is at a bound has no slope, and so is not known.
         inside = (values > self._low) & (values < self._high)
@@ -168,25 +161,14 @@ class JointModel:
             shift[index] = scale * _explained(slopes, by_middle * self._displacement(values, shape))
         return JointFit(values, covariance, dot(residual, residual), float(prior @ prior), shift)
 
-    def rough(
-        self, first: FloatArray, fixed: Sequence[int], rounds: int, hopeless: float = math.inf
-    ) -> tuple[float, FloatArray]:
-        """Return the misfit of a fit of few rounds, and its parameters; some indices are fixed."""
-        free = self._free.copy()
-        free[list(fixed)] = False
-        index = np.flatnonzero(free)
-        values, residual = self._minimized(first, index, rounds, "normal", hopeless)
-        return dot(residual, residual), values
-
     def _minimized(
-        self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape, hopeless: float
+        self, first: FloatArray, rounds: int, shape: BlurShape, hopeless: float
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the best parameters of which those of an index are fitted, and the residual.
+        """Return the best parameters, and the residual.
 
         The exposure's logarithm is searched, whose equal changes matter about as much.
         """
-        of_tone = bool(np.isin(index, OF_TONE).any())
-        low, high = self._low.copy(), self._high.copy()
+        index, low, high = self._free, self._low.copy(), self._high.copy()
         first = np.clip(first, low, high)
         low[1], first[1] = math.log(low[1]), math.log(first[1])
         most = np.where(index == 1, _MOST_LOG_CHANGE, np.inf)
@@ -199,12 +181,12 @@ class JointModel:
 
         def slopes(place: FloatArray) -> FloatArray:
             values = values_of(place)
-            slopes = self._slopes(values, blur, of_tone)
+            slopes = self._slopes(values, shape)
             slopes[1] *= values[1]
             return slopes[index].T
 
         place, residual = minimized(
-            lambda place: self._residual(values_of(place), blur),
+            lambda place: self._residual(values_of(place), shape),
             slopes,
             first[index],
             rounds,
@@ -269,13 +251,13 @@ class JointModel:
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
 
-    def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
-        """Return the residual's slopes, shape (9, residuals); the tone's are 0 unless wanted."""
+    def _slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
+        """Return the residual's slopes, shape (9, residuals)."""
         self._check()
-        seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape, of_tone)
+        seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
         slopes = np.zeros((9, found.shape[1] + len(PRIORS)))
-        slopes[IN_ORDER[: len(found)], : -len(PRIORS)] = found
+        slopes[IN_ORDER, : -len(PRIORS)] = found
         slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
         slopes[3:, -len(PRIORS) :] = np.diag(1.0 / self._deviation)
         return slopes

@@ -189,11 +189,6 @@ class StripeModel:
         covariance[1, 1] += blur**2
         return self.described(timing, covariance)
 
-    def is_possible(self, timing: Timing) -> bool:
-        """Whether the levels that a timing needs can be a picture's."""
-        low, swing, _ = self.levels(timing)
-        return _can_be_levels(low, swing)
-
     def described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
         """Return the fit of a timing with a covariance, shape (4, 4), of its fields."""
         low, swing, profile = self.levels(timing)

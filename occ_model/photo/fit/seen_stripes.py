@@ -28,9 +28,8 @@ BlurShape = Literal["normal", "box", "exponential"]
 """Blur's distribution: of processing; a box, as resizing blurs; or one with long tails."""
 
 GAMMA = 3
-OF_TONE = [GAMMA, 4, 5, 6]
-IN_ORDER = [0, 1, 2, 7, 8, *OF_TONE]
-"""Indices of gamma, of the tone curve's parameters, and of all in the order of slopes."""
+IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
+"""Indices of gamma, and of all parameters in the order of slopes: those of the tone curve last."""
 
 
 def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
@@ -105,8 +104,8 @@ class SeenStripes:
         """Return what is seen by nine parameters, and the blur's shape."""
         return self._last(tuple(values.tolist()), shape)
 
-    def slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> SeenSlopes:
-        """Return the slopes of what is seen, those of the tone over gamma itself, or none."""
+    def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
+        """Return the slopes of what is seen, those of the tone over gamma itself."""
         timing, curve, blur, longer = self._parts(values.tolist())
         seen, exposed = self.by(values, shape), self._light.exposed(timing, longer)
         slope_of_kernel = kernel_slope(blur, shape)
@@ -117,8 +116,7 @@ class SeenStripes:
         if not self._values_blurred:
             lit = blurred(lit, seen.kernel)
             lit[BLUR] = blurred(exposed.lit, slope_of_kernel)
-        tone = curve.slopes(seen.table) if of_tone else ToneSlopes(seen.table)
-        return SeenSlopes(lit, tone, slope_of_kernel)
+        return SeenSlopes(lit, curve.slopes(seen.table), slope_of_kernel)
 
     def gamma(self, values: FloatArray | Sequence[float]) -> float:
         """Return the gamma, of which the parameters hold the logarithm over the usual one."""

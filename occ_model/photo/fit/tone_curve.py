@@ -16,8 +16,6 @@ _LEAST_SLOPE = 0.05
 _BENDS = np.diff([_GRID * (1.0 - _GRID), _GRID * (1.0 - _GRID) * (1.0 - 2.0 * _GRID)])
 """Change of each step of the grid by shoulder and contrast."""
 
-_NO_SLOPES = np.zeros((0, len(_GRID)))
-
 
 @dataclass(frozen=True, slots=True)
 class ToneCurve:
@@ -116,7 +114,7 @@ class ToneTable:
 class ToneSlopes:
     """Slopes of a tone curve over its parameters; ``light``: shape (parameters, grey levels)."""
 
-    def __init__(self, table: ToneTable, light: FloatArray = _NO_SLOPES) -> None:
+    def __init__(self, table: ToneTable, light: FloatArray) -> None:
         self.parameters = len(light)
         slope = -(table.slope**2) * np.gradient(light, _STEP, axis=-1)
         self._both = EvenTable(_GRID[0], _GRID[-1], np.concatenate([light, WHITE * slope]))

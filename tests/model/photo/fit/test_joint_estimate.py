@@ -14,34 +14,17 @@ from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.joint_estimate import (
     _rounding,
     _widened,
-    _with_steps_of_all,
     refined,
     within_rims,
 )
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.least_squares import StripeFit, StripeModel, Tone
+from occ_model.photo.fit.least_squares import StripeModel, Tone
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
 RANDOM = np.random.default_rng(3)
 PARTS = RANDOM.normal(size=(9, 9))
 FIT = JointFit(np.array([0.1, 0.8, 3.0, 0.1, 0.0, 0.0, 0.0, 1.2, 0.0]), PARTS @ PARTS.T, 20.0, 2.0)
-
-
-def stripe_fit(step: float, residual: float = 1.0) -> StripeFit:
-    line = np.zeros(3)
-    covariance = np.diag([1e-8, 1e-4, 1e-4, 0.0])
-    timing = Timing(step, 0.8, 3.0, 2.2)
-    return StripeFit(timing, covariance, line, line, line, 0.9, residual, True)
-
-
-def test_a_step_is_as_uncertain_as_the_others_are_far() -> None:
-    fits = _with_steps_of_all([stripe_fit(0.1), stripe_fit(0.1002), stripe_fit(0.1005)])
-    added = [float(fit.covariance[0, 0]) - 1e-8 for fit in fits]
-    assert np.sqrt(added) == pytest.approx([0.0005, 0.0003, 0.0005])
-    assert all(fit.covariance[1, 1] == 1e-4 for fit in fits)
-    (alone,) = _with_steps_of_all([stripe_fit(0.1)])
-    assert alone.covariance[0, 0] == 1e-8
 
 
 @pytest.mark.parametrize("unusual", [0.5, math.sqrt(6.0), 3.0 * math.sqrt(6.0)])
@@ -103,7 +86,7 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(
     cells: Any = SimpleNamespace(profiles=lambda _: [EvenProfile(profile, every, 20.0)])
     values = np.array([first.step, exposure, first.middle, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     mode = JointFit(values, np.eye(9) * 1e-8, 1.0)
-    monkeypatch.setattr(joint_estimate, "exposure_modes", lambda *_: [mode])
+    monkeypatch.setattr(joint_estimate, "mean_fit", lambda *_: mode)
     stripes: Any = SimpleNamespace(profile=profile)
     found = refined(stripes, cells, explanation, 2.2)
     (fit,) = found.fits

@@ -35,7 +35,7 @@ PRIORS = {
 """Mean and standard deviation of the priors: gamma's logarithm over the scene's gamma, the tone
 curve's bends, the blur in columns, and the chips by which the LED is on longer."""
 
-_ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
+ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
 _EDGE_SHIFT = 0.4  # deviation in columns of edges' distances where pixel values are blurred
 
 _CHIPS_PER_BLOCK = 2
@@ -94,7 +94,7 @@ class JointModel:
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
         self._deviation[5] = math.hypot(self._deviation[5], _EDGE_SHIFT * step)
         if wide:
-            self._deviation[0] = _ANY_GAMMA
+            self._deviation[0] = ANY_GAMMA
         self._low, self._high = _LOW.copy(), _HIGH.copy()
         self._low[0] *= step
         self._high[0] *= step
@@ -120,7 +120,7 @@ class JointModel:
 
     def with_usual(self, values: FloatArray) -> FloatArray:
         """Keep the timing, the blur, and a gamma that may be any; let all else be as usual."""
-        is_wide = self._deviation[0] == _ANY_GAMMA
+        is_wide = self._deviation[0] == ANY_GAMMA
         kept = np.flatnonzero([True] * 3 + [is_wide] + [False] * 3 + [True, False])
         return self._usual_but(values, kept)
 

@@ -15,6 +15,7 @@ from occ_model.cli import main
 from occ_model.commands import match as match_command
 from occ_model.files.writing import write_image
 from occ_model.photo.evidence.candidates import Candidates
+from occ_model.photo.fit.joint_model import ANY_GAMMA
 from occ_model.program import EXIT_MISUSE
 
 SCENE = random_scene(3)
@@ -126,11 +127,11 @@ def test_chips_without_a_possible_fit_are_not_said_never_to_change(
 
 @pytest.mark.whole
 def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
-    # Of more columns, which tell gamma more exactly.
+    """More than half of what is not known before is told, whatever else bends the tone curve."""
     scene = random_scene(5).replace(averaging="light", gamma=1.8, illuminance=0.0)
     match = occ.match_photo(take(scene), scene.replace(gamma=2.4), fit_gamma=True)
     assert abs(match.gamma - 1.8) < 2.0 * match.uncertainties["gamma"]
-    assert 0.0 < match.uncertainties["gamma"] < 0.3
+    assert 0.0 < match.uncertainties["gamma"] < 0.5 * ANY_GAMMA * match.gamma
     assert match.scene.camera.gamma == match.gamma
 
 

@@ -27,13 +27,9 @@ _COLUMNS_PER_SLOW_SHAPE = 8  # minimum number of columns per polynomial that is 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Fitted:
     kept: LitColumns
-    # Shape (kept,); error, slope: the light of their data less that of the levels, and the data's
-    # slope over light, whose square is its weight.
-    error: FloatArray
-    slope: FloatArray
-    products: FloatArray  # shape (levels, levels); the matrix of the normal equations
-    levels: FloatArray  # shape (levels,); their solution: the levels as if light were blurred
-    # Shape (levels,); the levels of the model: corrected where pixel values are blurred.
+    # Shape (levels,); those that explain the data's light best, as if light were blurred, and those
+    # of the model: corrected where pixel values are blurred.
+    levels: FloatArray
     shown: FloatArray
 
 
@@ -73,15 +69,25 @@ class LitProfile:
     def slopes(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
         """Return the residual's slopes over the light's parameters, then the tone's: (any, kept).
 
-        Where pixel values are blurred, what has the residual as a factor is left out (Kaufman, BIT
-        15:49, 1975).
+        What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
         """
+        fitted, by_lit = self._fitted(seen), rates.lit
+        if seen.sharp is None:
+            picture, by_lit = fitted.kept, by_lit[:, self.kept]
+        else:
+            picture = LitColumns(self._wide_shapes, seen.sharp)
+        light = picture.light(fitted.shown)
+        values = seen.table.value_of(light)
+        by_light = np.zeros((len(by_lit) + len(rates.tone.light), len(light)))
+        np.multiply(by_lit, picture.swing(fitted.shown), out=by_light[: len(by_lit)])
+        slopes = -rates.tone.of_values(values, by_light)
+        steep, columns = seen.table.slope_of(light), picture
         if seen.sharp is not None:
-            return self._slopes_of_blurred(seen, rates, seen.sharp)
-        fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
-        light = fitted.kept.slopes(fitted.levels, self._slopes_of_levels(seen, rates), by_lit)
-        values = seen.table.value_of(fitted.kept.light(fitted.levels))
-        return -rates.tone.of_values(values, light)
+            slopes = blurred(slopes, seen.kernel)
+            slopes[BLUR] -= blurred(values, rates.kernel)
+            slopes = slopes[:, self.kept]
+            steep, columns = self._steep(seen, seen.sharp, light)
+        return slopes - steep * columns.light(self._explained((steep, columns), slopes))
 
     def relative_slope(self, seen: Seen) -> FloatArray:
         """Return the slope of the swing's logarithm over columns, shape (kept,)."""
@@ -100,18 +106,9 @@ class LitProfile:
     def _fitted_to(self, seen: Seen) -> _Fitted:
         kept = LitColumns(self._kept_shapes, seen.lit[self.kept])
         light, slope = seen.table.light_of(self.data), seen.table.slope_at(self.data)
-        products = self._equations.matrix(slope**2, kept.lit)
-        levels = solved(products, kept.sums(slope**2 * light))
+        levels = self._explained((slope, kept), slope * light)
         shown = levels if seen.sharp is None else self._corrected(seen, seen.sharp, levels)
-        return _Fitted(kept, light - kept.light(levels), slope, products, levels, shown)
-
-    def _slopes_of_levels(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
-        fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
-        error, weight = fitted.error, fitted.slope**2
-        by_light, by_slope = rates.tone.at(self.data)
-        by_tone = weight * by_light + 2.0 * error * fitted.slope * by_slope
-        pulls = fitted.kept.pulls(fitted.levels, weight, error, by_lit, by_tone)
-        return solved(fitted.products, pulls)
+        return _Fitted(kept, levels, shown)
 
     def _corrected(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
         """Correct levels that were found as if light were blurred, by Gauss and Newton's steps.
@@ -128,19 +125,6 @@ class LitProfile:
             if np.abs(change).max() < _LEAST_CORRECTION:
                 break
         return levels
-
-    def _slopes_of_blurred(self, seen: Seen, rates: SeenSlopes, sharp: FloatArray) -> FloatArray:
-        levels, picture = self._fitted(seen).shown, LitColumns(self._wide_shapes, sharp)
-        light = picture.light(levels)
-        values = seen.table.value_of(light)
-        by_light = np.zeros((len(rates.lit) + rates.tone.parameters, len(light)))
-        np.multiply(rates.lit, picture.swing(levels), out=by_light[: len(rates.lit)])
-        by_values = rates.tone.of_values(values, by_light)
-        slopes = -blurred(by_values, seen.kernel)
-        slopes[BLUR] -= blurred(values, rates.kernel)
-        slopes = slopes[:, self.kept]
-        steep, columns = self._steep(seen, sharp, light)
-        return slopes - steep * columns.light(self._explained((steep, columns), slopes))
 
     def _steep(
         self, seen: Seen, sharp: FloatArray, light: FloatArray

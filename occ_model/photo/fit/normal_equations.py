@@ -2,8 +2,7 @@
 
 The levels c, combinations of shapes S, solve normal equations: the sums over the columns of
 w e (S, lit S) are 0, where the error e is the light that is seen of a column less its model
-(S, lit S) c, and w its weight. Where lit fractions, seen light and weights change, so do the
-levels: the equations' derivative is linear in their slopes, with the matrix of the equations.
+(S, lit S) c, and w its weight.
 """
 
 from dataclasses import dataclass
@@ -34,35 +33,6 @@ class LitColumns:
         """Sum what levels multiply times values, shape (columns,) or (any, columns)."""
         both = [row_products(part, self.shapes) for part in (values, self.lit * values)]
         return np.concatenate(both, axis=-1)
-
-    def slopes(self, levels: FloatArray, of_levels: FloatArray, by_lit: FloatArray) -> FloatArray:
-        """Return the light's slopes, shape (parameters, columns).
-
-        ``by_lit``: shape (first parameters, columns), the lit fractions' slopes over the first of
-        the parameters, on which they depend.
-        """
-        slopes = self.light(of_levels)
-        slopes[: len(by_lit)] += self.swing(levels) * by_lit
-        return slopes
-
-    def pulls(
-        self,
-        levels: FloatArray,
-        weight: FloatArray,
-        error: FloatArray,
-        by_lit: FloatArray,
-        by_tone: FloatArray,
-    ) -> FloatArray:
-        """Return the slopes of the sums that are 0, the levels being fixed.
-
-        ``weight``, ``error``: shape (columns,), the weight of each column's light, and what is seen
-        of it less its model. ``by_tone``: shape (other parameters, columns), the slopes of weight
-        times error over what changes the light that is seen. Shape (parameters, 2 shapes).
-        """
-        pull = -weight * self.swing(levels)
-        of_dark = row_products(pull * by_lit, self.shapes)
-        of_lit = row_products((self.lit * pull + weight * error) * by_lit, self.shapes)
-        return np.vstack([np.hstack([of_dark, of_lit]), self.sums(by_tone)])
 
 
 class NormalEquations:

@@ -12,6 +12,7 @@ _TOE = 0.03  # fraction of white below which the curve is straight: noise lifts 
 
 _GRID = np.linspace(-0.1, 1.0, 441)
 _STEP = float(_GRID[1] - _GRID[0])
+_LEVELS = WHITE * _GRID
 _LEAST_SLOPE = 0.05
 _BENDS = np.diff([_GRID * (1.0 - _GRID), _GRID * (1.0 - _GRID) * (1.0 - 2.0 * _GRID)])
 """Change of each step of the grid by shoulder and contrast."""
@@ -62,43 +63,19 @@ def _summed(steps: FloatArray) -> FloatArray:
     return np.asarray(sums - sums[-1])
 
 
-class EvenTable:
-    """A function tabulated at equal distances: looked up far faster than at unequal ones.
-
-    ``first``, ``last``: the ends; beyond them the function is constant. ``values``: from one end to
-    the other along the last axis.
-    """
-
-    def __init__(self, first: float, last: float, values: FloatArray) -> None:
-        self._first, self._most = first, values.shape[-1] - 1
-        self._rate = self._most / (last - first)
-        self._values = values
-        self._rise = np.diff(values, append=values[..., -1:])
-
-    def at(self, places: FloatArray) -> FloatArray:
-        place = np.clip((places - self._first) * self._rate, 0.0, self._most)
-        below = place.astype(np.intp)
-        found = self._rise.take(below, axis=-1)
-        found *= place - below
-        found += self._values.take(below, axis=-1)
-        return np.asarray(found)
-
-
 class ToneTable:
     """The light of each tabulated pixel value, and the pixel value's slope over light."""
 
     def __init__(self, light: FloatArray, slope: FloatArray) -> None:
         self.light, self.slope = light, slope
-        self._light = EvenTable(_GRID[0], _GRID[-1], light)
-        self._slope = EvenTable(_GRID[0], _GRID[-1], slope)
 
     def light_of(self, values: FloatArray) -> FloatArray:
         """Return the light of grey levels; 1 makes white."""
-        return self._light.at(values / WHITE)
+        return np.asarray(np.interp(values, _LEVELS, self.light))
 
     def slope_at(self, values: FloatArray) -> FloatArray:
         """Return the slope of grey levels over light."""
-        return np.asarray(WHITE * self._slope.at(values / WHITE))
+        return np.asarray(WHITE * np.interp(values, _LEVELS, self.slope))
 
     def slope_of(self, light: FloatArray) -> FloatArray:
         """Return the slope of grey levels over light, at light."""
@@ -111,19 +88,12 @@ class ToneTable:
         return np.asarray(WHITE * (np.interp(light, self.light, _GRID) + over + under))
 
 
+@dataclass(frozen=True, eq=False, slots=True)
 class ToneSlopes:
-    """Slopes of a tone curve over its parameters; ``light``: shape (parameters, grey levels)."""
+    """Slopes of a tone curve over its parameters."""
 
-    def __init__(self, table: ToneTable, light: FloatArray) -> None:
-        self.parameters = len(light)
-        slope = -(table.slope**2) * np.gradient(light, _STEP, axis=-1)
-        self._both = EvenTable(_GRID[0], _GRID[-1], np.concatenate([light, WHITE * slope]))
-        self._steep = WHITE * _STEP / np.diff(table.light)
-
-    def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the slopes of grey levels' light, and of their slope over light."""
-        both = self._both.at(values / WHITE)
-        return both[: self.parameters], both[self.parameters :]
+    table: ToneTable
+    light: FloatArray  # Shape (parameters, grey levels): of the light of each tabulated one
 
     def of_values(self, values: FloatArray, light: FloatArray) -> FloatArray:
         """Return the slopes of grey levels, shape (parameters, values).
@@ -131,11 +101,14 @@ class ToneSlopes:
         ``values``: shape (values,), the grey levels. ``light``: shape (parameters, values), the
         slopes of their light over any parameters, at last those of the curve.
         """
-        place = (values / WHITE - _GRID[0]) / _STEP
-        steep = self._steep[np.clip(place.astype(np.intp), 0, len(self._steep) - 1)]
-        by_light, by_slope = self.at(values)
+        place = ((values - _LEVELS[0]) / (WHITE * _STEP)).astype(np.intp)
+        rises = np.diff(self.table.light)
+        steep = WHITE * _STEP / rises[np.clip(place, 0, len(rises) - 1)]
+        own = np.stack([np.interp(values, _LEVELS, row) for row in self.light])
         # Beyond both ends the curve goes on straight, by its slope there.
-        beyond = values - WHITE * np.clip(values / WHITE, _GRID[0], _GRID[-1])
+        beyond = values - np.clip(values, _LEVELS[0], _LEVELS[-1])
+        bends = -WHITE * self.table.slope**2 * np.gradient(self.light, _STEP, axis=-1)
+        at_end = np.where(beyond > 0.0, bends[:, -1:], bends[:, :1])
         slopes = steep * light
-        slopes[len(slopes) - self.parameters :] += beyond / steep * by_slope - steep * by_light
+        slopes[-len(own) :] += beyond / steep * at_end - steep * own
         return np.asarray(slopes)

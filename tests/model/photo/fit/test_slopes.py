@@ -64,23 +64,6 @@ CURVES = (
 
 
 @pytest.mark.parametrize("curve", CURVES)
-def test_the_tone_curves_slopes_are_limits_of_differences(curve: ToneCurve) -> None:
-    grey = np.concatenate([np.linspace(-20.0, 255.0, 321), [260.0]])
-    here = np.array([curve.gamma, curve.offset, curve.shoulder, curve.contrast])
-
-    def light(at: np.ndarray) -> np.ndarray:
-        return ToneCurve(*at.tolist()).table().light_of(grey)
-
-    def slope(at: np.ndarray) -> np.ndarray:
-        return ToneCurve(*at.tolist()).table().slope_at(grey)
-
-    of_light, of_slope = curve.slopes(curve.table()).at(grey)
-    for found, function in ((of_light, light), (of_slope, slope)):
-        differences = central(function, here, 1e-6)
-        assert found == pytest.approx(differences, abs=1e-4 * np.abs(differences).max())
-
-
-@pytest.mark.parametrize("curve", CURVES)
 def test_the_grey_levels_of_light_change_by_their_slopes(curve: ToneCurve) -> None:
     """Beyond both ends too, where the curve goes on straight."""
     table = curve.table()
@@ -105,7 +88,7 @@ def model_of(
 ) -> JointModel:
     """Return the model of two profiles under uneven light, one of them half as bright."""
     step, exposure, middle, *bends, blur, longer = values.tolist()
-    table = ToneCurve(2.2 * np.exp(bends[0]), *bends[1:]).table()
+    table = ToneCurve(gamma * np.exp(bends[0]), *bends[1:]).table()
     timing, sharp = Timing(step, exposure, middle, 2.2), values_blurred
     lit = blurred_light(CHIPS, COLUMNS, timing, 0.0 if sharp else blur, longer)
     random, profiles = np.random.default_rng(5), []
@@ -119,43 +102,24 @@ def model_of(
     return JointModel(profiles, CHIPS, step, gamma, values_blurred=values_blurred, wide=wide)
 
 
-@pytest.mark.parametrize(("brightest", "late"), [(0.5, 0.0), (1.5, 0.0), (1.5, 0.4)])
-@pytest.mark.parametrize(("gamma", "wide"), [(2.2, False), (2.2, True), (1.0, False)])
-@pytest.mark.parametrize("shape", SHAPES)
-def test_the_residuals_slopes_are_limits_of_differences(
-    brightest: float, late: float, gamma: float, wide: bool, shape: BlurShape
-) -> None:
-    """Also off the best fit, and with some columns clipped."""
-    true = drawn(1)
-    model = model_of(true, 2.0, brightest, gamma=gamma, wide=wide)
-    model.estimate_noise(true)
-    here = true + 0.02 * (drawn(11) - drawn(21))
-    here[2] += late
-    slopes = model._slopes(here, shape) * model._scale[:, None]
-
-    def residual(scaled: np.ndarray) -> np.ndarray:
-        return model._residual(here + scaled * model._scale, shape)
-
-    coarse, fine = (
-        off(slopes, central(residual, np.zeros(9), change)).max() for change in (0.1, 1e-4)
-    )
-    assert fine < 0.1 * coarse
-    assert fine < 1e-4
-
-
 @pytest.mark.parametrize("brightest", [0.5, 1.5])
 @pytest.mark.parametrize("noise", [3.0, 10.0])
-@pytest.mark.parametrize("seed", [1, 2])
-def test_half_of_blurred_values_slopes_are_off_by_less_than_the_residuals_fraction(
-    brightest: float, noise: float, seed: int
+@pytest.mark.parametrize("values_blurred", [False, True])
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(("gamma", "wide"), [(2.2, False), (2.2, True), (1.0, False)])
+def test_half_of_the_slopes_are_off_by_less_than_the_residuals_part(
+    brightest: float, noise: float, values_blurred: bool, shape: BlurShape, gamma: float, wide: bool
 ) -> None:
     """What is left out of them has the residual as a factor: it is small beside the stripes."""
-    true = drawn(seed)
-    model = model_of(true, noise, brightest, values_blurred=True)
+    true = drawn(1)
+    if gamma == 1.0:  # of pixel values that are averaged, whose gamma and offset are not fitted
+        true[3:5] = 0.0
+    model = model_of(true, noise, brightest, gamma=gamma, values_blurred=values_blurred, wide=wide)
 
     def residual(scaled: np.ndarray) -> np.ndarray:
-        return model._residual(true + scaled * model._scale, "normal")
+        return model._residual(true + scaled * model._scale, shape)
 
-    slopes = model._slopes(true, "normal") * model._scale[:, None]
+    slopes = model._slopes(true, shape) * model._scale[:, None]
     wrong = off(slopes, central(residual, np.zeros(9), 1e-3), 0.5)
-    assert wrong.max() < noise / 255.0
+    left = np.sqrt(np.nanmean(model.misfit_of_columns(true)))
+    assert wrong.max() < left / min(np.ptp(part.data) for part in model._parts)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.tone_curve import EvenTable, ToneCurve
+from occ_model.photo.fit.tone_curve import ToneCurve
 
 CURVES = (
     ToneCurve(2.2),
@@ -73,13 +73,6 @@ def test_its_toe_is_straight_and_has_the_curves_height_and_slope_where_it_begins
     light = ToneCurve(2.2).table().light_of(255.0 * fraction)
     tangent = 0.03**2.2 + 2.2 * 0.03**1.2 * (fraction - 0.03)
     assert light == pytest.approx(tangent, abs=1e-6)
-
-
-def test_a_table_of_equal_distances_gives_what_any_table_gives() -> None:
-    places, values = np.linspace(-0.3, 1.7, 41), np.random.default_rng(3).normal(size=41)
-    asked = np.linspace(-1.0, 2.5, 333)
-    found = EvenTable(-0.3, 1.7, values).at(asked)
-    assert found == pytest.approx(np.interp(asked, places, values), abs=1e-12)
 
 
 def test_where_its_bends_would_make_it_fall_it_rises_by_a_twentieth() -> None:

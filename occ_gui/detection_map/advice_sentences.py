@@ -4,11 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import (
-    Advice,
-    Limits,
-    RangeEnd,
-    WorkingRange,
+from occ_model.results.limit_text import (
     end_text,
     format_end,
     format_value,
@@ -21,6 +17,7 @@ from occ_model.results.limits import (
     theory_text,
     two_packets_text,
 )
+from occ_model.results.limits import Advice, Limits, RangeEnd, WorkingRange
 from occ_model.scene.parameters import quantity
 
 _FREQUENCY, _HIGHEST = "switching_frequency", "highest frequency"

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QStackedWidget, QV
 
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.decoder_maps import MapLegend, MapPlots
-from occ_gui.detection_map.limit_cards import MostBitsCard
+from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button

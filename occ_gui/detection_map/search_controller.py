@@ -15,7 +15,7 @@ from occ_gui.detection_map.advice_worker import (
     advise_roughly,
     search_most_bits,
 )
-from occ_gui.detection_map.limit_cards import MostBitsCard
+from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.worker import find_omitted_effects, make_rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job

@@ -10,7 +10,8 @@ import numpy as np
 from occ_gui.background.task import TaskReporter
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.load import load_photo
-from occ_model.room.locate import RoomReading, read_room, read_room_photo
+from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.locate_photo import read_room_photo
 from occ_model.room.render import render_room
 from occ_model.room.room import Room
 from occ_model.room.view import aim_of, room_outline, seen_outline

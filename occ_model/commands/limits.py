@@ -18,10 +18,7 @@ from occ_model.errors import inflect
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
-from occ_model.results.limits import (
-    Limits,
-    RangeEnd,
-    WorkingRange,
+from occ_model.results.limit_text import (
     end_text,
     format_end,
     format_gaps,
@@ -32,6 +29,7 @@ from occ_model.results.limits import (
     theory_text,
     two_packets_text,
 )
+from occ_model.results.limits import Limits, RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.parameters import quantity

@@ -21,7 +21,8 @@ from occ_model.errors import inflect, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
-from occ_model.room.locate import RoomReading, read_room, read_room_photo
+from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.locate_photo import read_room_photo
 from occ_model.room.place_text import AXES, format_place
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Room

@@ -10,7 +10,8 @@ from pytestqt.qtbot import QtBot
 from occ_gui.detection_map import limit_cards
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_model.results.limits import Advice, RangeEnd, format_value
+from occ_model.results.limit_text import format_value
+from occ_model.results.limits import Advice, RangeEnd
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of
 

@@ -13,8 +13,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from occ_gui.detection_map.axis_ticks import make_ticks, write_axis_title
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
-from occ_gui.detection_map.map_plot import make_ticks, write_axis_title
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import (
     MAP_PARAMETERS,

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import advice_worker
-from occ_gui.detection_map.limit_cards import MostBitsCard
+from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.search_controller import MostBitsController
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.scene import Scene

@@ -12,7 +12,7 @@ from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.room.locate import RoomPhoto, read_room_photo
+from occ_model.room.locate_photo import RoomPhoto, read_room_photo
 from occ_model.room.room import Place, Room
 
 

@@ -104,7 +104,7 @@ class EffectModel(QAbstractTableModel):
             return
         old_rows, self.rows = self.rows, sorted_rows
         are_bars_rescaled = find_longest_time(old_rows) != find_longest_time(rows)
-        for place, (old, row) in enumerate(zip(old_rows, rows, strict=True)):
+        for place, (old, row) in enumerate(zip(old_rows, sorted_rows, strict=True)):
             if old != row or are_bars_rescaled:
                 self.dataChanged.emit(self.index(place, STAGE), self.index(place, SWITCH))
 

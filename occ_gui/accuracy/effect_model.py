@@ -138,7 +138,7 @@ class EffectModel(QAbstractTableModel):
             case Qt.ItemDataRole.DisplayRole:
                 place = index.row()
                 is_same = place > 0 and self.rows[place - 1].stage == row.stage
-                return "" if column == STAGE and is_same else _format_cell(row, column)
+                return "" if column == STAGE and is_same else format_cell(row, column)
             case Qt.ItemDataRole.ToolTipRole:
                 return row.error_meaning if column == ERROR and row.error_text else row.reason
             case Qt.ItemDataRole.TextAlignmentRole:
@@ -150,7 +150,7 @@ class EffectModel(QAbstractTableModel):
         return None
 
 
-def _format_cell(row: EffectRow, column: int) -> str:
+def format_cell(row: EffectRow, column: int) -> str:
     if column == EFFECT:
         if row.effect == EVERYTHING_ELSE:
             return row.label

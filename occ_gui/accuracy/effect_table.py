@@ -14,7 +14,7 @@ from PySide6.QtGui import QMouseEvent, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView
 
 from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, find_levels
-from occ_gui.accuracy.effect_model import EffectModel, _format_cell
+from occ_gui.accuracy.effect_model import EffectModel, format_cell
 from occ_gui.accuracy.effect_rows import (
     EFFECT,
     ERROR,
@@ -182,7 +182,7 @@ class EffectTable(QTableView):
     def _hide_columns(self) -> None:
         """Hide the least informative columns where names would be cut off."""
         metrics = self.fontMetrics()
-        texts = (_format_cell(row, EFFECT) for row in self.effects.rows)
+        texts = (format_cell(row, EFFECT) for row in self.effects.rows)
         room = self.viewport().width() - 8
         room -= max((metrics.horizontalAdvance(text) + 8 for text in texts), default=0)
         room -= sum(self._widths.get(column, 0) for column in (ERROR, TIME, SWITCH))

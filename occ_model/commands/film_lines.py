@@ -16,7 +16,7 @@ _PERCENT = 1e-2
 
 
 class Tolerances(TypedDict):
-    """Of :func:`occ_model.decode_video`."""
+    """What is known of a film's clock: the tolerances that :func:`occ_model.decode_video` takes."""
 
     readout_tolerance: float | None
     frequency_tolerance: float | None
@@ -62,7 +62,7 @@ def film_channel(name: str) -> str:
 
 
 def describe_slow_motion(video: Video, clock: Clock | None) -> str:
-    """State in which slow motion a film plays, by its file or by the lamp; empty if in none."""
+    """State how slow a film in slow motion is, by its file or by the lamp; empty for others."""
     if video.times.slowdown > 1.0:
         return f"slow motion of 1/{video.times.slowdown:g}, as the file states"
     if clock is not None and clock.slow_motion > 1:

@@ -144,7 +144,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
 
 
 def _fit_options(options: argparse.Namespace) -> dict[str, Any]:
-    """Return what a single photo's match and those of its lamps take of the command line."""
+    """Return the options that hold for a single photo, whether it or its lamps are matched."""
     return {name: getattr(options, name) for name in ("estimate", "sent", "fit_gamma")}
 
 

@@ -192,7 +192,7 @@ class _Progress:
         self._report(fraction)
 
     def again(self) -> None:
-        """Report the same fraction, if some time has passed: the receiver may end the work so."""
+        """Report the same fraction again after some time, so that the caller can cancel."""
         if time.monotonic() - self._last > _REPORT_INTERVAL:
             self(self._fraction)
 

@@ -119,7 +119,7 @@ class TimeFractions:
 
     @classmethod
     def of_runs(cls, runs: Sequence[Self]) -> Self:
-        """Take the run of the median time, whose fractions add up to what it took."""
+        """Return the fractions of the run of median time, which add up to the time of one run."""
         by_time = sorted(runs, key=lambda run: run.seconds)
         times = Times.of(run.seconds for run in runs)
         median = by_time[(len(runs) - 1) // 2]
@@ -206,7 +206,7 @@ class MeasuredCosts:
         return 0.0
 
     def shares_step_with(self, effect: str) -> str | None:
-        """Return the effect of the last picture whose step computes, or would compute, this one."""
+        """Return the effect in the last picture that is computed together with this one, if any."""
         for fractions in (self.picture, *self.others):
             other = fractions.shared_steps.get(effect)
             if other in self.picture.effects:

@@ -163,7 +163,10 @@ class LessonStep:
         return self.scene if self.check is None else self.check.scene
 
     def scene_to_judge(self, current: Scene) -> Scene:
-        """Return the scene for a check: the question's as long as the step's own is shown."""
+        """Return the scene that an answer is checked by.
+
+        It is the question's while the step's own scene is shown, else the one that is shown.
+        """
         return self.question_scene if current == self.scene else current
 
     def with_unit(self, answer: str) -> str:

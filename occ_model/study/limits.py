@@ -191,7 +191,7 @@ class _SearchRunner:
             raise
 
     def _take_next(self, name: str) -> _Search | None:
-        """Take a search of the first decoder that has one, best along a parameter."""
+        """Take a search of the first decoder in the queue, if possible along this parameter."""
         if not self._waiting:
             return None
         wanted = _Search(name, self._waiting[0].decoder)

@@ -240,7 +240,7 @@ def _likelihoods(
 
 
 def _log_weights_of_cliffs(distances: FloatArray) -> FloatArray:
-    """Return the logarithm of the part of the curves with a cliff after each value from each end.
+    """Return, for each end, the logarithm of the fraction of curves with a cliff after each value.
 
     Cliffs are evenly spread over the values' range. Half of the curves have none before its end.
     """

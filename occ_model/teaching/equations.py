@@ -197,7 +197,7 @@ def _chip_columns(scene: Scene) -> Equation:
 
 
 def _period_columns(scene: Scene) -> Equation:
-    """Return the columns from bar to bar, with the name of a chip's equation that lessons use."""
+    """Return the columns from bar to bar, under the name that lessons use for those of a chip."""
     return _columns_equation(
         scene, "the light's period", *_period(scene), float(light_period(scene.transmitter))
     )

@@ -118,7 +118,7 @@ def _bright_ends(
 def _first_bright(
     dark: FloatArray, start: IndexArray, count: IndexArray, drawn: Pixels
 ) -> IndexArray:
-    """Draw the place of the first bright one from a start on, of so many, one of which is."""
+    """Draw which of ``count`` places from a start on is the first bright one; one of them is."""
     place = np.arange(int(count.max(initial=1)))
     seen = np.minimum(start[:, None] + place, dark.shape[1] - 1)
     own = np.where(place < count[:, None], np.take_along_axis(dark, seen, axis=1), 0.0)

@@ -38,7 +38,7 @@ def measure_study(  # noqa: PLR0913 - the study, and how it is measured
     lines of all points in the order of the study. For the other arguments see :func:`run_sweep`.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
-    reporter, is_measured = SweepProgress(table.point_count, progress), bytearray(table.point_count)
+    reporter, is_measured = StudyProgress(table.point_count, progress), bytearray(table.point_count)
     with ExitStack() as stack:
         file = (
             stack.enter_context(ResultsFile(Path(results), table)) if results is not None else None
@@ -62,8 +62,8 @@ def measure_study(  # noqa: PLR0913 - the study, and how it is measured
             file.finish(all_lines())
 
 
-class SweepProgress:
-    """Measures the progress of a sweep and its time left, and reports both."""
+class StudyProgress:
+    """Measures the progress of a study and its time left, and reports both."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self._progress = progress

@@ -110,7 +110,7 @@ class DecodeView(QWidget):
         self.verdict.setText(self._describe_verdict(reading))
 
     def show_run(self, value: str, _pictured: str) -> None:
-        """Show the value of a running slider for which the verdict is; empty while none runs."""
+        """Show at which value of a running slider the verdict holds; empty while none runs."""
         if value != self._run_value:
             self._run_value = value
             if self._reading is not None:

@@ -39,7 +39,6 @@ class ProfileView(QWidget):
     """
 
     enhanced_chosen = Signal(bool)  # whether the user chose the enhanced columns
-    photo_shown = Signal(object)  # the PhotoProfile that is shown from now on, or None
 
     def __init__(self) -> None:
         super().__init__()
@@ -179,7 +178,6 @@ class ProfileView(QWidget):
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
         self._photo = profile
-        self.photo_shown.emit(profile)
         if profile is not None:
             self.chips.place(profile.first_column, profile.scale)
         if profile is None:

@@ -192,7 +192,6 @@ class ResultUpdater(QObject, Generic[Request, Result]):
     begun = Signal()
 
     ended = Signal()  # the request was fulfilled, has failed, or is no longer needed
-    result_stored = Signal(object)  # a result of the task, after it was stored
     failed = Signal(str)  # a sentence that says why there is no result
 
     def __init__(
@@ -242,7 +241,6 @@ class ResultUpdater(QObject, Generic[Request, Result]):
         self.keep(result)
         self.ended.emit()
         self._results_store.put(self._put(self._results_store.results, result))
-        self.result_stored.emit(result)
 
     def _fail(self, sentence: str) -> None:
         self.ended.emit()

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QMouseEvent, QPainter, QPalette, QPen, QPolygonF
 
 from occ_gui.simulation.snapshot import ColumnView
@@ -40,8 +40,6 @@ class LightRow(StoryRow):
 
     The window, as wide as the exposure is long, can be dragged to another column.
     """
-
-    window_dragged = Signal()
 
     def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
         super().__init__("Light", axis, crosshair)
@@ -313,7 +311,6 @@ class LightRow(StoryRow):
             super().drag_to(position)
         elif self.is_drag(position):
             self.crosshair.choose(self.column_at(position.x()) - self._grab_offset)
-            self.window_dragged.emit()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mouseReleaseEvent(event)

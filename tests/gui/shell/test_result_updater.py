@@ -111,13 +111,11 @@ def test_the_last_result_stays_until_the_next_one_if_so_declared(qtbot: QtBot, s
 
 def test_the_last_results_come_back_at_once(qtbot: QtBot) -> None:
     bench = UpdaterBench(qtbot, keep=2)
-    results = collect(bench.work.result_stored)
     for name in ("threshold", "b", "c"):
         bench.choose(name)
         bench.wait()
     bench.choose("b")
     assert (bench.result, bench.work.task.is_idle) == ("B", True)
-    assert results == ["THRESHOLD", "B", "C"]
     bench.choose("threshold")
     assert bench.result is None, "only two are kept"
     bench.wait()

@@ -7,9 +7,7 @@ import pytest
 from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
-from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import level_values, luminance_levels
-from occ_model.camera.projection import image_points
 from occ_model.effects.optics_effects import Emission
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
@@ -33,29 +31,6 @@ def test_reflected_light_and_surroundings_stay_as_they_are() -> None:
     np.testing.assert_allclose(
         pictured_luminance(scene, Emission()), luminance_levels(scene)[0], rtol=1e-5, atol=0
     )
-
-
-def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
-    scene = steady_scene(yaw=0.4, pitch=-0.3, roll=0.5, distance=3.0, offset_x=0.2, panel_width=1.0)
-    pose = scene.pose
-
-    def turned(x: float, y: float, z: float) -> np.ndarray:
-        sin, cos = math.sin(pose.pitch), math.cos(pose.pitch)
-        y, z = y * cos - z * sin, y * sin + z * cos
-        sin, cos = math.sin(pose.yaw), math.cos(pose.yaw)
-        x, z = x * cos + z * sin, z * cos - x * sin
-        sin, cos = math.sin(pose.roll), math.cos(pose.roll)
-        return np.array([x * cos - y * sin, x * sin + y * cos, z])
-
-    normal = turned(0.0, 0.0, -1.0)
-    place = np.array([pose.offset_x, pose.offset_y, pose.distance])
-    optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
-    gains = optics.emission[0].at(np.arange(ROWS, dtype=np.float64), slice(None))
-    for x, y in ((-0.2, -0.3), (0.1, -0.3), (0.1, 0.2), (0.0, 0.0)):
-        point = turned(x, y, 0.0) + place
-        column, row = np.rint(image_points(point[:2] / point[2], scene.camera)).astype(int)
-        cosine = -normal @ point / np.linalg.norm(point)
-        assert gains[row, column] == pytest.approx(cosine**2, rel=0.01)
 
 
 def test_the_picture_of_a_turned_panel_is_darker() -> None:
@@ -109,13 +84,6 @@ def test_all_light_is_lost_alike_that_of_the_surroundings_too() -> None:
     for pixel in ((0, 0), (100, 300), (50, 0)):
         factor = cosine(scene, *pixel) ** (4 / 2.22)
         assert image[pixel] == pytest.approx(dark * factor, abs=0.51)
-
-
-def test_the_picture_is_the_vignetted_one_rounded() -> None:
-    scene = vignetted_scene(pattern="")
-    np.testing.assert_array_equal(
-        occ.render(scene, force=ONLY).image, np.rint(panel_values_of(scene))
-    )
 
 
 @pytest.mark.parametrize("limit", ["white", "full well"])

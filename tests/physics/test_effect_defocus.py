@@ -82,12 +82,6 @@ def test_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
     assert blur_of(both) == pytest.approx(math.hypot(3.0, blur_of(away)))
 
 
-@pytest.mark.parametrize("blur", [0.7, 3.0, 12.0, 40.0])
-def test_a_panel_beyond_the_picture_is_not_darker_at_its_rim(blur: float) -> None:
-    scene = unsharp_scene(blur, distance=0.05)
-    np.testing.assert_allclose(panel_fraction(scene), 1.0, rtol=0, atol=2e-4)
-
-
 @pytest.mark.parametrize("averaging", ["pixel-value", "light"])
 @pytest.mark.parametrize("blur", [2.0, 9.0])
 def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
@@ -108,11 +102,3 @@ def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
     row = frame.image[ROWS // 2, middle].astype(float)
     assert len(row) > 70
     np.testing.assert_allclose(row, profile[middle], rtol=0, atol=0.51)
-
-
-def test_a_blur_far_wider_than_the_picture_is_pictured_at_once() -> None:
-    scene = unsharp_scene(1000.0, focus_distance=0.001, distance=1e4)
-    assert blur_of(scene) > ROWS + COLUMNS
-    fraction = panel_fraction(scene)
-    assert 0.0 < fraction.max() < 0.01
-    assert np.ptp(fraction) < 0.002

@@ -2,12 +2,10 @@
 
 import dataclasses
 from functools import lru_cache
-from itertools import product
 
 import cv2
 import numpy as np
 import pytest
-from amount import amount
 
 import occ_model as occ
 from occ_model.camera.projection import image_rays
@@ -21,12 +19,6 @@ LENSES = [
     {"tangential_p2": -0.03},
     {"radial_k1": -0.12, "radial_k2": 0.03, "tangential_p1": 0.01, "tangential_p2": -0.015},
 ]
-POSES = [
-    {"distance": 1.2},
-    {"distance": 0.9, "roll": 0.4},
-    {"distance": 1.5, "yaw": 0.6, "pitch": -0.3, "roll": -1.0, "offset_x": 0.1},
-]
-HUGE = [{"distance": 0.2}, {"distance": 0.05, "roll": 0.5}, {"distance": 0.5, "yaw": 0.8}]
 ONLY = {"sensor-noise": False, "fixed-pattern": False, "distortion": True}
 
 
@@ -77,17 +69,6 @@ def find_panel_pixels(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     return inside.reshape(ROWS, COLUMNS), at_rim.reshape(ROWS, COLUMNS)
 
 
-@pytest.mark.parametrize(("lens", "pose"), [*product(LENSES, POSES + HUGE)][:: amount(5, 1)])
-def test_a_pixel_shows_the_panel_where_its_ray_meets_it(
-    lens: dict[str, float], pose: dict[str, float]
-) -> None:
-    scene = bent_scene(**lens, **pose, pattern="1", illuminance=0.0)
-    inside, at_rim = find_panel_pixels(scene)
-    image = occ.render(scene, force=ONLY).image
-    np.testing.assert_array_equal((image > 0)[~at_rim], inside[~at_rim])
-    assert at_rim.mean() < 0.01
-
-
 @pytest.mark.parametrize("lens", LENSES)
 def test_stripes_stay_columns(lens: dict[str, float]) -> None:
     scene = bent_scene(**lens, distance=0.9, roll=0.2, enhancement="equalization")
@@ -108,24 +89,18 @@ def test_a_minimal_distortion_gives_the_straight_panel() -> None:
 
 
 @pytest.mark.parametrize("blur", [0.0, 5.0, 30.0, 200.0])
-@pytest.mark.parametrize("k1", [-0.1, -0.15])
-def test_no_blur_folds_a_lens_that_does_not_fold(k1: float, blur: float) -> None:
+@pytest.mark.parametrize(
+    ("k1", "distance"), [(-0.1, 0.05), (-0.15, 1e-3), (0.5, 1e-3), (10.0, 1e-3)]
+)
+def test_no_blur_folds_a_lens_that_does_not_fold(k1: float, distance: float, blur: float) -> None:
     """It folds only beyond the picture's corners, 0.83 focal lengths from the middle."""
-    scene = bent_scene(radial_k1=k1, point_spread=blur, distance=0.05)
+    scene = bent_scene(radial_k1=k1, point_spread=blur, distance=distance)
     frame = occ.render(scene, tolerance=0, force=ONLY)
     largest = 1.0 if blur else 0.0
     columns = occ.render(scene, tolerance=float("inf")).signal
     np.testing.assert_allclose(
         frame.image.astype(float), np.tile(columns, (ROWS, 1)), rtol=0, atol=largest
     )
-
-
-@pytest.mark.parametrize("k1", [-0.15, 0.5, 10.0])
-def test_a_panel_a_thousand_times_the_picture_fills_it(k1: float) -> None:
-    scene = bent_scene(radial_k1=k1, distance=0.001)
-    columns = occ.render(scene, tolerance=float("inf")).signal
-    frame = occ.render(scene, force=ONLY)
-    np.testing.assert_array_equal(frame.image, np.tile(columns, (ROWS, 1)))
 
 
 def test_a_panel_out_of_sight_leaves_the_picture_dark() -> None:

@@ -21,15 +21,6 @@ def flickering_scene(**changes: float | str) -> Scene:
     ).replace(**changes)  # fmt: skip
 
 
-def test_the_surroundings_flicker_as_the_dark_panel_does() -> None:
-    scene = flickering_scene(pattern="0")
-    frame = occ.render(scene, force=ONLY_FLICKER)
-    dark = luminance_levels(scene)[0] * ambient_fractions(scene)
-    expected = np.rint(pixel_value(dark, scene.camera))
-    assert np.ptp(expected) > 25
-    np.testing.assert_array_equal(frame.image, np.tile(expected, (90, 1)))
-
-
 @pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
 def test_the_surroundings_flicker_beside_a_panel_that_blinks(enhancement: str) -> None:
     scene = flickering_scene(enhancement=enhancement)

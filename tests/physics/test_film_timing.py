@@ -91,22 +91,6 @@ def test_a_clock_that_is_too_fast_has_shorter_times_and_higher_frequencies() -> 
     assert led.camera == scene.camera
 
 
-def test_clocks_that_drift_alike_show_the_same_stripes() -> None:
-    drifting = occ.Recording(frame_rate=25.0, camera_drift=5e-5, transmitter_drift=5e-5)
-    films = [
-        occ.render_video(SMALL, recording=each)
-        for each in (occ.Recording(frame_rate=25.0), drifting)
-    ]
-    for index in (0, 1000):
-        lit, other = (
-            occ.on_time(film.scene_of(index)) / film.scene_of(index).camera.exposure_time
-            for film in films
-        )
-        # Rounding of frequency and readout time gives a difference of some 1e-16 of the elapsed
-        # chips.
-        assert np.abs(lit - other).max() < 1e-9
-
-
 def test_the_packets_of_a_published_example_are_received_as_counted() -> None:
     """CamComSim's example: 33.3 ms a frame, a gap of 0.2, 8,000 chips/s, packets of 52 chips.
 

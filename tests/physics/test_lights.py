@@ -1,4 +1,4 @@
-"""Pictures of lamps, levels, mains and flashes, against closed forms and samples dense in time."""
+"""Pictures of lamps, levels, mains and flashes, against exact light and samples dense in time."""
 
 import math
 
@@ -39,77 +39,18 @@ def pixel_values(scene: Scene, light: FloatArray) -> FloatArray:
     return np.minimum(low + (high - low) * light, 255.0)
 
 
-def frame_of_many_carriers() -> tuple[str, FloatArray, FloatArray]:
-    """Return a CSV of a frame with a guard interval, as of light of many carriers, and its steps.
-
-    64 samples of 16 carriers with random phases, clipped, behind a copy of the last 8 of them.
-    """
-    random = np.random.default_rng(5)
-    phases = np.exp(2j * np.pi * random.random(16))
-    symbol = np.fft.irfft(np.concatenate([[0.0], phases, np.zeros(16)]), 64)
-    symbol = np.clip(0.5 + 3.0 * symbol, 0.0, 1.0)
-    levels: FloatArray = np.concatenate([symbol[-8:], symbol])
-    seconds: FloatArray = np.arange(73.0) * 11e-6
-    rows = zip(seconds[:-1].tolist(), levels.tolist(), strict=True)
-    text = "seconds,level\n" + "".join(f"{at!r},{level!r}\n" for at, level in rows)
-    return f"{text}{float(seconds[-1])!r}\n", seconds, levels
-
-
-@pytest.mark.parametrize("exposure", [3e-6, 136e-6, 1.9e-3])
-def test_four_levels_have_the_picture_of_dense_samples(exposure: float) -> None:
-    symbols = np.random.default_rng(4).integers(0, 4, 50)
-    scene = SMALL.replace(
-        light="waveform", levels=f"{' '.join(map(str, symbols))} / 3",
-        switching_frequency=8.1e3, exposure_time=exposure, iso=30.0,
-    )  # fmt: skip
-    within = (np.arange(SAMPLES) + 0.5) / SAMPLES * exposure
-    at = np.floor((starts_of(scene)[:, None] + within) * 8.1e3).astype(int) % 50
-    sampled = (symbols / 3.0)[at].mean(axis=1)
-    edges = exposure * 8.1e3 + 1.0
-    np.testing.assert_allclose(lit_fraction(scene), sampled, atol=edges / SAMPLES)
+@pytest.mark.parametrize("exposure", [3e-6, 136e-6, 1 / 239, 5e-3])
+@pytest.mark.parametrize("name", OTHER_LIGHTS.keys() - {"mains"})
+def test_the_profile_of_any_light_is_that_of_its_mean_in_each_exposure(
+    name: str, exposure: float
+) -> None:
+    scene = SMALL.replace(**OTHER_LIGHTS[name], exposure_time=exposure, iso=2.0)
+    light = ExactLight(scene).of_columns()
+    np.testing.assert_allclose(occ.on_time(scene), light * exposure, atol=1e-13)
     frame = occ.render(scene, tolerance=math.inf)
-    swing = np.ptp(pixel_values(scene, np.array([0.0, 1.0])))
-    bound = swing * edges / SAMPLES + 1e-9
-    np.testing.assert_allclose(frame.profile, pixel_values(scene, sampled), atol=bound)
+    np.testing.assert_allclose(frame.profile, pixel_values(scene, light), atol=1e-7)
     image = frame.camera_image.astype(float)
     assert np.abs(image.mean(axis=0) - frame.profile).max() <= 0.5 + 1e-9
-
-
-@pytest.mark.parametrize("exposure", [2e-6, 130e-6, 5e-3])
-def test_a_recorded_frame_of_many_carriers_has_the_picture_of_dense_samples(
-    exposure: float,
-) -> None:
-    text, seconds, levels = frame_of_many_carriers()
-    scene = SMALL.replace(light="waveform", waveform_file=text, exposure_time=exposure, iso=10.0)
-    within = (np.arange(SAMPLES) + 0.5) / SAMPLES * exposure
-    places = (starts_of(scene)[:, None] + within) % seconds[-1]
-    sampled = levels[np.searchsorted(seconds, places, side="right") - 1].mean(axis=1)
-    edges = exposure / 11e-6 + 1.0
-    np.testing.assert_allclose(lit_fraction(scene), sampled, atol=edges / SAMPLES)
-    np.testing.assert_allclose(lit_fraction(scene), ExactLight(scene).of_columns(), atol=1e-12)
-    swing = np.ptp(pixel_values(scene, np.array([0.0, 1.0])))
-    bound = swing * edges / SAMPLES + 1e-9
-    profile = occ.render(scene, tolerance=math.inf).profile
-    np.testing.assert_allclose(profile, pixel_values(scene, sampled), atol=bound)
-
-
-@pytest.mark.parametrize("exposure", [100e-6, 1e-3, 1 / 239, 10e-3])
-def test_a_dimmed_lamp_has_the_profile_of_its_closed_form(exposure: float) -> None:
-    scene = SMALL.replace(
-        light="lamp", lamp_frequency=239.0, duty=0.3, depth=0.8, exposure_time=exposure, iso=2.0
-    )
-
-    def light_until(seconds: FloatArray) -> FloatArray:
-        cycles = seconds * 239.0
-        lit = np.floor(cycles) * 0.3 + np.minimum(cycles % 1.0, 0.3)
-        return np.asarray(0.2 * seconds + 0.8 * lit / 239.0)
-
-    starts = starts_of(scene)
-    light = (light_until(starts + exposure) - light_until(starts)) / exposure
-    np.testing.assert_allclose(occ.on_time(scene), light * exposure, atol=1e-13)
-    np.testing.assert_allclose(occ.column_profile(scene), pixel_values(scene, light), atol=1e-7)
-    if exposure == 1 / 239:  # a whole cycle
-        assert np.ptp(occ.column_profile(scene)) < 1e-9
 
 
 @pytest.mark.parametrize("exposure", [1e-6, 2e-3, 1 / 100, 0.123])

@@ -13,8 +13,7 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.receiver.decode import DECODERS
-from occ_model.receiver.signal import locate
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 
 BOTH = sorted(DECODERS)
@@ -203,16 +202,6 @@ def test_a_hard_signal_is_read_or_refused_with_a_reason(name: str, decoder: str)
 
 
 @pytest.mark.parametrize("decoder", BOTH)
-def test_a_hundred_thousand_columns_are_read(decoder: str) -> None:
-    # Over 333 packets, a drift of a thousandth of a chip a packet would blur the last ones.
-    scene = Scene().replace(code=0b1011001110, exposure_time=68e-6)
-    profile = profile_of(100_000, code=0b1011001110, exposure_time=68e-6)
-    result = occ.decode(profile, scene, decoder)
-    assert result.code == 0b1011001110
-    check(result, 100_000)
-
-
-@pytest.mark.parametrize("decoder", BOTH)
 def test_codes_of_16_bits_in_100000_columns_are_read(decoder: str) -> None:
     # A table of 65,536 codes at 288 phases would fill 150 GB with the columns.
     scene = Scene().replace(bits=16, code=0xBEEF, exposure_time=68e-6)
@@ -312,39 +301,9 @@ def test_an_array_that_is_no_image_is_refused_with_a_sentence(name: str) -> None
         assert str(refusal.value).endswith(".")
 
 
-@pytest.mark.parametrize("frequency", [1e6, 1e7, 1e9])
-def test_chips_shorter_than_a_column_are_not_counted(frequency: float) -> None:
-    # Runs of 2 columns would have 1e10 chips each, and all chips would take 15 terabytes.
-    scene = Scene().replace(pattern="01", switching_frequency=frequency, readout_time=1e-3)
-    result = occ.decode(np.resize([0.0, 0.0, 255.0, 255.0], 200), scene)
-    assert result.failure.startswith("A chip lasts ")
-    assert len(result.chips) == 0
-
-
 @pytest.mark.parametrize("exposure", [24 / 8192, 1e3 + 1e-5, 1e6])
 def test_an_exposure_that_leaves_only_the_mean_is_refused(exposure: float) -> None:
     # Exactly one packet, or so many that the rest is lost in rounding: all codes look alike.
     scene = Scene().replace(exposure_time=exposure, switching_frequency=8192.0)
     failure = occ.decode(SIGNALS["runs of all lengths"], scene, "matched").failure
     assert failure.startswith("All codes look the same")
-
-
-LOCATED: dict[str, tuple[np.ndarray, Region]] = {
-    # The fraction of the brightest pixels is less than one pixel.
-    "one pixel of a million": (np.zeros((1000, 1000), np.uint8), Region(999, 1000, 0, 1)),
-    # Less than a cell of the grid on which contours grow, at its far end.
-    "the last of 100,000 columns": (
-        np.zeros((1, 100_000), np.uint8), Region(0, 1, 99_999, 100_000)),
-    "the last of 100,000 rows": (np.zeros((100_000, 1), np.uint8), Region(99_999, 100_000, 0, 1)),
-    # Only one level brighter.
-    "a single grey level": (np.full((50, 60), 254, np.uint8), Region(20, 30, 10, 40)),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", LOCATED)
-def test_a_panel_that_hardly_shows_is_found_to_the_pixel(name: str) -> None:
-    image, region = LOCATED[name]
-    image = image.copy()
-    image[region.first_row : region.last_row, region.first_column : region.last_column] = 255
-    found = locate(image, 0.05)
-    assert found.region == region

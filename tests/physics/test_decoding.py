@@ -30,15 +30,6 @@ def test_codes_are_read_from_their_own_picture(covering_scene: Scene, exposure: 
         assert result.bits.tolist() == list(bits_of(code, 10))
 
 
-@pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])
-@pytest.mark.parametrize("code", [0, 1, 341, 512, 682, 718, 1023])
-def test_codes_are_read_whatever_the_enhancement(
-    covering_scene: Scene, code: int, enhancement: str
-) -> None:
-    scene = covering_scene.replace(code=code, enhancement=enhancement)
-    assert occ.decode(occ.render(scene).image, scene).code == code
-
-
 @pytest.mark.parametrize("bits", [2, 3, 5, 16])
 def test_codes_of_other_lengths_are_read(covering_scene: Scene, bits: int) -> None:
     for code in range(0, 2**bits, max(1, 2**bits // amount(8, 32))):
@@ -76,13 +67,6 @@ def test_every_step_is_in_the_result(covering_scene: Scene) -> None:
     assert result.chip_length == pytest.approx(100 / 8, rel=0.01)
     assert result.chip_starts.shape == result.chips.shape
     assert np.diff(result.headers).tolist() == [24] * (len(result.headers) - 1)
-
-
-def test_chips_read_are_the_chips_sent(covering_scene: Scene) -> None:
-    result = occ.decode(occ.render(covering_scene).image, covering_scene)
-    first = result.headers[0]
-    read = result.chips[first : first + 24]
-    np.testing.assert_array_equal(read, occ.packet(covering_scene))
 
 
 def test_too_few_chips_say_how_many_fit_and_what_helps() -> None:
@@ -145,6 +129,8 @@ def test_the_chips_of_a_raw_pattern_are_read(
     assert result.chip_length == pytest.approx(1 / frequency / 8e-6, rel=0.01)
     whole = "".join(map(str, result.chips[3:-3]))  # the runs at the edges are cut off
     assert len(whole) > 40
+    assert result.code is None
+    assert "raw chip pattern" in result.failure
     assert whole in pattern * 200
 
 
@@ -160,10 +146,3 @@ def test_the_chips_of_real_photos_are_read(photos: Path) -> None:
     result = occ.decode(occ.load_photo(photos / "vlcdetector_stripes.png").image, striped)
     assert result.chip_length == pytest.approx(13.9, rel=0.01)
     assert "".join(map(str, result.chips[2:-2])) in pattern * 5
-
-
-def test_a_raw_pattern_gives_its_chips_and_no_packet(covering_scene: Scene) -> None:
-    scene = covering_scene.replace(pattern="010100010110001001000")
-    result = occ.decode(occ.render(scene).image, scene)
-    assert result.code is None
-    assert "raw chip pattern" in result.failure

@@ -106,42 +106,10 @@ def test_wrong_bits_of_a_text_are_shown_with_the_failure() -> None:
     assert result.code is None
 
 
-@pytest.mark.parametrize("decoder", ["threshold", "matched"])
-def test_a_chip_shorter_than_a_column_is_refused_or_read(decoder: str) -> None:
-    scene = SCENE.replace(line_code="manchester", switching_frequency=130e3)
-    result = occ.decode(signal(scene, 0.0), scene, decoder)
-    assert result.failure is not None or result.code == scene.transmitter.code
-    if decoder == "threshold":
-        assert "A chip lasts 0.96 columns" in result.failure
-
-
-@pytest.mark.parametrize(
-    ("code", "framing", "chips"),
-    [
-        ("nrz", "paper", 1.3),
-        ("4b6b", "preamble", 2.3),
-        ("4b6b", "c-ook", 2.5),
-        ("fsk", "paper", 2.1),
-    ],
-)
-def test_the_threshold_gives_no_wrong_payload_of_long_exposures(
-    code: str, framing: str, chips: float
-) -> None:
-    random = np.random.default_rng(4)
-    for _ in range(amount(12, 40)):
-        scene = SCENE.replace(
-            line_code=code, framing=framing, code=int(random.integers(256)), enhancement="none",
-            exposure_time=136e-6, switching_frequency=chips / 136e-6,
-        )  # fmt: skip
-        result = occ.decode(signal(scene, float(random.uniform(0.0, 0.01))), scene)
-        assert result.code is None
-        assert result.failure is not None
-
-
 @each_case(SCHEMES[:: amount(2, 1)])
 def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) -> None:
     random = np.random.default_rng(7)
-    for chips in np.linspace(0.5, 3.0, 12)[:: amount(8, 1)]:
+    for chips in np.linspace(0.5, 3.0, 12)[:: amount(4, 1)]:
         scene = SCENE.replace(
             line_code=code, framing=framing, code=int(random.integers(256)), enhancement="none",
             exposure_time=136e-6, switching_frequency=float(chips) / 136e-6,

@@ -44,15 +44,10 @@ def draw_rectangle(rows: int, columns: int) -> st.SearchStrategy[Region]:
     return st.builds(lambda r, c: Region(*sorted(r), *sorted(c)), along, across)
 
 
-@given(region=draw_rectangle(60, 90).filter(lambda r: r.rows * r.columns < 60 * 90))
-def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> None:
-    assert region_in(lit(60, 90, region), FRACTION) == region
-
-
-@pytest.mark.parametrize("shape", [(700, 1500), (1501, 1103), (3, 3000), (2000, 5)])
+@pytest.mark.parametrize("shape", [(60, 90), (700, 1500), (1501, 1103), (3, 3000), (2000, 5)])
 @settings(max_examples=amount(12, 100))
 @given(data=st.data())
-def test_a_bright_rectangle_is_found_exactly_in_a_large_image(
+def test_a_bright_rectangle_is_found_exactly_wherever_it_is(
     shape: tuple[int, int], data: st.DataObject
 ) -> None:
     region = data.draw(
@@ -120,16 +115,6 @@ def test_a_distant_panel_is_found_among_bright_surroundings() -> None:
     panel = Region(250, 280, 390, 420)  # 0.2 % of the area
     paint(image, panel, 200)
     assert region_in(image, FRACTION) == panel
-
-
-@given(
-    level=st.integers(0, 255),
-    shape=arrays.array_shapes(min_dims=2, max_dims=2, max_side=2000).filter(
-        lambda shape: shape[0] * shape[1] < 10**6
-    ),
-)
-def test_a_constant_image_shows_no_panel(level: int, shape: tuple[int, int]) -> None:
-    assert locate(dark(*shape, level), FRACTION) is None
 
 
 def check_any(image: np.ndarray, fraction: float) -> None:

@@ -1,7 +1,5 @@
 """The packet, and the sequence when it is sent repeatedly."""
 
-from itertools import groupby
-
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -9,7 +7,6 @@ from hypothesis import given, strategies as st
 import occ_model as occ
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.line_codes import differential_manchester
 from occ_model.transmitter.scheme import bits_of, code_of, packet_length, sent_chips
 
 BITS = 10
@@ -24,11 +21,6 @@ def canonical_rotation(chips: list[int]) -> bytes:
     """Return the smallest rotation of a period, which identifies the endless sequence."""
     twice = bytes(chips) * 2
     return min(twice[start : start + len(chips)] for start in range(len(chips)))
-
-
-def longest_run(chips: list[int], value: int) -> int:
-    """Return the length of the longest run in the endless sequence."""
-    return max(len(list(run)) for chip, run in groupby(chips * 2) if chip == value)
 
 
 @given(bits=st.integers(1, MAX_BITS), data=st.data())
@@ -53,19 +45,6 @@ def test_the_packet_of_a_known_code() -> None:
 
 def test_no_two_codes_make_the_same_endless_sequence() -> None:
     assert len({canonical_rotation(send_code(code)) for code in CODES}) == len(CODES)
-
-
-def test_with_three_ones_alone_codes_0_and_512_would_be_the_same() -> None:
-    sequences: dict[bytes, list[int]] = {}
-    for code in CODES:
-        data = differential_manchester.encode(bits_of(code, BITS), level=1)
-        sequences.setdefault(canonical_rotation([1, 1, 1, *data.tolist()]), []).append(code)
-    assert [codes for codes in sequences.values() if len(codes) > 1] == [[0, 512]]
-
-
-def test_runs_have_at_most_four_ones_or_two_zeros() -> None:
-    assert {longest_run(send_code(code), 1) for code in CODES} == {3, 4}
-    assert {longest_run(send_code(code), 0) for code in CODES} <= {1, 2}
 
 
 def test_three_ones_in_a_row_are_only_in_the_header() -> None:

@@ -208,12 +208,6 @@ def test_the_default_is_the_papers_packet() -> None:
     assert not sends_paper_code(scene.replace(payload="bits:01").transmitter)
 
 
-def test_c_ook_refuses_a_line_code_without_a_longest_run() -> None:
-    with pytest.raises(occ.ParameterError, match="'nrz', which does not limit runs") as caught:
-        occ.packet(occ.Scene().replace(line_code="nrz", framing="c-ook"))
-    assert caught.value.parameters == ("line_code", "framing")
-
-
 @pytest.mark.parametrize("registry", [registry.LINE_CODES, registry.FRAMINGS])
 def test_the_names_of_codes_and_framings_are_those_that_the_scene_declares(
     registry: Registry[Any],

@@ -36,27 +36,6 @@ def test_4b6b_words_are_those_of_ieee_802_15_7() -> None:
     assert sent == "".join(published[number] for number in range(16))
 
 
-def test_running_disparity_is_always_1_or_minus_1() -> None:
-    for byte, before in itertools.product(range(256), (-1, 1)):
-        word, after = encode_byte(byte, before)
-        ones = word.count("1")
-        assert (len(word), after) == (10, before + 2 * ones - 10), (byte, before)
-        assert after in (-1, 1)
-
-
-@pytest.mark.parametrize("before", [-1, 1])
-def test_no_8b10b_word_has_a_run_of_five_inside(before: int) -> None:
-    words = [encode_byte(byte, before)[0] for byte in range(256)]
-    assert not [word for word in words if "00000" in word or "11111" in word]
-
-
-def test_a_word_of_either_disparity_stands_for_one_byte_only() -> None:
-    meanings: dict[str, set[int]] = {}
-    for byte, before in itertools.product(range(256), (-1, 1)):
-        meanings.setdefault(encode_byte(byte, before)[0], set()).add(byte)
-    assert {len(bytes_) for bytes_ in meanings.values()} == {1}
-
-
 def test_8b10b_words_begin_with_their_bits_but_for_nine() -> None:
     """Only 0, 31, 15, 24 and the values with one of the five bits set begin otherwise."""
     changed = []

@@ -5,22 +5,14 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from amount import amount
 from hypothesis import strategies as st
 
-import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
-from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.picture_rows import Rim, Rows
-from occ_model.effects.effect import paper_view_of
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import Region
-from occ_model.scene.scene import Scene
-from occ_model.simulation.columns import ColumnMeans, expose_columns
-from occ_model.simulation.pixel_draw import PictureNumbers
-from occ_model.simulation.pixels import PixelExposure
-from occ_model.simulation.stage_timer import StageTimer
+from occ_model.simulation.columns import ColumnMeans
 from occ_model.study.confidence import wilson_interval
 
 
@@ -128,50 +120,6 @@ def test_profile_means_are_those_of_exact_sums(
         exact = math.fsum(kept) / len(kept) if kept else -1.0
         worst = max(worst, abs(mean / exact - 1.0))
     record("means of the panel's pixels, relative", "values 1e-36 to 1e30", worst, 1e-13)
-
-
-PIXELS = Scene().replace(
-    rows=4608,
-    columns=amount(868, 3472),
-    distance=0.1,
-    enhancement="none",
-    read_noise=30.0,
-    iso=800.0,
-)
-"""Make sixteen million noisy pixels of a panel; without --whole a quarter of the columns."""
-
-
-def exposed() -> tuple[PixelExposure, Enhancement]:
-    plan = occ.plan(PIXELS, 0.0)
-    view = paper_view_of(PIXELS)
-    columns = expose_columns(view, plan)
-    return PixelExposure(view, plan, columns, StageTimer()), Enhancement(columns.profile, "none")
-
-
-NUMBERS = PictureNumbers(7, PIXELS.camera.columns)
-
-
-def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
-    exposure, enhancement = exposed()
-    chosen = np.array([0, 1, 250, 433, 866, PIXELS.camera.columns - 1])
-    picture = exposure.pictures(enhancement, NUMBERS)
-    pixels = picture.camera_image[:, chosen].astype(np.float64)
-    assert all(shown.panel.inside == (slice(0, PIXELS.camera.columns),) for shown in picture.panels)
-    total, profile = int(picture.camera_image.sum(dtype=np.int64)), picture.profile
-    exact = np.array([math.fsum(column) / 4608 for column in pixels.T.tolist()])
-    error = float(np.abs(profile[chosen] - exact).max())
-    record("profile means of 16 MP, grey levels", "noise of 30 electrons", error, 1e-9)
-    # The noise of the mean is neither lost among the pixels nor larger than it should be.
-    columns = expose_columns(paper_view_of(PIXELS), occ.plan(PIXELS, 0.0))
-    assert columns.law is not None
-    bare = columns.law.mean(columns.panel, np.arange(256.0))
-    noise = pixels - bare[chosen]
-    for column, place in enumerate(chosen.tolist()):
-        mean = math.fsum(noise[:, column].tolist()) / 4608
-        error = abs(float(profile[place] - bare[place]) - mean)
-        record("noise means of 16 MP, grey levels", "noise of 30 electrons", error, 1e-9)
-        assert abs(mean) < 6 * noise.std() / math.sqrt(4608) + 0.01
-    assert float(profile.sum()) * 4608 == pytest.approx(total, rel=1e-12)
 
 
 @st.composite

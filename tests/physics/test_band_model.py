@@ -32,18 +32,6 @@ def test_bands_are_as_long_as_published(
     assert occ.band_lengths(scene) == pytest.approx((complete, transition), abs=last_digit / 2)
 
 
-@given(period=st.floats(1e-5, 1e-2), fraction=st.floats(0.01, 1.0), readout=st.floats(1e-6, 1e-4))
-def test_a_band_and_a_transition_make_a_chip(
-    period: float, fraction: float, readout: float
-) -> None:
-    scene = Scene().replace(
-        switching_frequency=1 / period,
-        exposure_time=fraction / (1 / period) * (1 - 1e-12),
-        readout_time=readout,
-    )
-    assert sum(occ.band_lengths(scene)) == pytest.approx(period / readout, rel=1e-9)
-
-
 def test_an_exposure_beyond_the_period_is_refused_with_times() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3)
     with pytest.raises(occ.BandModelUndefined, match=r"136 µs.*100 µs"):
@@ -94,22 +82,6 @@ def test_the_literal_reading_gives_chips_whole_columns() -> None:
     assert (profile[:4] == dark).all()
     assert (profile[7:11] == bright).all()
     assert ((profile[4:7] > dark) & (profile[4:7] < bright)).all()
-
-
-def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
-    # 0011 has four chips of seven columns, 28; in the literal model it has 4 x 4 + 2 x 3 = 22.
-    scene = Scene().replace(
-        pattern="0011",
-        switching_frequency=1 / 7e-6,
-        exposure_time=3e-6,
-        readout_time=1e-6,
-        columns=44,
-        band_reading="literal",
-    )
-    literal = occ.band_profile(scene)
-    np.testing.assert_allclose(literal[:22], literal[22:])
-    exact = occ.column_profile(scene)
-    assert not np.allclose(exact[:22], exact[22:])
 
 
 @given(fraction=st.floats(0.02, 1.0), code=st.integers(0, 1023), readout=st.floats(2e-6, 2e-5))

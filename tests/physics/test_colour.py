@@ -2,7 +2,6 @@
 
 import itertools
 
-import cv2
 import numpy as np
 import pytest
 
@@ -110,23 +109,6 @@ def test_bilinear_demosaicing_damps_and_mirrors_stripes_as_its_closed_form(
     assert amplitude(green, frequency) == pytest.approx(expected, abs=6e-4)
 
 
-def test_red_folds_at_a_quarter_of_the_line_rate() -> None:
-    random = np.random.default_rng(20_261)
-    for cycles_a_line in random.uniform(0.01, 0.98, 200):
-        scene = colour_phone(
-            light="lamp",
-            lamp_frequency=cycles_a_line / 8e-6,
-            demosaicing="none",
-            exposure_time=2e-6,
-        ).replace(iso=3000.0)
-        red = occ.column_profile(scene.colour("red"))
-        light = light_of_greys(scene.camera.gamma)[np.rint(red).astype(int)]
-        spectrum = np.abs(np.fft.rfft((light - light.mean()) * np.hanning(len(light))))
-        found = np.argmax(spectrum) / len(light)  # in cycles a red sample, 2 lines
-        folded = abs(2 * cycles_a_line - round(2 * cycles_a_line))
-        assert found == pytest.approx(folded, abs=1.5 / len(light))
-
-
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_the_pixels_of_a_colour_are_a_monochrome_camera(pattern: str) -> None:
     scene = colour_phone(bayer=pattern, colour_light="three-codes", demosaicing="none")
@@ -161,21 +143,6 @@ def test_stripes_of_a_column_keep_only_luma_in_a_file_of_half_chroma() -> None:
         swing = full[:, 1::2].mean(axis=(0, 1)) - full[:, ::2].mean(axis=(0, 1))
         # Luma, chroma times up to 1.772, and the result are rounded, on both sides.
         assert swing[channel] == pytest.approx(60.0, abs=2 * (0.5 + 1.772 / 2 + 0.5))
-
-
-def test_bilinear_demosaicing_agrees_with_a_convolution() -> None:
-    scene = colour_phone(gamma=1.0)
-    raw = np.random.default_rng(5).integers(0, 256, (30, 40), dtype=np.uint8)
-    cross = np.array([[0, 1, 0], [1, 4, 1], [0, 1, 0]]) / 4.0
-    square = np.array([[1, 2, 1], [2, 4, 2], [1, 2, 1]]) / 4.0
-    rgb = demosaic(raw, scene)[2:-2, 2:-2]
-    for channel, kernel in enumerate((square, cross, square)):
-        own = np.zeros(raw.shape)
-        for place, letter in enumerate("rggb"):
-            if "rgb".index(letter) == channel:
-                own[place // 2 :: 2, place % 2 :: 2] = raw[place // 2 :: 2, place % 2 :: 2]
-        expected = cv2.filter2D(own, -1, kernel)[2:-2, 2:-2]
-        assert np.abs(rgb[:, :, channel] - expected).max() <= 0.51
 
 
 def test_the_light_of_greys_is_that_of_the_tone_curve() -> None:

@@ -16,12 +16,6 @@ wide = profiles.filter(lambda profile: np.ptp(profile) >= 1.0)
 methods = st.sampled_from(METHODS)
 
 
-@given(level=st.floats(0.0, 255.0), columns=st.integers(1, 50), method=methods)
-def test_a_constant_profile_is_rounded_only(level: float, columns: int, method: str) -> None:
-    enhanced = enhance(np.full(columns, level), method)
-    np.testing.assert_array_equal(enhanced, np.full(columns, round(level)))
-
-
 @given(profile=profiles)
 def test_none_rounds_to_the_nearest_level(profile: np.ndarray) -> None:
     assert np.abs(enhance(profile, "none") - profile).max() <= 0.5

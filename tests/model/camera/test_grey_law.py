@@ -9,7 +9,7 @@ from model.camera.grey_enumeration import enumerate_greys, greys_of
 
 import occ_model as occ
 from occ_model.camera.grey_law import GreyLaw
-from occ_model.camera.photometry import level_values, white_electrons
+from occ_model.camera.photometry import white_electrons
 from occ_model.effects.noise import law_of
 from occ_model.scene.scene import Scene
 
@@ -61,30 +61,12 @@ def test_the_law_is_the_enumerated_one(changes: dict[str, float], gain: float) -
         assert own_deviation == pytest.approx(sigma, rel=3e-3, abs=2e-3)
 
 
-def test_dark_pixels_of_the_phone_are_those_of_the_enumeration() -> None:
-    """Half of them are black, which no normal law around the mean value gives."""
-    scene = scene_of({})
-    dark = level_values(scene)[:1]
-    table = law(scene)
-    mean, deviation = table.moments(dark, GREYS)
-    black = table.fraction_below(1, dark)
-    assert (float(mean[0]), float(deviation[0])) == pytest.approx((6.80, 6.63), abs=0.01)
-    assert float(black[0]) == pytest.approx(0.468, abs=1e-3)
-
-
 @pytest.mark.parametrize("bits", [4, 6])
 def test_a_converter_of_few_bits_leaves_as_few_levels(bits: int) -> None:
     scene = scene_of({"adc_bits": bits, "illuminance": 5e4})
     image = occ.render(scene.replace(rows=300, columns=300), tolerance=0.0).camera_image
     assert set(np.unique(image)) <= set(greys_of(scene).tolist())
     assert greys_of(scene).max() == 255
-
-
-def test_more_light_makes_no_pixel_darker() -> None:
-    table = law(scene_of({}))
-    assert (np.diff(table.below, axis=0) <= 1e-9).all()
-    assert (np.diff(table.below, axis=1) >= 0.0).all()
-    assert (table.below[-1] == 0.0).all()
 
 
 @pytest.mark.parametrize("changes", SENSORS, ids=str)

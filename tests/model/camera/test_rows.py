@@ -9,7 +9,7 @@ from amount import amount
 from each_case import each_case
 
 import occ_model as occ
-from occ_model.camera.picture_rows import BLOCK_ROWS, Rim, Rows, split_at
+from occ_model.camera.picture_rows import BLOCK_ROWS, split_at
 from occ_model.camera.row_interpolation import (
     NODES,
     TOLERANCE,
@@ -75,19 +75,6 @@ def kilobyte() -> tuple[np.ndarray, ...]:
     return (np.zeros(256, dtype=np.float32),)
 
 
-def test_an_object_is_made_once_for_a_key() -> None:
-    memory, made = RowMemory(10_000), []
-
-    def make() -> tuple[np.ndarray, ...]:
-        made.append(1)
-        return kilobyte()
-
-    first = memory.recall("a", make, tuple)
-    assert memory.recall("a", make, tuple) is first
-    assert len(made) == 1
-    assert not first[0].flags.writeable
-
-
 def test_the_least_recently_used_is_dropped_first() -> None:
     memory = RowMemory(3 * 1024)
     kept = memory.recall("kept", kilobyte, tuple)
@@ -144,16 +131,3 @@ def test_a_band_is_divided_before_the_rows_named_and_nowhere_else(
     assert [row for part in parts for row in part] == list(band)
     after = {next((row for row in band if row >= place), None) for place in places}
     assert {part[0] for part in parts} == {20} | (after - {None})
-
-
-def test_rows_without_weights_are_the_same_rows() -> None:
-    random = np.random.default_rng(3)
-    nodes = random.random((2, 6), dtype=np.float32)
-    weights = np.array([[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]], dtype=np.float32)
-    rim = Rim(slice(1, 3), np.full((3, 2), 7.0, dtype=np.float32), np.ones((3, 2), dtype=bool))
-    rows = Rows(range(3), nodes, weights, (rim,), (slice(3, 5),))
-    each = rows.expand_rows()
-    np.testing.assert_allclose(each.values, rows.values, rtol=1e-6)
-    # Changes that are not smooth are now allowed.
-    squared = each.change_nodes(np.square)
-    np.testing.assert_allclose(squared.values, rows.values**2, rtol=1e-6)

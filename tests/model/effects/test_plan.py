@@ -8,9 +8,8 @@ import pytest
 from physics.effect_world import scene_of
 
 import occ_model as occ
-from occ_model.effects import plan as module
-from occ_model.effects.effect import PaperView, paper_view_of
-from occ_model.effects.plan import effect_sets_of, name_effects_for_signal, plan_of, plan_of_any
+from occ_model.effects.effect import paper_view_of
+from occ_model.effects.plan import effect_sets_of, name_effects_for_signal
 from occ_model.scene.scene import Observable, Scene, SimulationSettings
 from occ_model.simulation.render import observe
 
@@ -218,23 +217,6 @@ def test_no_change_is_stated_for_a_scene_without_stripes() -> None:
             assert decision.limit == math.inf
             assert decision.reason.startswith("not known, as the stripes span less")
             assert "about" not in decision.reason
-
-
-def test_no_picture_is_planned_after_one_that_needs_all_effects(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    planned: list[PaperView] = []
-
-    def plan_and_count(view: PaperView, settings: SimulationSettings) -> occ.Plan:
-        planned.append(view)
-        return plan_of(view, settings)
-
-    monkeypatch.setattr(module, "plan_of", plan_and_count)
-    noisy = paper_view_of(occ.load_preset("phone-136us").replace(rows=400, columns=300))
-    plan_of_any([noisy] * 3, SimulationSettings(0.0))
-    assert len(planned) == 1
-    plan_of_any([noisy] * 3, SimulationSettings(math.inf))
-    assert len(planned) == 1 + 3
 
 
 def test_a_signal_is_planned_where_only_levels_of_no_pixel_have_little_noise() -> None:

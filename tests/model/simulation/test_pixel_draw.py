@@ -97,19 +97,6 @@ def test_the_pattern_shows_in_the_mean_of_pictures_alone(scene: Scene) -> None:
     assert other.std() == pytest.approx(gains.std(), rel=0.03)
 
 
-def test_gains_vary_as_they_should(scene: Scene) -> None:
-    noisy = scene.replace(gain_variation=0.1, pattern="1", gamma=1.0, luminance=300.0)
-    still, gains = (values_of(noisy, OFF | {"fixed-pattern": on}) for on in (False, True))
-    relative = (gains / still).ravel()
-    assert relative.mean() == pytest.approx(1.0, abs=5 * 0.1 / math.sqrt(relative.size))
-    assert relative.std() == pytest.approx(0.1, rel=0.02)
-
-
-def test_a_pixel_far_above_white_is_white_whatever_its_gain(scene: Scene) -> None:
-    bright = scene.replace(gain_variation=0.1, pattern="1", luminance=1e5)
-    assert (values_of(bright, ON) == 255.0).all()
-
-
 @pytest.mark.parametrize("effect", ["vignetting", "defocus", "distortion", "emission"])
 def test_pixels_are_drawn_alike_whichever_absent_effects_are_on(scene: Scene, effect: str) -> None:
     """Other effects draw the picture by other blocks of rows."""

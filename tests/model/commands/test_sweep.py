@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands.sweep import decoders_of, run_with_bar
 from occ_model.commands.vary import axes_of
-from occ_model.errors import OutputError, ParameterError
+from occ_model.errors import ParameterError
 from occ_model.figures.sweep import write_sweep_figure
 from occ_model.receiver.decode import DECODERS
 from occ_model.study.sweep.measure import Progress
@@ -174,10 +174,6 @@ def test_a_stopped_study_says_how_far_it_came(
     )
 
 
-def table_of(**axes: object) -> occ.SweepTable:
-    return occ.sweep(occ.load_preset("phone-136us"), axes, 1, ("threshold", "matched"))  # type: ignore[arg-type]
-
-
 @pytest.mark.usefixtures("plain_figures")
 def test_points_that_the_model_refuses_are_grey_in_a_map(tmp_path: Path) -> None:
     path = tmp_path / "f.png"
@@ -186,29 +182,6 @@ def test_points_that_the_model_refuses_are_grey_in_a_map(tmp_path: Path) -> None
     with Image.open(path) as picture:
         grey = (np.asarray(picture.convert("RGB")) == 191).all(axis=2)
     assert 0.05 < grey.mean() < 0.3
-
-
-def test_a_figure_that_is_impossible_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed in a figure: one"):
-        write_sweep_figure(tmp_path / "f.png", table_of(iso=[100.0], bits=[10], rows=[100]))
-    with pytest.raises(OutputError, match=r"not have the ending of a figure; use \.png, "):
-        write_sweep_figure(tmp_path / "f.gif", table_of(iso=[100.0]))
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    "words", [("sweep", "--vary", "distance=1", "--images"), ("match", "a.png", "b.png", "--jobs")]
-)
-def test_a_number_of_too_many_digits_is_refused_in_short(
-    words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit) as ended:
-        main([*words, "9" * 5000])
-    assert ended.value.code == 2
-    *_, last = capsys.readouterr().err.splitlines()
-    assert last.startswith(f"occ-model {words[0]}: error: argument {words[-1]}: '999")
-    assert last.endswith(" is not a whole number")
-    assert len(last) < 1100
 
 
 def test_both_are_the_quick_decoders_and_all_every_one() -> None:

@@ -51,10 +51,6 @@ def forecast_of(plan: Plan, error: float | None, *sets: tuple[float, float, str]
     return Forecast(plan, None, error, True, effect_sets, tuple(1e-3 * time for _, time, _ in sets))
 
 
-def test_the_scene_has_the_two_effects(scene: Scene) -> None:
-    assert set(occ.plan(scene, 0.0).included) == {NOISE, EDGES}
-
-
 @pytest.mark.parametrize("count", [1, 2, 5, 8])
 def test_the_fractions_of_the_median_run_add_up_to_the_stated_time(count: int) -> None:
     random = np.random.default_rng(count)

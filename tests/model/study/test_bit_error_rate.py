@@ -1,18 +1,13 @@
 """Laws of the bit error rate, its interval, and the resulting bits per second."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.errors import ParameterError
 from occ_model.results.bit_errors import BenchPoint, table_rows
-from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene
-from occ_model.study import success_rate
 from occ_model.study.bit_error_rate import bit_errors_of, error_interval, with_payload
-from occ_model.study.signals.pictures import observe_images
 from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
 
 SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")
@@ -48,37 +43,6 @@ def test_the_same_seed_gives_the_same_errors() -> None:
     assert found[0] == found[1]
     assert 0 < found[0].errors < 200
     assert found[0].errors != found[2].errors or found[0].low != found[2].low
-
-
-def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
-    """Return the plan with which each whole picture of a measurement is simulated."""
-    used: list[Plan] = []
-    whole = observe_images
-
-    def reading(images: Any, path: Any, plan: Plan) -> Any:
-        used.append(plan)
-        return whole(images, path, plan)
-
-    monkeypatch.setattr(success_rate, "observe_images", reading)
-    occ.bit_error_rate(scene, bits=bits, seed=2, path="image")
-    return used
-
-
-def test_pictures_of_whole_packets_are_simulated_with_every_effect_that_a_payload_needs(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    scene = occ.load_preset("phone-136us-real").replace(rows=60, switching_frequency=14.1e3)
-    first, *others = plans_of(scene, 50, monkeypatch)
-    assert all(other is first for other in others)
-    alone = occ.plan(scene, observable="signal")
-    assert set(alone.included) <= set(first.included)
-
-
-def test_pictures_of_less_than_a_packet_are_planned_one_by_one(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    plans = plans_of(SCENE.replace(columns=40, switching_frequency=4e3), 60, monkeypatch)
-    assert len({id(one) for one in plans}) == len(plans)
 
 
 @pytest.mark.parametrize("payload", ["", "text:HELLO", "bits:0110"])
@@ -151,13 +115,6 @@ def test_the_rate_bound_is_the_water_filling_integral(decibels: float, exposure:
     bits = float(np.trapezoid(np.log2(np.maximum(level / noise, 1.0)), grid))
     seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
     assert gaussian_rate_bound(scene, power, 30.0) == pytest.approx(bits * seconds, rel=1e-3)
-
-
-def test_the_bound_of_a_short_exposure_is_shannons() -> None:
-    scene = Scene().replace(exposure_time=1e-9)
-    seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
-    expected = row_rate_frequency(scene) * np.log2(1.0 + 100.0) * seconds
-    assert gaussian_rate_bound(scene, 100.0) == pytest.approx(expected, rel=1e-6)
 
 
 def test_a_panel_out_of_view_takes_no_time_to_read_out() -> None:

@@ -53,13 +53,6 @@ def test_bits_that_the_decoder_rejects_carry_nothing(
     assert nothing.bits_a_second == 0.0
 
 
-def test_more_bits_are_not_read() -> None:
-    (found,) = occ.most_bits(FAR, ("threshold",), pictures=2)
-    (strict,) = occ.most_bits(FAR, ("threshold",), pictures=4)
-    assert strict.bits_a_second <= found.bits_a_second
-    assert strict.tried >= found.tried
-
-
 def test_a_panel_too_far_away_carries_nothing() -> None:
     (found,) = occ.most_bits(FAR.replace(distance=2000.0), ("threshold",), pictures=1)
     assert found.scene is None

@@ -1,9 +1,7 @@
 """Laws of the success rate and of the two ways to measure it."""
 
 import itertools
-import math
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -13,9 +11,6 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate as module
-from occ_model.study.signals.batch import Observation, simulate_images
-from occ_model.study.signals.exposed import Image
-from occ_model.study.signals.pictures import observe_images, picture_itself
 
 
 @pytest.fixture
@@ -52,23 +47,6 @@ def test_the_rate_is_the_fraction_of_correct_bits_and_only_accepted_payloads_are
     assert occ.success_rate(sending, 5, "x") == pytest.approx(100 * 17 / 50)
 
 
-def test_the_profile_path_has_the_images_signal_with_noise(scene: Scene) -> None:
-    noisy = {"sensor-noise": True}
-    chosen = occ.plan(scene, tolerance=np.inf, force=noisy)
-    (by_profile,) = simulate_images([picture_itself(scene, chosen, seed=2)])
-    assert by_profile.region is not None
-    region = by_profile.region
-    image = occ.render(scene, tolerance=np.inf, force=noisy, seed=3).image.astype(float)
-    rows = slice(region.first_row, region.last_row)
-    columns = slice(region.first_column, region.last_column)
-    means = image[rows, columns].mean(axis=0)
-    spread = image[rows, columns].std(axis=0) / np.sqrt(region.rows)
-    deviation = (means - by_profile.signal) / np.sqrt(2 * np.maximum(spread, 0.05) ** 2)
-    # Two independent draws from one distribution: deviations with mean 0 and variance at most 1.
-    assert abs(deviation.mean()) < 5 / np.sqrt(len(deviation))
-    assert 0.5 < deviation.std() < 1.1
-
-
 @pytest.mark.parametrize("changes", [{"roll": 0.02}, {"yaw": 0.3}, {"point_spread": 3.0}])
 def test_every_name_of_a_path_without_pixels_measures_the_same(
     scene: Scene, changes: dict[str, float]
@@ -93,46 +71,6 @@ def test_a_scene_with_too_large_a_picture_has_no_success_rate(scene: Scene) -> N
 def test_a_raw_pattern_has_no_success_rate(scene: Scene) -> None:
     with pytest.raises(occ.ParameterError, match="raw pattern"):
         occ.success_rate(scene.replace(pattern="0110"))
-
-
-def test_a_study_without_pixels_simulates_all_effects_of_the_scene(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def refuse(*_: object) -> object:
-        raise AssertionError("estimated")
-
-    monkeypatch.setattr("occ_model.effects.plan.estimates_of", refuse)
-    scene = occ.load_preset("phone-136us")
-    rates = {
-        occ.success_rate(scene, 3, seed=4, tolerance=tolerance, path="profile")
-        for tolerance in (0.0, 0.5, 20.0)
-    }
-    assert len(rates) == 1
-    with pytest.raises(AssertionError, match="estimated"):
-        occ.success_rate(scene.replace(rows=300), 3, path="image")
-    with pytest.raises(AssertionError, match="estimated"):
-        occ.success_rate(scene, 3, tolerance=math.inf)
-
-
-def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
-    scene: Scene, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    simulated: list[Image] = []
-
-    def simulate(images: Sequence[Image], *others: Any) -> Iterable[Observation | None]:
-        simulated.extend(images)
-        return observe_images(images, *others)
-
-    monkeypatch.setattr(module, "observe_images", simulate)
-    at = scene.replace(distance=1.0371)
-    rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
-    assert len(simulated) == 3
-    module._observed.clear()
-    settings = RateSettings(3, ("threshold", "matched"), 81)
-    right = module.count_right_and_whole(at, settings)[0]
-    assert rates == [100.0 * each / 30 for each in right]
-    occ.success_rate(at, 3, seed=82)
-    assert len(simulated) == 9
 
 
 def test_a_rate_does_not_depend_on_which_of_its_pictures_are_kept_from_before(

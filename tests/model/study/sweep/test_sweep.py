@@ -96,24 +96,6 @@ def test_a_refused_sweep_leaves_no_file_of_results(scene: Scene, tmp_path: Path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_scene_with_a_raw_pattern_is_refused(scene: Scene) -> None:
-    with pytest.raises(occ.ParameterError, match="A raw pattern has no code"):
-        occ.sweep(scene.replace(pattern="01"), AXES)
-
-
-def test_the_profile_path_gives_the_table_of_the_image_path(scene: Scene) -> None:
-    few = scene.replace(rows=96, panel_height=0.02)
-    # Each path draws its own noise, which decides the result where the stripes almost vanish.
-    quiet = {"sensor-noise": False, "fixed-pattern": False}
-    for preset in (few, few.replace(flicker_depth=0.3, edge_time=2e-6)):
-        profile, image = (
-            occ.sweep(preset, AXES, 2, BOTH, path=path, force=quiet)
-            for path in ("profile", "image")
-        )
-        np.testing.assert_array_equal(profile.right, image.right)
-        assert 0 < profile.right.sum() < profile.right.size * 20
-
-
 @pytest.mark.parametrize(
     ("jobs", "points", "cores", "started"),
     [(1024, 100, 2, 8), (3, 100, 2, 3), (6, 4, 64, 4), (1, 4, 2, 1), (8, 1, 2, 1), (5, 9, None, 4)],

@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from amount import amount
 from small_rooms import small_room
 
 import occ_model as occ
@@ -12,16 +11,14 @@ from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.photometry import (
     ColumnLight,
     luminance_levels,
-    luminance_of,
     panel_values,
     saturate,
 )
-from occ_model.effects.light_effects import LedEdges
-from occ_model.room.edge_lines import _BLOCK, Course, Line, estimate_variance_ratio
+from occ_model.room.edge_lines import _BLOCK, Course, Line
 from occ_model.room.edges import find_edges
 from occ_model.room.render import RoomFrame
 from occ_model.room.room import Place, Room
-from occ_model.room.seen_light import ApparentLight, LampLight, find_enhancement
+from occ_model.room.seen_light import ApparentLight
 from occ_model.room.view import lamp_scene, scene_with_lamp
 from occ_model.scene.scene import Scene
 
@@ -45,22 +42,6 @@ def cut(reach: int) -> float:
     apart = np.arange(1 - reach, reach)
     alike = 1.0 - np.abs(apart) / reach
     return float(alike.sum() / (alike * np.maximum(1.0 - np.abs(apart) / _BLOCK, 0.0)).sum())
-
-
-@pytest.mark.parametrize("reach", [1, 8])
-def test_the_error_of_a_line_follows_from_the_scatter_within_blocks(reach: int) -> None:
-    random = np.random.default_rng(9107 + reach)
-    squares, rooms = [], amount(30, 150)
-    for _ in range(rooms):
-        lines = [line(random, reach) for _ in range(4)]
-        alike = estimate_variance_ratio(lines)
-        for each in lines:
-            edge = each.make_edge(alike)
-            off = (edge.points - _ENDS) @ edge.normal
-            squares.append(off @ np.linalg.solve(edge.covariance, off) / 2.0)
-    # The mean square of 1,200 numbers scatters by 4 %.
-    assert np.mean(squares) == pytest.approx(cut(reach), rel=0.12 * np.sqrt(150 / rooms))
-    assert cut(reach) < 1.5
 
 
 WHITE = {"iso": 1600.0, "exposure_time": 100e-6}
@@ -136,23 +117,3 @@ def test_the_apparent_light_of_pixels_is_that_expected_from_noise_and_enhancemen
     ):
         error = 5.0 * pixels.std() / np.sqrt(image.size)
         assert pixels.mean() == pytest.approx(float(expected(true)), abs=error, rel=2e-3)
-
-
-@pytest.mark.parametrize("settings", [{}, WHITE, NOISY])
-def test_a_lamps_light_is_known_in_columns_that_do_not_show_it(settings: dict[str, Any]) -> None:
-    room = _bent(**settings)
-    frame = occ.render_room(room, seed=3)
-    lamp = room.lamps[1]
-    scene = lamp_scene(room, lamp)
-    values = panel_values(scene, LedEdges().apply(scene, ColumnLight.of(scene)))
-    true = luminance_of(values, scene.camera) - luminance_levels(scene)[0]
-    corners = _corners(room)[lamp.name]
-    centre = np.rint(corners.mean(axis=0)).astype(int)
-    near = slice(int(corners[:, 0].min()) - 60, int(corners[:, 0].max()) + 60)
-    for image in (frame.camera_image, frame.image):
-        middle = image[centre[1] - 40 : centre[1] + 40, centre[0] - 40 : centre[0] + 40].ravel()
-        seen = ApparentLight(scene, find_enhancement(lamp, room, middle))
-        own = LampLight.of(image, corners, lamp, seen, 7).light
-        off = (own - true)[near] / true.max()
-        assert np.abs(off).max() < 0.1  # in the few rows at an end
-        assert np.sqrt(np.square(off).mean()) < 0.02

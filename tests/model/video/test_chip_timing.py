@@ -159,34 +159,35 @@ def make_result(chips: np.ndarray, starts: np.ndarray, threshold: float | None) 
     return DecodeResult("threshold", chips=chips, chip_starts=starts, threshold=threshold)
 
 
-@pytest.mark.parametrize("side", [0, 1])
-def test_miscounted_chips_do_not_change_the_length_of_a_chip(side: int) -> None:
-    # The first or the last run is counted as more than two chips, which moves the edges beyond it.
-    starts = LENGTH * np.arange(len(CHIPS))
-    run = slice(2, 4) if side == 0 else slice(11, 13)
-    chips = np.insert(CHIPS, run.start, [1, 1, 1])
-    inside = np.linspace(starts[run.start], starts[run.stop], 6)[:-1]
-    seen = np.concatenate([starts[: run.start], inside, starts[run.stop :]])
-    signal = signal_of(CHIPS)
-    found = fit_lattice(make_result(chips, seen, 50.0), signal, 0, scene_of())
-    assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
+STARTS = LENGTH * np.arange(len(CHIPS))
 
 
-def test_an_edge_far_before_its_place_also_shows_a_miscount() -> None:
-    # One chip too few in the last run but one: only the last edges deviate, all to one side.
-    starts = LENGTH * np.arange(len(CHIPS))
-    for lost in (12, 3):
-        chips, seen = np.delete(CHIPS, lost), np.delete(starts, lost)
-        found = fit_lattice(make_result(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
-        assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
+def counted_thrice_more(run: slice) -> tuple[np.ndarray, np.ndarray]:
+    """Count three chips too many in a run, which moves the edges beyond it."""
+    inside = np.linspace(STARTS[run.start], STARTS[run.stop], 6)[:-1]
+    seen = np.concatenate([STARTS[: run.start], inside, STARTS[run.stop :]])
+    return np.insert(CHIPS, run.start, [1, 1, 1]), seen
 
 
-def test_a_chip_that_was_counted_twice_before_the_last_edge_is_found() -> None:
-    # Only this edge lies before its place; all others lie slightly after theirs.
-    starts = LENGTH * np.arange(len(CHIPS))
-    last = len(CHIPS) - 2
-    chips = np.insert(CHIPS, last, CHIPS[last])
-    seen = np.insert(starts, last + 1, starts[last] + 0.5 * LENGTH)
+def counted_twice(chip: int) -> tuple[np.ndarray, np.ndarray]:
+    """Only the edge in the middle of the chip lies before its place."""
+    seen = np.insert(STARTS, chip + 1, STARTS[chip] + 0.5 * LENGTH)
+    return np.insert(CHIPS, chip, CHIPS[chip]), seen
+
+
+@pytest.mark.parametrize(
+    ("chips", "seen"),
+    [
+        counted_thrice_more(slice(2, 4)),
+        counted_thrice_more(slice(11, 13)),
+        # One chip too few: all edges beyond it deviate to one side.
+        *((np.delete(CHIPS, lost), np.delete(STARTS, lost)) for lost in (12, 3)),
+        counted_twice(len(CHIPS) - 2),
+    ],
+)
+def test_miscounted_chips_do_not_change_the_length_of_a_chip(
+    chips: np.ndarray, seen: np.ndarray
+) -> None:
     found = fit_lattice(make_result(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
     assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
 
@@ -198,7 +199,7 @@ def test_chips_are_read_by_the_threshold_if_there_is_one_or_else_by_the_decoder(
     # For one chip the decoder disagrees with the signal, as an equalizer may.
     said = CHIPS.copy()
     said[9:11] = 1
-    result = make_result(said, LENGTH * np.arange(len(said)), threshold)
+    result = make_result(said, STARTS, threshold)
     found = fit_lattice(result, signal_of(CHIPS), 0, scene_of())
     shown = found.values[-found.first :][: len(CHIPS)]
     np.testing.assert_array_equal(shown, said if threshold is None else CHIPS)

@@ -18,8 +18,6 @@ from films import (
     film_bytes,
     lasting,
     stripes,
-    turned_right,
-    with_steps,
     write_film,
 )
 from PIL import Image
@@ -85,18 +83,6 @@ def test_frames_can_be_read_in_any_order(tmp_path: Path, ending: str, codec: str
             film.frame(absent)
 
 
-def test_frames_can_be_far_apart_and_unequally_spaced(tmp_path: Path) -> None:
-    # A second has 15,360 units; their sum remains that of the original film.
-    steps = [512, 256, 768, 1024, *[480] * 16]
-    film = occ.load_video(saved(tmp_path, with_steps(film_bytes("mp4", "mp4v"), steps)))
-    frames = list(film)
-    expected = np.concatenate([[0], np.cumsum(steps)[:-1]]) / 15_360
-    assert [frame.time for frame in frames] == pytest.approx(expected, abs=1e-9)
-    assert film.problem is None
-    for index in (12, 2, 3, 19, 1):
-        np.testing.assert_array_equal(film.frame(index).image, frames[index].image)
-
-
 def test_a_film_of_unequal_steps_that_states_only_its_duration_is_complete(tmp_path: Path) -> None:
     halved = [number / 2 if number < 10 else number for number in range(20)]
     path = tmp_path / "film.mkv"
@@ -109,14 +95,6 @@ def test_a_film_of_unequal_steps_that_states_only_its_duration_is_complete(tmp_p
     assert (film.problem, film.frame_count) == (None, 20)
     for index in (12, 3, 19):
         np.testing.assert_array_equal(film.frame(index).image, frames[index].image)
-
-
-def test_a_turned_film_is_shown_upright(tmp_path: Path) -> None:
-    still = film_bytes("mp4", "mp4v")
-    film = occ.load_video(saved(tmp_path, turned_right(still)), scan_axis="columns")
-    upright = occ.load_video(saved(tmp_path / "..", still), scan_axis="columns").frame(0).image
-    assert film.shape == (COLUMNS, LINES)
-    np.testing.assert_array_equal(film.frame(0).image, np.rot90(upright, -1))
 
 
 def test_the_scan_axis_is_found_from_the_first_frames_and_kept(tmp_path: Path) -> None:

@@ -16,7 +16,6 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
-from occ_model.figures.animation import write_animation
 from occ_model.scene.scene import Scene
 from occ_model.video.file.note import read_note
 from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path, write_frames
@@ -200,20 +199,6 @@ def test_a_meaningless_note_is_ignored(tmp_path: Path, note: str) -> None:
     back = occ.load_video(path)
     assert back.scene is None
     assert len(list(back)) == 2
-
-
-@pytest.mark.usefixtures("plain_figures")
-def test_the_animation_of_a_slider_opens_as_a_film(tmp_path: Path) -> None:
-    path = tmp_path / "play.mp4"
-    small = occ.load_preset("phone-136us").replace(rows=200, columns=600)
-    write_animation(path, small, "switching_frequency", [4e3, 8e3, 12e3], rate=10.0)
-    film = occ.load_video(path, scan_axis="columns")
-    frames = list(film)
-    assert len(frames) == film.frame_count == 3
-    assert [frame.time for frame in frames] == pytest.approx([0.0, 0.1, 0.2])
-    assert film.problem is None
-    assert (frames[0].image != frames[2].image).any()
-    assert read_note(path).startswith("Animation over switching_frequency")
 
 
 _NO_LIMIT = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)

@@ -74,25 +74,6 @@ def test_values_name_the_paper_or_are_marked_as_assumed(name: str) -> None:
         assert preset.sources[parameter].startswith("paper, ")
 
 
-@pytest.mark.parametrize(
-    ("name", "exposure", "readout", "rows", "columns", "f_number"),
-    [
-        ("phone-136us", 136e-6, 8e-6, 4608, 3456, 2.48),
-        ("phone-68us", 68e-6, 8e-6, 4608, 3456, 2.48),
-        ("tablet-122us", 122e-6, 13e-6, 3264, 2448, 2.0),
-        ("tablet-61us", 61e-6, 13e-6, 3264, 2448, 2.0),
-    ],
-)
-def test_a_device_has_the_papers_numbers(
-    name: str, exposure: float, readout: float, rows: int, columns: int, f_number: float
-) -> None:
-    camera, pose = load_preset(name).camera, load_preset(name).pose
-    assert (pose.offset_x, pose.offset_y, pose.yaw, pose.pitch, pose.roll) == (0, 0, 0, 0, 0)
-    assert (camera.exposure_time, camera.readout_time) == (exposure, readout)
-    assert (camera.rows, camera.columns, camera.f_number) == (rows, columns, f_number)
-    assert camera.equivalent_focal_length == 0.026
-
-
 @papers_presets
 def test_the_experiment_has_the_papers_numbers(name: str) -> None:
     scene = load_preset(name)

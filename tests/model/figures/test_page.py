@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
-from model.figures.artists import find_cut_texts
+from model.figures.cut_texts import find_cut_texts
 from model.figures.test_text_from_files import make_lesson
 
 import occ_model as occ

@@ -8,7 +8,7 @@ import pytest
 from accuracy_points import EACH_WAY
 from matplotlib.axis import Axis
 from matplotlib.text import Annotation
-from model.figures.test_as_stored import table_of
+from model.figures.test_every_figure import table_of
 
 import occ_model as occ
 from occ_model.figures.accuracy import accuracy_drawing

@@ -3,9 +3,9 @@
 import dataclasses
 from functools import lru_cache
 
-import cv2
 import numpy as np
 import pytest
+from hard_cases.test_lenses import opencv_places
 
 import occ_model as occ
 from occ_model.camera.projection import image_rays
@@ -26,21 +26,6 @@ def bent_scene(**changes: float | str) -> Scene:
     return Scene().replace(rows=ROWS, columns=COLUMNS, enhancement="none").replace(**changes)
 
 
-def opencv_camera(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """The camera matrix, and the coefficients in OpenCV's order."""
-    focal, lens = scene.camera.focal_length_pixels, scene.lens
-    matrix = np.array([[focal, 0, (COLUMNS - 1) / 2], [0, focal, (ROWS - 1) / 2], [0, 0, 1.0]])
-    coefficients = [lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2]
-    return matrix, np.array(coefficients)
-
-
-def project_by_opencv(points: np.ndarray, scene: Scene) -> np.ndarray:
-    """Project points in the camera's coordinates with distortion, by OpenCV."""
-    still = np.zeros(3)
-    pictured, _ = cv2.projectPoints(points, still, still, *opencv_camera(scene))
-    return pictured[:, 0]
-
-
 @lru_cache
 def rays_of_pixels(lens: Lens) -> np.ndarray:
     """Find the ray to each pixel by iteratively inverting OpenCV's projection."""
@@ -49,7 +34,7 @@ def rays_of_pixels(lens: Lens) -> np.ndarray:
     pixels = np.column_stack([column.ravel(), row.ravel()])
     rays = image_rays(pixels, scene.camera)
     for _ in range(15):
-        missed = pixels - project_by_opencv(np.column_stack([rays, np.ones(len(rays))]), scene)
+        missed = pixels - opencv_places(rays, scene)
         rays = rays + missed / scene.camera.focal_length_pixels
     assert np.abs(missed).max() < 1e-3
     return rays

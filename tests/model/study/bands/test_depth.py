@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from amount import amount
+from hard_cases.references import ExactTimes
 
 import occ_model as occ
 from occ_model.arrays import FloatArray
@@ -274,33 +275,16 @@ def test_finer_bars_need_more_contrast_to_be_seen() -> None:
 _DARK = occ.load_preset("phone-136us").replace(illuminance=0.0)
 
 
-def _second_integral(chips: list[int], place: Fraction) -> Fraction:
-    """Return the light up to a place, integrated once more; places may be below 0."""
-    period, total = len(chips), sum(chips)
-    of_period = sum(
-        (Fraction(2 * (period - k) - 1, 2) * lit for k, lit in enumerate(chips)), Fraction()
-    )
-    periods, rest = divmod(place, period)
-    whole = Fraction(periods)
-    done = int(rest)
-    part = rest - done
-    lit = sum(chips[:done])
-    inside = sum(
-        (Fraction(2 * (done - k) - 1, 2) * lit for k, lit in enumerate(chips[:done])), Fraction()
-    )
-    inside += lit * part + chips[done] * part * part / 2
-    before = whole * of_period + total * period * whole * (whole - 1) / 2
-    return before + whole * total * rest + inside
-
-
-def _reference(chips: list[int], exposure: Fraction, edge: Fraction) -> tuple[Fraction, Fraction]:
+def _reference(scene: Scene) -> tuple[Fraction, Fraction]:
     """Return peak to peak and mean square over the mean, of both: a second difference."""
-    period, lit = len(chips), sum(chips)
+    exact = ExactTimes(scene)
+    exposure, edge = exact.exposure, exact.edge
+    period, lit = len(exact.chips), sum(exact.chips)
     mean = Fraction(lit, period) * exposure
 
     def light(start: Fraction) -> Fraction:
         ends = (start + exposure, start, start + exposure - edge, start - edge)
-        far, near, far_before, near_before = (_second_integral(chips, end) for end in ends)
+        far, near, far_before, near_before = map(exact.lit_until_integrated, ends)
         return (far - near - far_before + near_before) / edge - mean
 
     shifts = (Fraction(0), edge, -exposure, edge - exposure)
@@ -337,12 +321,7 @@ def test_the_depth_with_slow_edges_is_exact_to_1e_13_of_the_mean() -> None:
     worst = 0.0
     for _ in range(amount(3, 20)):
         scene = _scene(random)
-        sent = scene.transmitter
-        frequency = Fraction(sent.switching_frequency)
-        peak, square = _reference(
-            [int(chip) for chip in sent.pattern],
-            Fraction(scene.camera.exposure_time) * frequency, Fraction(sent.edge_time) * frequency,
-        )  # fmt: skip
+        peak, square = _reference(scene)
         found = light_depth(scene)
         worst = max(worst, abs(found.peak_to_peak - peak), abs(found.rms - math.sqrt(square)))
     assert worst < 1e-13

@@ -27,7 +27,6 @@ from occ_model.figures.bands import bands_drawing, flicker_drawing
 from occ_model.figures.bench import bench_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import Drawing, house_style
-from occ_model.figures.films import films_drawing
 from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.sweep import sweep_drawing
 from occ_model.figures.transmitter_files import wiring_figure
@@ -37,7 +36,6 @@ from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, ShownQuantity, SweepRequest
 from occ_model.results.teaching import AnsweredStep, CheckedAnswer
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.film_study import FilmPoint
 from occ_model.study.paper_grid import (
     DISTANCES as PAPERS_DISTANCES,
     FREQUENCIES as PAPERS_FREQUENCIES,
@@ -64,18 +62,6 @@ def bench_figure() -> Drawing:
         for decoder, wrong in (("threshold", 250 * step + 20), ("sequence", 30 * step))
     ]  # fmt: skip
     return bench_drawing(request, points, 30.0)
-
-
-def films_figure() -> Drawing:
-    points = [
-        FilmPoint(frequency, gap, bits, 54, 40, int(40 * (1 - gap)) - bits % 7, 38, 0.9,
-                  bits * 10.0, None if gap > 0.5 else 1.5, gap < 0.5, None)
-        for frequency in (2e3, 5e3)
-        for bits in (10, 50)
-        for gap in (0.1, 0.4, 0.7)
-    ]  # fmt: skip
-    points.append(FilmPoint(9e3, 0.2, 10, 54, 0, 0, 0, 0.0, 0.0, None, False, "It is too fast."))
-    return films_drawing(points)
 
 
 def table_of(axes: dict[str, tuple[float, ...]]) -> SweepTable:
@@ -130,11 +116,6 @@ DRAWN: dict[str, tuple[Callable[[], Drawing], dict[str, float]]] = {
         bench_figure,
         dict.fromkeys(("exposure (symbols)", "signal to noise (dB)", "bit error rate", "low",
                        "high", "bits a second", "bits from", "bits to"), 1.0),
-    ),
-    "films": (
-        films_figure,
-        {"gap (fraction of a frame)": 100.0, "received": 100.0, "received by counting": 100.0,
-         "bits a second": 1.0},
     ),
     "rates": (
         partial(sweep_figure, 1, "rate"),

@@ -8,9 +8,7 @@ import pytest
 from accuracy_points import EACH_WAY
 from amount import amount
 from matches import match_with
-from matplotlib.collections import Collection
 from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from model.figures.cut_texts import find_cut_texts
@@ -153,18 +151,18 @@ def numbers_of(figure: Figure) -> FloatArray:
     def add(values: object) -> None:
         found.append(np.ma.filled(np.ma.asarray(values, dtype=float), np.nan).ravel())
 
-    for artist in figure.findobj():
-        if isinstance(artist, Line2D):
-            add(artist.get_xdata())
-            add(artist.get_ydata())
-        elif isinstance(artist, AxesImage):
-            add(artist.get_array())
-        elif isinstance(artist, Collection):
-            add(artist.get_offsets())
-            for path in artist.get_paths():
+    for ax in figure.axes:
+        for line in ax.lines:
+            add(line.get_xdata())
+            add(line.get_ydata())
+        for image in ax.images:
+            add(image.get_array())
+        for collection in ax.collections:
+            add(collection.get_offsets())
+            for path in collection.get_paths():
                 add(path.vertices)
-            if artist.get_array() is not None:
-                add(artist.get_array())
+            if collection.get_array() is not None:
+                add(collection.get_array())
     numbers = np.concatenate(found)
     return np.unique(numbers[np.isfinite(numbers)])
 
@@ -172,7 +170,8 @@ def numbers_of(figure: Figure) -> FloatArray:
 def listed(cells: Iterable[object]) -> FloatArray:
     """Return the finite numbers among the cells of a column."""
     numbers = np.array([cell for cell in cells if isinstance(cell, int | float)], dtype=float)
-    return numbers[np.isfinite(numbers)]
+    numbers = numbers[np.isfinite(numbers)]
+    return numbers[np.abs(numbers) >= 1e-12 * np.abs(numbers).max()]  # no rounding error of nothing
 
 
 @pytest.mark.parametrize("name", DRAWN)
@@ -188,6 +187,21 @@ def test_a_figure_draws_the_numbers_of_its_table(name: str) -> None:
         above = np.clip(np.searchsorted(drawn, values), 1, len(drawn) - 1)
         off = np.minimum(np.abs(drawn[above] - values), np.abs(drawn[above - 1] - values))
         assert (off <= 1e-6 * np.abs(values) + 1e-12).all(), column
+
+
+def test_the_limits_of_flicker_that_the_table_lists_lie_on_their_lines() -> None:
+    drawing = flicker_drawing(LAMP)
+    with house_style():
+        (ax,) = drawing.draw().axes
+    rows, header = list(drawing.rows()), list(drawing.header)
+    frequency = header.index("frequency (Hz)")
+    for column, name in (("no effect to (%)", "no observable effect"), ("low risk to (%)", "risk")):
+        (line,) = (line for line in ax.lines if str(line.get_label()).endswith(name))
+        for row in rows:
+            at, limit = row[frequency], row[header.index(column)]
+            if isinstance(limit, float) and np.isfinite(limit):
+                x, y = (np.log(np.asarray(part)) for part in line.get_data())
+                assert np.interp(np.log(at), x, y) == pytest.approx(np.log(limit), abs=0.01)
 
 
 @pytest.mark.parametrize("name", DRAWN)

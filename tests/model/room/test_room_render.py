@@ -168,3 +168,25 @@ def test_the_plan_of_a_picture_includes_every_effect_that_a_lamp_needs() -> None
         settings = SimulationSettings(tolerance, "image")
         each = [set(plan_of(view, settings).included) for view in views]
         assert set.union(*each) == joined
+
+
+@pytest.mark.parametrize(
+    ("own", "effect"), [({"lambertian_order": 6.0}, "emission"), ({"edge_time": 2e-5}, "led-edges")]
+)
+def test_an_effect_of_a_single_lamp_is_planned(own: dict[str, float], effect: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(**SMALL)
+    lamps = tuple(
+        RoomLamp(
+            name=f"{n}", x=0.5 * (n % 3 - 1), y=0.4 * (n // 3 - 1), z=1.5, yaw=0.3,
+            transmitter=scene.transmitter.replaced(
+                {"panel_width": 0.3, "panel_height": 0.3} | (own if n == 4 else {})
+            ),
+        )
+        for n in range(9)
+    )  # fmt: skip
+    with_it, without = (
+        render_room(Room(lamps=some, scene=scene), tolerance=0.2).plan.included
+        for some in (lamps, (*lamps[:4], *lamps[5:]))
+    )
+    assert effect in with_it
+    assert effect not in without

@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands.sweep import decoders_of, run_with_bar
 from occ_model.commands.vary import axes_of
-from occ_model.errors import ParameterError
+from occ_model.errors import OutputError, ParameterError
 from occ_model.figures.sweep import write_sweep_figure
 from occ_model.receiver.decode import DECODERS
 from occ_model.study.sweep.measure import Progress
@@ -188,3 +188,15 @@ def test_both_are_the_quick_decoders_and_all_every_one() -> None:
     assert decoders_of(["both"]) == ("threshold", "matched")
     assert decoders_of(["sequence", "all"]) == tuple(DECODERS)
     assert decoders_of(["sequence", "matched", "sequence"]) == ("sequence", "matched")
+
+
+def table_of(**axes: object) -> occ.SweepTable:
+    return occ.sweep(occ.load_preset("phone-136us"), axes, 1, ("threshold", "matched"))  # type: ignore[arg-type]
+
+
+def test_a_figure_that_is_impossible_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed in a figure: one"):
+        write_sweep_figure(tmp_path / "f.png", table_of(iso=[100.0], bits=[10], rows=[100]))
+    with pytest.raises(OutputError, match=r"not have the ending of a figure; use \.png, "):
+        write_sweep_figure(tmp_path / "f.gif", table_of(iso=[100.0]))
+    assert list(tmp_path.iterdir()) == []

@@ -56,6 +56,14 @@ def test_a_bright_rectangle_is_found_exactly_wherever_it_is(
     assert region_in(lit(*shape, region), FRACTION) == region
 
 
+@pytest.mark.parametrize(("rows", "columns"), [(1000, 1000), (1, 100_000), (100_000, 1)])
+def test_a_pixel_of_which_no_cell_of_the_contours_shows_a_trace_is_found(
+    rows: int, columns: int
+) -> None:
+    pixel = Region(rows - 1, rows, columns - 1, columns)
+    assert region_in(lit(rows, columns, pixel), FRACTION) == pixel
+
+
 @pytest.mark.parametrize(
     "region",
     [

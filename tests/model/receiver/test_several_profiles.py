@@ -84,3 +84,31 @@ def test_a_light_without_code_is_refused_among_others_and_none_of_none_are_read(
         False,
     ]
     assert decode_profiles([], [], "sequence") == []
+
+
+@pytest.mark.parametrize("decoder", DECODERS)
+@pytest.mark.parametrize(
+    ("exposure", "frequency"),
+    [(1e-9, 1e3), (1e-9, 1.0), (1.0, 1e6), (136e-6, 4e3), (136e-6, 124.9e3), (1e-3, 33e3)],
+)
+def test_no_profile_gives_a_warning_a_number_that_is_none_or_a_code_of_nothing(
+    decoder: str, exposure: float, frequency: float
+) -> None:
+    random = np.random.default_rng(8)
+    scene = occ.load_preset("phone-136us").replace(
+        exposure_time=exposure, switching_frequency=frequency, enhancement="none", averaging="light"
+    )
+    for columns in (1, 2, 300):
+        stripes = np.where(np.arange(columns) // 20 % 2, 200.0, 20.0)
+        flat = [np.full(columns, 255.0), np.zeros(columns), 1e-300 * random.random(columns)]
+        others = [-stripes, np.clip(9.0 * stripes, 0.0, 255.0), 1e5 * np.sign(stripes - 100.0)]
+        others += [np.eye(columns)[columns // 2] * 255.0, random.normal(100.0, 30.0, columns)]
+        results = decode_profiles([*flat, *others], [scene] * 8, decoder)
+        assert all(result.failure is not None for result in results[:3])
+        for result in results:
+            for part in fields(result):
+                value = getattr(result, part.name)
+                if isinstance(value, float) or (
+                    isinstance(value, np.ndarray) and value.dtype.kind == "f"
+                ):
+                    assert np.isfinite(value).all(), part.name

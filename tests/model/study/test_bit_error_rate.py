@@ -1,13 +1,18 @@
 """Laws of the bit error rate, its interval, and the resulting bits per second."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.errors import ParameterError
 from occ_model.results.bit_errors import BenchPoint, table_rows
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene
+from occ_model.study import success_rate
 from occ_model.study.bit_error_rate import bit_errors_of, error_interval, with_payload
+from occ_model.study.signals.pictures import observe_images
 from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
 
 SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")
@@ -123,3 +128,34 @@ def test_a_panel_out_of_view_takes_no_time_to_read_out() -> None:
     assert seen.picture_time > 0.0
     assert beside.picture_time == 0.0
     assert beside.readout_time == seen.readout_time
+
+
+def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
+    """Return the plan with which each whole picture of a measurement is simulated."""
+    used: list[Plan] = []
+    whole = observe_images
+
+    def reading(images: Any, path: Any, plan: Plan) -> Any:
+        used.append(plan)
+        return whole(images, path, plan)
+
+    monkeypatch.setattr(success_rate, "observe_images", reading)
+    occ.bit_error_rate(scene, bits=bits, seed=2, path="image")
+    return used
+
+
+def test_pictures_of_whole_packets_are_simulated_with_every_effect_that_a_payload_needs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = occ.load_preset("phone-136us-real").replace(rows=60, switching_frequency=14.1e3)
+    first, *others = plans_of(scene, 50, monkeypatch)
+    assert all(other is first for other in others)
+    alone = occ.plan(scene, observable="signal")
+    assert set(alone.included) <= set(first.included)
+
+
+def test_pictures_of_less_than_a_packet_are_planned_one_by_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    plans = plans_of(SCENE.replace(columns=40, switching_frequency=4e3), 60, monkeypatch)
+    assert len({id(one) for one in plans}) == len(plans)

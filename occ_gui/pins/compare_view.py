@@ -12,7 +12,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.pins.pin_controller import DifferenceRow, Pin, PinController, PinnedPair
+from occ_gui.pins.comparison import DifferenceRow, Pin, PinnedPair
+from occ_gui.pins.pin_controller import PinController
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.building import fill, make_read_only, paragraph, push_button
 from occ_gui.widgets.colours import BAND, SIMULATION, thin_pen

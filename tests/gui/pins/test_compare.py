@@ -12,7 +12,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import compare
 from occ_gui.pins.compare_view import CompareView
-from occ_gui.pins.pin_controller import PinController, PinnedPair
+from occ_gui.pins.comparison import PinnedPair
+from occ_gui.pins.pin_controller import PinController
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.columns import PACKETS_IN_VIEW

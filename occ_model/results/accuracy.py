@@ -206,7 +206,7 @@ class MeasuredCosts:
         return 0.0
 
     def shares_step_with(self, effect: str) -> str | None:
-        """Return the effect in the last picture that is computed together with this one, if any."""
+        """Return the last picture's effect that is, or would be, computed with this one, if any."""
         for fractions in (self.picture, *self.others):
             other = fractions.shared_steps.get(effect)
             if other in self.picture.effects:

@@ -65,10 +65,10 @@ def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ..
 def received_edges(result: DecodeResult) -> FloatArray | None:
     """Return where each received chip begins and the last one ends, in columns; None if unknown.
 
-    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``. The threshold decoder's
-    chips are runs of whole columns, so their edges lie between columns. Decoders that estimate the
-    light state instead when a chip is sent, and count time in columns, too: ``i`` is the time at
-    which the exposure of column ``i`` begins.
+    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``. Chips that are
+    found as runs of columns have their edges between columns. Decoders that estimate the light
+    state instead when a chip is sent, and count time in columns, too: ``i`` is the time at which
+    the exposure of column ``i`` begins.
     """
     if result.chip_starts is None or result.region is None or not result.chips.size:
         return None

@@ -145,8 +145,8 @@ def _sample_rows(scene: Scene, optics: Optics, span: Region) -> Bands:
 def _weights(panel: Pixels, outline: FloatArray, span: Region, columns: int, seen: slice) -> Pixels:
     """Return the bands' weights: the fraction of a column's rows that each stands for.
 
-    A band at the panel's edge stands only for rows inside the panel; the surroundings stand for
-    the rest of its part.
+    A band that shows the panel stands only for rows inside the panel; the surroundings stand for
+    the other rows of its part.
     """
     count = len(panel)
     ends = np.linspace(span.first_row, span.last_row, count + 1)

@@ -137,12 +137,6 @@ def _enlarged(rng: Generator, content: bytearray) -> bytearray:
     return content.replace(bytes((0xB0, 0x81, COLUMNS)), bytes((0xB0, 0x81, 255)))
 
 
-def with_steps(film: bytes, steps: Sequence[int]) -> bytes:
-    """Change how far apart the frames of an MP4 film are, in units of its time scale."""
-    table = b"".join(struct.pack(">II", 1, step) for step in steps)
-    return _with_table(film, b"stts", struct.pack(">I", len(steps)) + table)
-
-
 def lasting(film: bytes, frames: int) -> bytes:
     """Show the first frame of an MP4 or MOV film again and again, without storing it again."""
     place = film.index(b"stts") + 12
@@ -171,11 +165,3 @@ def _with_table(film: bytes, name: bytes, table: bytes) -> bytes:
         (size,) = struct.unpack_from(">I", changed, outer)
         struct.pack_into(">I", changed, outer, size + len(new) - old)
     return bytes(changed)
-
-
-def turned_right(film: bytes) -> bytes:
-    """Let an MP4 film say that its pictures are to be turned to the right by a quarter."""
-    place = film.index(b"tkhd") + 4 + 40
-    one, whole = 1 << 16, 1 << 30
-    matrix = struct.pack(">9i", 0, one, 0, -one, 0, 0, 0, 0, whole)
-    return film[:place] + matrix + film[place + 36 :]

@@ -55,18 +55,6 @@ def test_edged_light_is_that_of_rational_arithmetic(
     record(EDGED, WIDE, error, 1e-12)
 
 
-@cases(
-    edge=st.one_of(decades(1.0, 1e6), st.sampled_from([4095.0, 4096.0, 4097.0, 8192.0])),
-    exposure=decades(1e-3, 1e5), start=STARTS, pattern=st.sampled_from(LONG),
-)  # fmt: skip
-def test_the_longest_patterns_lose_no_digits_to_long_edges(
-    edge: float, exposure: float, start: float, pattern: str
-) -> None:
-    scene = edged_scene(edge, exposure, start_time=start, pattern=pattern, readout_time=13.7e-6)
-    error = edge_error(scene)
-    record(EDGED, WIDE, error, 1e-12)
-
-
 EDGES: dict[str, dict[str, float | str]] = {
     # Windows of 1/1000 of a chip, on sums that oscillate by a million chips^2.
     "a slow pattern of 4096 chips": {"edge_time": 5.5e-6, "exposure_time": 1e-9,

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import socket
 import stat
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import NoReturn
 
 import numpy as np
 import pytest
+from model.files.test_reading import make_link_to_device, make_pipe, make_socket
 
 from occ_model.errors import OutputError, one_line
 from occ_model.files.writing import (
@@ -87,19 +87,6 @@ def test_an_interruption_leaves_the_old_file_and_nothing_else(
     assert list(tmp_path.iterdir()) == [path]
 
 
-def a_pipe(path: Path) -> None:
-    os.mkfifo(path)
-
-
-def a_socket(path: Path) -> None:
-    with socket.socket(socket.AF_UNIX) as end:
-        end.bind(path.name)  # the socket's full path may be too long
-
-
-def a_link_to_a_device(path: Path) -> None:
-    path.symlink_to("/dev/null")
-
-
 def a_protected_file(path: Path) -> None:
     path.write_bytes(b"kept")
     path.chmod(0o444)
@@ -127,9 +114,9 @@ PROTECTED = "is write-protected; name another file, or allow writing to it"
     ("name", "make", "why"),
     [
         ("x.png", Path.mkdir, "is a folder; name a file to write to"),
-        ("x.png", a_pipe, NO_FILE),
-        ("x.png", a_socket, NO_FILE),
-        ("x.png", a_link_to_a_device, NO_FILE),
+        ("x.png", make_pipe, NO_FILE),
+        ("x.png", make_socket, NO_FILE),
+        ("x.png", make_link_to_device, NO_FILE),
         ("x.png", a_protected_file, PROTECTED),
         ("x.png", a_link_to_a_protected_file, PROTECTED),
         ("x.png", a_link_to_itself, f"cannot be written: {os.strerror(errno.ELOOP)}"),

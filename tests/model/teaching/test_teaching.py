@@ -202,15 +202,6 @@ def test_a_window_of_very_many_chips_is_cut_short_and_says_so() -> None:
     assert window.on_time == pytest.approx(0.5, abs=0.05)
 
 
-@pytest.mark.parametrize("start_time", [-1e9, 1e9])
-def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None:
-    scene = Scene().replace(start_time=start_time, columns=50)
-    for column in (0, 49):
-        window = exposure_window(scene, column)
-        parts = window.lit_parts
-        assert np.diff(parts[:, :2]).sum() == pytest.approx(occ.on_time(scene)[column], rel=1e-9)
-
-
 @settings(max_examples=60, deadline=None)
 @given(
     st.floats(500.0, 3e4), st.floats(1e-5, 1e-3), st.floats(1e-6, 5e-5), st.floats(-2.0, 2.0),

@@ -1,8 +1,6 @@
 """One move of a slider shows which effects are switched in or out, and their cost."""
 
 import math
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from gui.kinds import collect
@@ -177,18 +175,3 @@ def test_an_unknown_error_has_no_number(bench: Bench) -> None:
     row = bench.row("sensor-noise")
     assert (row.error_text, row.levels) == ("?", None)
     assert "not known" in row.error_meaning
-
-
-def frame_of(*included: str) -> Any:
-    """Return a picture whose plan includes these of three effects."""
-    decisions = [SimpleNamespace(effect=name) for name in ("a", "b", "c")]
-    return SimpleNamespace(plan=SimpleNamespace(included=included, decisions=decisions))
-
-
-def test_a_change_of_the_plan_is_reported_once() -> None:
-    changes = PlanChanges()
-    reports = collect(changes.changed)
-    for included in ("ab", "ab", "bc", "bc"):  # the first picture changes nothing
-        snapshot: Any = SimpleNamespace(frame=frame_of(*included))
-        changes.show_snapshot(snapshot)
-    assert [[decision.effect for decision in report] for report in reports] == [["a", "c"]]

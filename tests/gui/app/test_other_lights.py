@@ -161,19 +161,3 @@ def test_the_limits_of_a_lamp_are_its_bars(application: Application, user: User)
     user.wait_until_idle()
     assert bars.visibleRegion().boundingRect().isValid()
     assert not detection.visibleRegion().boundingRect().isValid()
-
-
-@pytest.mark.parametrize("name", ["lamp-240hz", "mains-lamp"])
-def test_a_preset_of_a_lamp_is_shown_with_its_controls(
-    application: Application, user: User, name: str
-) -> None:
-    application.presets.load(name)
-    user.wait_until_idle()
-    scene, controls = application.store.scene, application.controls
-    assert controls.preset.currentData() == name
-    rows = controls.panels["Main"].rows
-    shown = [each for each, row in rows.items() if row.isVisible()]
-    assert tuple(shown) == main_of(scene.transmitter.light)
-    assert {each: rows[each].value for each in shown} == {e: scene.value(e) for e in shown}
-    light = describe_light(scene.transmitter)
-    assert application.story.verdict.heading.lower().startswith(light.lower())

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from gui.detection_map.conftest import MapBench
 from gui.kinds import add_widget, collect
-from gui.stores import show
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
@@ -119,23 +118,6 @@ def test_a_click_or_arrow_keys_and_enter_choose_a_cell(qtbot: QtBot, view: MapVi
     assert picks[3:] == [places[-1]]
 
 
-def test_refused_points_are_hatched_and_look_like_no_rate(
-    view: MapView, grey_picture: Picture
-) -> None:
-    view.show_map(whole((10, 10), refused=(45,)))
-    plot = view.plots.plots[0]
-    plot.setting = None
-    plot.update()
-    picture = grey_picture(plot).astype(int)
-
-    def cell(x: int, y: int) -> Any:
-        at = plot.place_of((x / 12, y / 6)).toPoint()
-        return picture[at.y() - 8 : at.y() + 8, at.x() - 6 : at.x() + 6]
-
-    assert np.ptp(cell(*divmod(45, 7))) > 40  # stripes
-    assert np.ptp(cell(2, 2)) == 0
-
-
 def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
     view.show_map(whole((2, 10)))
     for what, titles in (
@@ -236,21 +218,6 @@ def test_the_numbers_of_an_axis_are_round_and_as_dense_as_allowed(name: str, mos
         assert digits <= {"1", "2", "5"} or digits <= {"1", "3"}
 
 
-def test_each_number_of_the_axes_stands_beside_its_tick(view: MapView) -> None:
-    view.show_axes(FREQUENCY, DISTANCE)
-    plot, painter = view.plots.plots[0], Mock()
-    plot.draw_axes(painter, plot.area())
-    lines = [call.args for call in painter.drawLine.call_args_list]
-    texts = [(place, text) for place, _, text in (c.args for c in painter.drawText.call_args_list)]
-    numbers = [place for place, text in texts if text.replace(".", "").isdigit()]
-    assert len(numbers) == len(lines) > 5
-    for (start, end), number in zip(lines, numbers, strict=True):
-        middle = number.center()
-        is_below = start.x() == end.x()
-        beside = (middle.x(), start.x()) if is_below else (middle.y(), start.y())
-        assert beside[0] == pytest.approx(beside[1])
-
-
 def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:
     controller, scenes = map_bench.pane.map, map_bench.scenes
     controller.map = whole((10, 10))
@@ -260,14 +227,6 @@ def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:
     assert scenes.scene.value(DISTANCE) == controller.map.y_values[3]
     scenes.undo_stack.undo()
     assert scenes.scene == before
-
-
-def test_a_pane_made_later_shows_the_frame_rate_chosen_before(
-    map_bench: MapBench,
-) -> None:
-    show(map_bench.store, frame_rate=24.0)
-    show(map_bench.store, shown="bits")
-    assert (map_bench.view.frame_rate.value(), map_bench.view.quantity.key()) == (24.0, "bits")
 
 
 def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:

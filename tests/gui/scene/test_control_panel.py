@@ -219,23 +219,3 @@ def test_a_row_that_was_moved_shows_the_scene_again(form: ParameterPanel) -> Non
     distance.slider.setValue(300)
     form.show_scene(scene)
     assert distance.field.value() == 0.7
-
-
-def test_a_row_does_not_receive_the_value_that_it_sent(
-    form: ParameterPanel, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    store = store_of()
-    store.changed.connect(form.show_scene)
-    form.show_scene(store.scene)
-    distance = form.rows["distance"]
-    assert isinstance(distance, QuantityRow)
-    distance.edited.connect(lambda name, value, gesture: store.change(gesture, **{name: value}))
-    received: list[str] = []
-    for row in form.rows.values():
-        monkeypatch.setattr(row, "_display", lambda _value, name=row.name: received.append(name))
-    for position in (300, 310):
-        distance.slider.setValue(position)
-        assert store.scene.value("distance") == distance.value
-    assert received == []
-    store.undo_stack.undo()
-    assert received == ["distance"]

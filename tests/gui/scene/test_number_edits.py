@@ -57,13 +57,6 @@ def test_usual_notation_is_read_as_the_exact_si_value(
     assert field.edit.text() == shown
 
 
-def test_a_plain_number_is_read_in_the_unit_that_is_shown(qtbot: QtBot) -> None:
-    field = Field("exposure_time", qtbot)
-    field.edit.set_value(2e-3)
-    field.enter("1")
-    assert field.edited == [1e-3]
-
-
 def test_leaving_an_untouched_field_emits_and_rounds_nothing(qtbot: QtBot) -> None:
     field, third = Field("distance", qtbot), 4 / 3
     field.edit.set_value(third)

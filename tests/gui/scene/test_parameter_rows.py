@@ -174,23 +174,6 @@ def test_every_number_typed_is_a_gesture_of_its_own(qtbot: QtBot) -> None:
     assert trial.edits[1][2] not in {trial.edits[0][2], trial.edits[3][2]}
 
 
-def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:
-    trial = RowTrial("gamma", qtbot)
-    slider = trial.row.slider
-    slider.setValue(500)
-    for key, position in (
-        (Qt.Key.Key_Right, 501),
-        (Qt.Key.Key_PageUp, 551),
-        (Qt.Key.Key_PageDown, 501),
-        (Qt.Key.Key_Left, 500),
-        (Qt.Key.Key_Home, 0),
-        (Qt.Key.Key_End, 1000),
-    ):
-        qtbot.keyClick(slider, key)
-        assert slider.value() == position
-    assert trial.values[-2:] == [1.0, 4.0]
-
-
 def test_the_wheel_scrolls_the_page_until_a_control_is_chosen(qtbot: QtBot) -> None:
     trial = RowTrial("iso", qtbot)
     trial.row.show()

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.scene import scene_store
 from occ_gui.scene.scene_store import Gestures, SceneStore, new_gesture
-from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.scene.scene import Scene
 
 
 @pytest.fixture
@@ -21,14 +21,6 @@ def store(qapp: object, small_scene: Scene) -> SceneStore:
 @pytest.fixture
 def scenes(store: SceneStore) -> list[Scene]:
     return collect(store.changed)
-
-
-def test_a_change_is_emitted_with_the_new_scene(
-    store: SceneStore, scenes: list[Scene], small_scene: Scene
-) -> None:
-    store.change(iso=200.0, distance=2.0)
-    assert scenes == [small_scene.replace(iso=200.0, distance=2.0)]
-    assert store.scene == scenes[0]
 
 
 def test_panes_of_one_colour_see_the_shown_one(store: SceneStore, small_scene: Scene) -> None:
@@ -149,13 +141,6 @@ def test_undo_and_redo_give_exactly_the_same_scenes(
     assert scenes == forward[1:]
 
 
-def test_the_undo_menu_names_the_step(store: SceneStore) -> None:
-    store.change(switching_frequency=5e3)
-    assert store.undo_stack.undoText() == "change of switching frequency"
-    store.put(Scene(), "preset phone-136us")
-    assert store.undo_stack.undoText() == "preset phone-136us"
-
-
 def test_effects_forced_by_hand_are_undone_and_redone(
     store: SceneStore, scenes: list[Scene], small_scene: Scene
 ) -> None:
@@ -225,58 +210,3 @@ def test_a_pause_ends_a_gesture_unless_it_is_held(
     last = gestures.of_change()
     assert held == first
     assert last != first
-
-
-def test_a_gesture_that_has_ended_takes_nothing_more() -> None:
-    gestures = Gestures()
-    first = gestures.of_change()
-    gestures.end()
-    assert gestures.of_change(is_held=True) != first
-
-
-class SettingsTrial:
-    def __init__(self) -> None:
-        self.scenes = store_of()
-        self.store = self.scenes.settings
-        self.changes: list[SimulationSettings] = []
-        self.refusals: list[str] = []
-        self.store.changed.connect(self.changes.append)
-        self.store.refused.connect(self.refusals.append)
-
-    def switch(self, force: dict[str, bool]) -> None:
-        self.scenes.put(self.scenes.scene, "switch", force=force)
-
-
-@pytest.fixture
-def trial() -> SettingsTrial:
-    return SettingsTrial()
-
-
-def test_setting_an_equal_value_emits_nothing(trial: SettingsTrial) -> None:
-    assert trial.store.settings == SimulationSettings()
-    trial.store.set_tolerance(trial.store.settings.tolerance)
-    trial.store.set_observable("image")
-    trial.switch({})
-    assert trial.changes == []
-
-
-def test_each_change_is_emitted_once_and_keeps_the_other_settings(trial: SettingsTrial) -> None:
-    trial.store.set_tolerance(2.0)
-    trial.store.set_observable("profile")
-    trial.switch({"jpeg": True})
-    trial.switch({"jpeg": True, "flicker": False})
-    trial.switch({"flicker": False})
-    assert trial.store.settings == SimulationSettings(2.0, "profile", {"flicker": False})
-    assert trial.changes[-1] == trial.store.settings
-    assert len(trial.changes) == 5
-
-
-@pytest.mark.parametrize("tolerance", [-1.0, float("nan")])
-def test_an_impossible_tolerance_is_refused_with_a_sentence(
-    trial: SettingsTrial, tolerance: float
-) -> None:
-    trial.store.set_tolerance(tolerance)
-    (sentence,) = trial.refusals
-    assert sentence.startswith("Tolerance cannot be ")
-    assert sentence.endswith(".")
-    assert trial.changes == []

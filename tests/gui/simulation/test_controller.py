@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect
+from gui.kinds import SnapshotOf
 from gui.simulation.conftest import SimulationBench
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -69,22 +68,6 @@ def test_a_scene_without_a_picture_is_reported_and_the_views_keep_the_last_one(
     bench.store.change(rows=100_000, columns=1_000_000)
     bench.wait_until_idle()
     assert "million pixels" in bench.failures[-1]
-
-
-def test_after_an_unexpected_failure_the_next_one_is_shown(
-    bench: SimulationBench, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*_arguments: object, **_options: object) -> None:
-        raise ZeroDivisionError("a mistake")
-
-    with monkeypatch.context() as patched:
-        patched.setattr(controller, "render_with", fail)
-        bench.store.change(iso=333.0)
-        bench.wait_until_idle()
-    assert bench.failures == ["The simulation failed: ZeroDivisionError: a mistake."]
-    bench.store.change(iso=456.0)
-    bench.wait_until_idle()
-    assert bench.scenes[-1] == bench.store.scene
 
 
 def test_the_snapshot_holds_the_models_results_for_the_scene(snapshot_of: SnapshotOf) -> None:
@@ -149,16 +132,6 @@ def test_a_chosen_decoder_reads_this_and_later_scenes(bench: SimulationBench) ->
     assert decoders() == list(QUICK_DECODERS)
 
 
-def test_every_decoder_reports_that_no_panel_is_found(
-    bare_snapshot_of: SnapshotOf,
-) -> None:
-    snapshot = bare_snapshot_of(offset_x=50.0)  # without noise, which has some brightest pixels
-    assert snapshot.results["threshold"].signal is None
-    failures = {result.failure for result in snapshot.results.values()}
-    assert len(failures) == 1
-    assert None not in failures
-
-
 def test_the_panels_origin_and_columns_stay_in_the_picture(small_scene: Scene) -> None:
     near = simulate(small_scene.replace(distance=0.3))
     assert near.frame.corners.min() < 0
@@ -166,12 +139,3 @@ def test_the_panels_origin_and_columns_stay_in_the_picture(small_scene: Scene) -
     assert near.panel_columns == (0.0, len(near.profile) - 1.0)
     far = simulate(small_scene.replace(distance=100.0))
     assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
-
-
-def test_stopping_during_a_simulation_returns_without_a_result(bench: SimulationBench) -> None:
-    pictures = collect(bench.controller.picture_ready)
-    bench.store.change(iso=200.0)
-    bench.controller.stop()
-    QApplication.processEvents()
-    assert pictures == []
-    assert len(bench.scenes) == 1

@@ -32,15 +32,6 @@ def present(bench: SimulationBench, messages: list[str]) -> PresentResults:
     return present
 
 
-def test_results_of_the_present_scene_are_delivered_at_once(
-    bench: SimulationBench, present: PresentResults
-) -> None:
-    snapshots: list[Snapshot] = []
-    present.ask(snapshots.append)
-    (snapshot,) = snapshots
-    assert snapshot.request.scene == bench.store.scene
-
-
 def test_results_of_an_earlier_scene_are_never_delivered(
     bench: SimulationBench, present: PresentResults, messages: list[str]
 ) -> None:

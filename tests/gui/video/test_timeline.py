@@ -75,15 +75,6 @@ def test_states_are_told_apart_without_colour(qapp: object, width: int) -> None:
             assert np.mean(one != other) > 0.1
 
 
-def test_a_long_film_is_drawn_by_fractions(timeline: Timeline) -> None:
-    states = np.where(np.arange(20_000) < 10_000, 1, 3).astype(np.uint8)
-    timeline.show_frames(frame_marks(np.arange(20_000) / 30.0, states, 1 / 30.0))
-    image = timeline.grab().toImage()
-    good, bad = (image.pixelColor(round(timeline.x_of(time)), 15).name() for time in (100.0, 600.0))
-    assert good != bad
-    assert timeline.frame_at(timeline.x_of(500.0) + 0.01) == pytest.approx(15_000, abs=35)
-
-
 @pytest.mark.parametrize("jump", [3600.0, -0.7, -3600.0])
 def test_frames_whose_times_jump_are_shown_for_their_own_time_only(
     timeline: Timeline, jump: float

@@ -1,15 +1,17 @@
 """Somebody at the window: types, chooses from menus, waits and looks."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QSlider
+from PySide6.QtWidgets import QAbstractButton, QSlider
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import CountRow, QuantityRow
+from occ_model.scene.scene import Scene
 
 PATIENCE_S = 120.0
 """How long is waited at most: only what hangs takes so long, however busy the machine is."""
@@ -68,6 +70,31 @@ class User:
         actions = self._application.window.findChildren(QAction)
         (found,) = [action for action in actions if action.text().startswith(text)]
         return found
+
+    def press(self, button: QAbstractButton) -> None:
+        button.click()
+        self.wait_until_idle()
+
+    def change(self, **parameters: Any) -> None:
+        """Change parameters of the scene, and wait."""
+        self._application.store.change(**parameters)
+        self.wait_until_idle()
+
+    def put(self, scene: Scene, title: str) -> None:
+        self._application.store.put(scene, title)
+        self.wait_until_idle()
+
+    def open_photo(self, path: Path) -> None:
+        self._application.files.open_photo(path)
+        self.wait_until_idle()
+
+    def switch(self, mode: str) -> None:
+        self._application.window.modes.switch(mode)
+        self.wait_until_idle()
+
+    def bring_to_front(self, pane: str) -> None:
+        self._application.window.bring_to_front(pane)
+        self.wait_until_idle()
 
     def choose_next_preset(self) -> str:
         self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)

@@ -68,8 +68,7 @@ def test_the_window_shows_the_times_of_simulation_and_reading_and_its_version(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     labels = application.window.statusBar().findChildren(QLabel)
-    application.store.change(iso=200.0)
-    user.wait_until_idle()
+    user.change(iso=200.0)
     pattern = r"simulated in (?!0 s)[\d.]+ m?s, read in (?!0 s)[\d.]+ m?s"
     assert any(re.fullmatch(pattern, label.toolTip()) for label in labels)
     abouts: list[str] = []
@@ -116,13 +115,11 @@ BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
 def test_a_failure_is_shown_in_one_place_until_a_picture_and_not_for_intermediate_scenes(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
-    application.store.change(**BEHIND_THE_CAMERA)
-    user.wait_until_idle()
+    user.change(**BEHIND_THE_CAMERA)
     user.choose("&Undo")
     assert user.message == "Undone: change of distance and yaw."
     application.store.change(**BEHIND_THE_CAMERA)
-    application.store.change(distance=1.0, yaw=0.0)
-    user.wait_until_idle()
+    user.change(distance=1.0, yaw=0.0)
     assert user.message == ""
     # The status line does not repeat the sentence that is in view.
     window = application.window
@@ -131,8 +128,7 @@ def test_a_failure_is_shown_in_one_place_until_a_picture_and_not_for_intermediat
         for label in window.statusBar().findChildren(ElidedLabel)
         if label.accessibleName() == "Message"
     ]
-    application.store.change(distance=0.05, yaw=1.2)
-    user.wait_until_idle()
+    user.change(distance=0.05, yaw=1.2)
     message = window.statusBar().currentMessage()
     assert message.startswith("With these angles")
     qtbot.waitUntil(lambda: message in application.story.verdict.accessibleDescription())

@@ -49,8 +49,7 @@ def choose_lamp(application: Application) -> None:
 def matched(
     application: Application, user: User, photo_path: Path, remembered_matches: None
 ) -> Application:
-    application.files.open_photo(photo_path)
-    user.wait_until_idle()
+    user.open_photo(photo_path)
     choose_lamp(application)
     user.choose("&Match photo")
     return application
@@ -60,8 +59,7 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     qtbot: QtBot, application: Application, user: User, photo_path: Path
 ) -> None:
     docks = application.window.docks
-    application.files.open_photo(photo_path)
-    user.wait_until_idle()
+    user.open_photo(photo_path)
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
     assert not_none(application.results_store.results.document).match_request is None
     application.window.modes.switch("explore")
@@ -94,8 +92,7 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
     assert not bar.isVisible()
     assert application.shell.pane("photo").is_idle
     is_released.set()
-    application.files.open_photo(photo_path)
-    user.wait_until_idle()
+    user.open_photo(photo_path)
     assert not bar.isVisible()
     assert application.shell.pane("photo").matching.photo is not None
     assert application.shell.pane("photo").matching.match is None
@@ -170,8 +167,7 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
 ) -> None:
     actions = application.window.actions_by_name
     with_photo, with_match = ("match", "use_settings"), ("apply_match", "save_match")
-    application.files.open_photo(photo_path)
-    user.wait_until_idle()
+    user.open_photo(photo_path)
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
     choose_lamp(application)

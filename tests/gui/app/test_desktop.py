@@ -9,14 +9,12 @@ import pytest
 from gui.kinds import GreyPicture, add_widget, collect, not_none
 from gui.stores import store_of
 from gui.user import User
-from PySide6.QtCore import QPoint, QPointF, QSettings, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.core.workspace import Workspace
-from occ_gui.files.preferences import Preferences
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import docs_folder, heading_id
 from occ_gui.scene.scene_editor import SceneEditor
@@ -131,8 +129,7 @@ def test_the_theme_changes_all_drawings(
 ) -> None:
     themes = application.options.theme
     for pane in ("spectrum", "equations"):
-        application.window.bring_to_front(pane)
-        user.wait_until_idle()
+        user.bring_to_front(pane)
     before = QApplication.palette().color(QPalette.ColorRole.Window)
     for theme, is_light in (("light", True), ("dark", False)):
         user.choose({"dark": "&Dark", "light": "&Light"}[theme])
@@ -294,26 +291,14 @@ def test_a_brightness_set_by_hand_is_held_from_then_on(hold: Any) -> None:
     assert store.scene.camera.iso == pytest.approx(800.0)
 
 
-def test_the_view_menu_hides_the_strips_and_the_choice_is_stored(
-    qtbot: QtBot, small_scene: Scene, tmp_path: Path
-) -> None:
-    def settings() -> QSettings:
-        return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
-
-    stored = settings()
-    application = Application(Workspace(small_scene), stored)
-    application.window.show()
-    strips = application.slider_strips.strips.values()
-    assert all(strip.isVisible() for strip in strips)
-    application.window.actions_by_name["slider_strips"].trigger()
-    QApplication.processEvents()
-    assert not any(strip.isVisible() for strip in strips)
-    assert application.background_rates.slider_strips.is_idle
-    application.window.close()
-    application.window.deleteLater()
-    stored.sync()
-    assert not Preferences(settings()).slider_strips
-    assert Preferences(None).slider_strips
+def test_the_view_menu_hides_the_strips_and_the_choice_is_stored(application: Application) -> None:
+    strips, entry = application.slider_strips.strips.values(), "slider_strips"
+    for are_shown in (False, True):
+        application.window.actions_by_name[entry].trigger()
+        QApplication.processEvents()
+        assert {strip.isVisible() for strip in strips} == {are_shown}
+        assert application.background_rates.slider_strips.is_idle or are_shown
+        assert application.preferences.slider_strips == are_shown
 
 
 def test_each_button_of_the_welcome_page_leads_to_its_mode(

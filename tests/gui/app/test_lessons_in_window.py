@@ -44,8 +44,7 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_a_pane_without_a_row_i
     application: Application, guide: LessonView, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
     lesson = smaller_lessons().lessons[0]
-    guide.list.choices[0].click()
-    user.wait_until_idle()
+    user.press(guide.list.choices[0])
     step = lesson.steps[0]
     assert application.store.scene == step.scene
     assert application.store.undo_stack.count() == 1
@@ -95,11 +94,9 @@ def test_a_crash_or_a_closed_window_during_a_lesson_leaves_the_users_own_state(
     store.put(
         replace(store.workspace, decoder="matched", picture_kind="receiver", is_enhanced=True)
     )
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     before = application.store.store.workspace
-    guide.list.choices[5].click()
-    user.wait_until_idle()
+    user.press(guide.list.choices[5])
     assert application.store.scene != before.scene
     assert application.photos.path != photo_file
     session.write()
@@ -111,14 +108,12 @@ def test_a_crash_or_a_closed_window_during_a_lesson_leaves_the_users_own_state(
     values = [record["view"][name] for name in ("decoder", "picture_kind", "is_enhanced")]
     assert values == ["matched", "receiver", True]
     assert record["photo"]["path"] == str(photo_file)
-    guide.step.all_lessons.click()
-    user.wait_until_idle()
+    user.press(guide.step.all_lessons)
     application.store.change(distance=2.0)
     session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert Scene.from_toml(record["scene"]).pose.distance == 2.0
-    guide.list.choices[0].click()
-    user.wait_until_idle()
+    user.press(guide.list.choices[0])
     application.window.close()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert not record["in_use"]
@@ -131,21 +126,17 @@ def test_a_lesson_keeps_the_number_of_visible_columns_while_the_scene_changes(
 ) -> None:
     story = application.story
     usual = story.rows.axis.span
-    guide.list.choices[0].click()
-    user.wait_until_idle()
+    user.press(guide.list.choices[0])
     span = story.rows.axis.span
     assert story.rows.ranges["packets"].text() == "250 columns"
     assert span == pytest.approx(250, rel=0.05)
     for readout in (20e-6, 4e-6):
-        application.store.change(readout_time=readout)
-        user.wait_until_idle()
+        user.change(readout_time=readout)
         assert story.rows.axis.span == pytest.approx(span)
-    guide.step.all_lessons.click()
-    user.wait_until_idle()
+    user.press(guide.step.all_lessons)
     assert story.rows.ranges["packets"].text() == "2 packets"
     assert story.rows.axis.span == pytest.approx(usual)
-    application.store.change(pattern="10")
-    user.wait_until_idle()
+    user.change(pattern="10")
     assert story.rows.ranges["packets"].text() == "2 periods"
 
 
@@ -170,8 +161,7 @@ def test_a_lab_sheet_has_buttons_for_its_actions(
         return str(form.sentence.text())
 
     assert "Match the photo first" in answer()
-    guide.step.action.click()
-    user.wait_until_idle()
+    user.press(guide.step.action)
     assert "Right. The match gives" in answer()
     # The lesson stays beside the photo.
     assert application.window.modes.mode == "lessons"
@@ -185,5 +175,4 @@ def test_a_lab_sheet_has_buttons_for_its_actions(
     assert last.match is application.shell.pane("photo").matching.match is match
     assert last.photo == "led-1khz.jpg"
     assert first.match is None
-    guide.step.all_lessons.click()
-    user.wait_until_idle()
+    user.press(guide.step.all_lessons)

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 from amount import amount
-from gui.app.test_other_lights import visible_texts
 from gui.user import User
+from gui.visible_texts import visible_texts
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.app.application import Application
@@ -75,13 +75,11 @@ STATEMENTS: dict[str, tuple[Unit, tuple[str, ...]]] = {
 
 def texts_of(application: Application, user: User) -> Iterator[str]:
     """Yield the texts of the story, and of each pane once it is in front."""
-    application.window.modes.switch("explore")
-    user.wait_until_idle()
+    user.switch("explore")
     yield from map(plain, visible_texts(application.window))
     yield from (plain(badge.text) for badge in application.story.verdict.badges.badges)
     for pane in PANES:
-        application.window.bring_to_front(pane)
-        user.wait_until_idle()
+        user.bring_to_front(pane)
         dock: QWidget = application.window.docks[pane]
         yield from map(plain, visible_texts(dock))
         application.window.hide_pane(pane)

@@ -59,8 +59,7 @@ def test_a_picture_that_studies_may_contradict_states_what_it_leaves_out(
     application: Application, user: User
 ) -> None:
     scene = occ.load_preset("phone-136us").replace(rows=800, switching_frequency=14.6e3)
-    application.store.put(scene, "another scene")
-    user.wait_until_idle()
+    user.put(scene, "another scene")
     label = application.view("decode").omissions
     application.settings.set_tolerance(3.0)
     user.wait_until_idle()

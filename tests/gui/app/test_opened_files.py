@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.export.export_controller import ExportJob
 from occ_gui.files import file_controller
+from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
 
 
@@ -71,8 +71,7 @@ def test_recent_files_are_listed_and_reopened_and_missing_ones_are_removed(
     saved = application.store.scene.replace(iso=99.0)
     scene.write_text(saved.to_toml(), encoding="utf-8")
     for path in (photo_copy, photo_file):
-        application.files.open_photo(path)
-        user.wait_until_idle()
+        user.open_photo(path)
     application.files.open_scene(scene)
     user.wait_until_idle()
     assert entries(recent) == ["a&&b.toml", "stripes.png", "taken.png", "&Clear this list"]
@@ -85,14 +84,12 @@ def test_recent_files_are_listed_and_reopened_and_missing_ones_are_removed(
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
     assert not recent.isEnabled()
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     photo_file.unlink()
     application.window.menus.recent.actions()[0].trigger()
     assert user.message == f"{photo_file} is no longer there."
     assert application.preferences.files == ()
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     assert photo_file.name in user.message
     assert application.preferences.files == (), "a file that cannot be read is not listed"
 
@@ -128,16 +125,14 @@ def test_an_open_photo_is_named_in_the_title_and_the_menu_turns_and_overlays_it(
     close = user.entry("&Close photo")
     assert application.window.windowTitle() == TITLE
     assert not close.isEnabled()
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     assert application.window.windowTitle() == f"stripes.png – {TITLE}"  # noqa: RUF001
     assert application.view("picture").photo.isVisible()
     close.trigger()
     assert application.window.windowTitle() == TITLE
     assert not application.view("picture").photo.isVisible()
     assert not close.isEnabled()
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     user.choose("&Line by line")
     assert "its lines shown as columns" in application.view("picture").photo.caption.toolTip()
     assert application.view("photo").facts.scan_axis.key() == "lines"
@@ -173,19 +168,9 @@ def test_a_full_disk_while_saving_keeps_the_old_file_and_is_reported(
 
 
 def test_exported_figures_show_the_scene_just_chosen(
-    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    application: Application, user: User, tmp_path: Path
 ) -> None:
-    """Check the scenes before drawing, which takes a minute."""
-    export, jobs = application.shell.pane("export"), list[ExportJob]()
-    monkeypatch.setattr(export, "_enqueue", jobs.append)
     application.store.change(distance=1.3)
-    export.export_all(tmp_path)
-    export.export("profile", tmp_path / "profile.png")
-    export.copy("profile")
+    application.shell.pane("export").export("profile", tmp_path / "profile.csv")
     user.wait_until_idle()
-    every, one, copy = jobs
-    assert every.folder == tmp_path
-    assert len(every.requests) > 3
-    assert len(one.requests) == len(copy.requests) == 1
-    for job in jobs:
-        assert {request.scene for request in job.requests} == {application.store.scene}
+    assert scene_inside(tmp_path / "profile.csv") == application.store.scene

@@ -1,13 +1,12 @@
 """A window whose scene sends no code speaks of lamps and periods, and reads nothing."""
 
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from gui.user import User
+from gui.visible_texts import visible_texts
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QTableView, QTextEdit, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -27,38 +26,18 @@ OF_CODES = re.compile(r"\b(chips?|bits?|headers?|packets?|raw pattern)\b", re.IG
 _PANES = ("decode", "profile", "equations", "spectrum", "compare", "bands", "bench")
 
 
-def visible_texts(widget: QWidget) -> Iterator[str]:
-    for part in (widget, *widget.findChildren(QWidget)):
-        if not part.isVisible():
-            continue
-        for name in ("text", "title", "currentText", "accessibleDescription"):
-            get = getattr(part, name, None)
-            if callable(get) and not isinstance(part, QTextEdit):
-                yield str(get())
-        if isinstance(part, QTextEdit):
-            yield part.toPlainText()
-        if isinstance(part, QTableView):
-            model = part.model()
-            for row in range(model.rowCount()):
-                for column in range(model.columnCount()):
-                    yield str(model.index(row, column).data())
-
-
 @pytest.mark.parametrize("light", LIGHTS)
 def test_no_visible_text_of_any_pane_speaks_of_chips(
     application: Application, user: User, light: str
 ) -> None:
     window, store = application.window, application.store
-    store.put(store.scene.replace(**LIGHTS[light]), "light")
-    user.wait_until_idle()
+    user.put(store.scene.replace(**LIGHTS[light]), "light")
     for mode in (mode for mode in MODES if mode not in ("photo", "lessons")):
-        window.modes.switch(mode)
-        user.wait_until_idle()
+        user.switch(mode)
         _check_texts(application)
     window.modes.switch("explore")
     for pane in _PANES:
-        window.bring_to_front(pane)
-        user.wait_until_idle()
+        user.bring_to_front(pane)
         _check_texts(application)
         window.hide_pane(pane)
     rows = application.story.rows
@@ -82,15 +61,12 @@ def test_the_verdict_names_the_lamp_its_bars_and_its_ratio(
 ) -> None:
     store, verdict = application.store, application.story.verdict
     lamp = {"lamp_frequency": 2500.0, "duty": 0.3, "exposure_time": 120e-6, "readout_time": 8e-6}
-    store.put(store.scene.replace(light="lamp", **lamp), "lamp")
-    user.wait_until_idle()
+    user.put(store.scene.replace(light="lamp", **lamp), "lamp")
     assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 30 %: 50 columns from bar to bar")
     assert "t / period = 0.3" in {badge.text for badge in verdict.badges.badges}
-    store.change(exposure_time=4e-4)
-    user.wait_until_idle()
+    user.change(exposure_time=4e-4)
     assert verdict.heading == "Lamp of 2.5 kHz, duty 30 %: no bars"
-    store.put(store.scene.replace(light="code", pattern="1000"), "pattern of a pulse")
-    user.wait_until_idle()
+    user.put(store.scene.replace(light="code", pattern="1000"), "pattern of a pulse")
     assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 25 %: no bars")
 
 
@@ -123,16 +99,13 @@ def test_what_the_tolerance_limits_is_no_decision_of_a_lamp(
 ) -> None:
     store = application.store
     store.settings.set_observable("decision")
-    store.change(light="lamp")
-    user.wait_until_idle()
+    user.change(light="lamp")
     assert store.settings.settings.observable == "signal"
-    application.window.modes.switch("effects")
-    user.wait_until_idle()
+    user.switch("effects")
     choice = application.shell.pane("accuracy").view.observable
     entry = choice.model().item(choice.findData("decision"))
     assert not entry.isEnabled()
-    store.change(light="code")
-    user.wait_until_idle()
+    user.change(light="code")
     assert entry.isEnabled()
     assert application.results_store.results.failure is None
 
@@ -143,8 +116,7 @@ def test_figures_of_codes_are_away_while_a_lamp_is_sent(
     entries = application.window.actions_by_name
     of_codes = ["export_map", "export_bench", "export_decoding-matched"]
     for light in ("lamp", "code"):
-        application.store.change(light=light)
-        user.wait_until_idle()
+        user.change(light=light)
         assert {entries[name].isEnabled() for name in of_codes} == {light == "code"}
         names = {figure.name for figure in application.shell.different_figures}
         assert ("map" in names) == (light == "code")
@@ -152,12 +124,10 @@ def test_figures_of_codes_are_away_while_a_lamp_is_sent(
 
 
 def test_the_limits_of_a_lamp_are_its_bars(application: Application, user: User) -> None:
-    window, store = application.window, application.store
-    window.modes.switch("limits")
-    user.wait_until_idle()
+    window = application.window
+    user.switch("limits")
     bars, detection = (window.docks[name].widget() for name in ("bands", "map"))
     assert detection.visibleRegion().boundingRect().isValid()
-    store.change(light="lamp")
-    user.wait_until_idle()
+    user.change(light="lamp")
     assert bars.visibleRegion().boundingRect().isValid()
     assert not detection.visibleRegion().boundingRect().isValid()

@@ -86,8 +86,7 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     application: Application, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
     frame = application.view("picture").frame
-    application.store.change(distance=0.1, yaw=1.2)
-    user.wait_until_idle()
+    user.change(distance=0.1, yaw=1.2)
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:5]))
     assert application.view("picture").frame is frame
     assert application.story.verdict.title.text() == "No picture of this scene"

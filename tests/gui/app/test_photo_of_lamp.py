@@ -1,28 +1,17 @@
 """A lamp photographed, matched and applied: nothing in the window speaks of chips."""
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyqtgraph as pg
 import pytest
 from gui.kinds import not_none
 from gui.user import User
+from gui.visible_texts import visible_texts
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from PIL import Image
-from PySide6.QtWidgets import (
-    QAbstractButton,
-    QComboBox,
-    QGraphicsTextItem,
-    QGraphicsView,
-    QLabel,
-    QLineEdit,
-    QTableView,
-    QWidget,
-)
 
 import occ_model as occ
 from occ_gui.app.application import Application
@@ -30,6 +19,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 
 LAMP: dict[str, ParameterValue] = {"light": "lamp", "lamp_frequency": 1e3, "duty": 0.54}
+"""In fiftieths of its period, as it is fitted, it is 27 chips of 50 kHz."""
 """In fiftieths of its period, as it is fitted, it is 27 chips of 50 kHz."""
 
 
@@ -44,37 +34,6 @@ def photo_path(tmp_path: Path, small_scene: Scene) -> Path:
     exposed.get_ifd(0x8769)[0x829A] = 8e-5
     Image.fromarray(occ.render(scene, tolerance=0.0).image).save(path, exif=exposed)
     return path
-
-
-def texts(window: QWidget) -> Iterator[str]:
-    """Yield what a window shows: labels, fields, tables, plots, and what lies below the mouse."""
-    yield window.windowTitle()
-    for widget in window.findChildren(QWidget):
-        if not widget.isVisible():
-            continue
-        yield widget.accessibleDescription()
-        match widget:
-            case QLabel() | QAbstractButton() | QLineEdit():
-                yield widget.text()
-            case QComboBox():
-                yield widget.currentText()
-            case QTableView():
-                model = widget.model()
-                for row in range(model.rowCount()):
-                    for column in range(model.columnCount()):
-                        yield str(model.index(row, column).data() or "")
-            case QGraphicsView():
-                yield from drawn_texts(widget)
-
-
-def drawn_texts(view: QGraphicsView) -> Iterator[str]:
-    for item in view.scene().items():
-        if not item.isVisible():
-            continue
-        if isinstance(item, QGraphicsTextItem):
-            yield item.toPlainText()
-        elif isinstance(item, pg.AxisItem):
-            yield item.labelText
 
 
 def check_says_no_chips_of_the_lamp(said: str) -> None:
@@ -92,8 +51,7 @@ def test_a_lamp_is_a_lamp_from_its_photo_to_the_figures_of_its_scene(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     path = request.getfixturevalue("photos") / name if name else photo_path
-    application.files.open_photo(path)
-    user.wait_until_idle()
+    user.open_photo(path)
     form = application.view("photo").form
     form.lamp.set_value(1e3)
     form.sent.show_key("lamp")
@@ -101,13 +59,13 @@ def test_a_lamp_is_a_lamp_from_its_photo_to_the_figures_of_its_scene(
     user.choose("&Match photo")
     match = not_none(application.shell.pane("photo").matching.match)
     assert (match.lamp_frequency, match.duty) == (1e3, pytest.approx(0.54, abs=0.02))
-    pane = "\n".join(texts(application.view("photo")))
+    pane = "\n".join(visible_texts(application.view("photo")))
     verdict = application.view("photo").verdict.accessibleDescription()
     check_says_no_chips_of_the_lamp(f"{pane}\n{verdict}")
     user.choose("&Apply to the scene")
     sent = application.store.scene.transmitter
     assert (sent.light, sent.lamp_frequency, sent.duty) == ("lamp", 1e3, match.duty)
-    said = "\n".join(texts(application.window))
+    said = "\n".join(visible_texts(application.window))
     assert "kHz" in said
     check_says_no_chips_of_the_lamp(said)
     drawn: list[str] = []

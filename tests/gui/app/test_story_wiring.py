@@ -40,8 +40,7 @@ def test_controls_verdict_and_rows_are_on_the_first_screen(
 
 
 def test_the_bar_and_the_decoding_pane_agree(application: Application, user: User) -> None:
-    application.store.change(exposure_time=136e-6, switching_frequency=16e3)
-    user.wait_until_idle()
+    user.change(exposure_time=136e-6, switching_frequency=16e3)
     pane, bar = application.view("decode"), application.story.verdict
     states = set[State]()
     for place in range(pane.decoders.count()):
@@ -138,7 +137,6 @@ def test_the_mouse_selects_the_column_of_the_readout(
 def test_the_equations_explain_the_column_that_the_story_shows(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
-    user.wait_until_idle()
     crosshair = application.story.rows.crosshair
     crosshair.choose(700)
     dock = application.window.docks["equations"]
@@ -155,7 +153,6 @@ def test_the_equations_explain_the_column_that_the_story_shows(
 def test_the_context_menu_copies_values_and_the_bar_opens_a_lesson(
     application: Application, user: User
 ) -> None:
-    user.wait_until_idle()
     menu = story_menu(application)
     entries = {action.text(): action for action in menu.actions()}
     assert "Meas&ure" in entries
@@ -175,9 +172,7 @@ def test_the_context_menu_copies_values_and_the_bar_opens_a_lesson(
 def test_a_scene_of_three_colours_says_which_is_read_and_leads_to_all(
     application: Application, user: User
 ) -> None:
-    user.wait_until_idle()
-    application.store.put(occ.load_preset("phone-68us-colour").replace(rows=240), "preset")
-    user.wait_until_idle()
+    user.put(occ.load_preset("phone-68us-colour").replace(rows=240), "preset")
     assert application.story.verdict.heading.startswith("Green: code 345 read")
     application.story.verdict.step.click()
     assert not application.window.docks["colour"].isHidden()

@@ -133,8 +133,7 @@ def test_a_name_that_is_not_utf_8_is_shown_and_listed(
 ) -> None:
     path = Path(os.fsdecode(os.fsencode(photo_file.parent) + b"/caf\xe9.png"))
     photo_file.rename(path)
-    application.files.open_photo(path)
-    user.wait_until_idle()
+    user.open_photo(path)
     assert application.view("photo").facts.name.text().endswith("caf\\udce9.png")
     application.files.save_scene(path.with_suffix(".toml"))
     assert application.window.statusBar().currentMessage() == "Saved caf\\udce9.toml"

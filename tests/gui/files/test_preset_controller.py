@@ -61,8 +61,7 @@ def matched(
     application: Application, user: User, photo_file: Path, remembered_matches: None
 ) -> Application:
     """Open a photo and match it, as if with a known LED."""
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     application.view("photo").form.sent.show_key("lamp")
     application.shell.pane("photo").match()
     user.wait_until_idle()

@@ -296,8 +296,7 @@ def test_nothing_of_a_killed_window_is_lost(
     with start() as application:
         user, stack = User(qtbot, application), application.store.undo_stack
         application.presets.load("tablet-61us")
-        application.store.change(rows=120, columns=600)
-        user.wait_until_idle()
+        user.change(rows=120, columns=600)
         user.choose("Pin as &A")
         user.enter("iso", "321")
         application.store.force("jpeg", True)

@@ -1,9 +1,11 @@
 """The lessons with controls and a photo, without the window around them."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from gui.pane_bench import ControlsBench
+from PySide6.QtWidgets import QAbstractButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import lessons
@@ -31,6 +33,14 @@ class Lessons(ControlsBench):
         answer_field.check.click()
         self.wait_until_idle()
         return answer_field.sentence.text()
+
+    def press(self, button: QAbstractButton) -> None:
+        button.click()
+        self.wait_until_idle()
+
+    def open(self, photo: Path) -> None:
+        self.photos.open(photo)
+        self.wait_until_idle()
 
     def choose_sent(self, sent: str) -> None:
         workspace = self.store.workspace

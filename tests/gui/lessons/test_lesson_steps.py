@@ -209,13 +209,11 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     path = tmp_path / "report"
     guide.end.author.setText("Ada $x_1$ ")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
-    guide.end.report.click()
-    bench.wait_until_idle()
+    bench.press(guide.end.report)
     assert list(tmp_path.iterdir()) == [], "the dialog was cancelled"
     monkeypatch.setitem(drawing.STYLE, "figure.constrained_layout.use", False)  # slow
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
-    guide.end.report.click()
-    bench.wait_until_idle()
+    bench.press(guide.end.report)
     assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
     assert bench.said[-1] == "Saved report.pdf"
     assert bench.pane.reports.author == "Ada $x_1$"
@@ -276,8 +274,7 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
 ) -> None:
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
     (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
-    bench.photos.open(sample)
-    bench.wait_until_idle()
+    bench.open(sample)
     bench.choose_sent("lamp")
     sheet.click()
     for _ in range(2):
@@ -285,11 +282,9 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     bench.wait_until_idle()
     assert bench.photos.path == sample  # in place of a photo of one's own
     assert bench.photos.choice.form.sent == "auto"
-    guide.step.back.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.back)
     assert bench.photos.path is None
-    guide.step.all_lessons.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.all_lessons)
     assert bench.photos.path == sample
     assert bench.photos.choice.form.sent == "lamp"
 

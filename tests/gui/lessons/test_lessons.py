@@ -75,38 +75,29 @@ def test_back_next_and_again_set_the_scene_and_progress_is_kept_and_ticked(
 def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: LessonView) -> None:
     names: list[str] = []
     bench.photos.opened.connect(lambda p: names.append("" if p is None else p.path.stem))
-    guide.list.choices[5].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[5])
     assert bench.scenes.scene == lessons().lessons[5].steps[0].scene
-    guide.step.reset.click()
-    bench.wait_until_idle()
-    guide.step.next.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.reset)
+    bench.press(guide.step.next)
     assert names == ["led-1khz", "packets-6khz"]
     guide.step.all_lessons.click()
-    guide.list.choices[1].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[1])
     assert names == ["led-1khz", "packets-6khz", ""]
 
 
 def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_during_the_lesson(
     bench: Lessons, guide: LessonView, photo_file: Path
 ) -> None:
-    bench.photos.open(photo_file)
-    bench.wait_until_idle()
+    bench.open(photo_file)
     bench.choose_sent("read")
-    guide.list.choices[1].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[1])
     assert bench.photos.path is None
-    guide.step.all_lessons.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.all_lessons)
     assert bench.photos.path == photo_file
     assert bench.photos.choice.form.sent == "read"
-    guide.list.choices[5].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[5])
     assert bench.photos.path != photo_file
-    guide.step.all_lessons.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.all_lessons)
     assert bench.photos.path == photo_file
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
     sheet.click()
@@ -117,8 +108,7 @@ def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_du
     other = Path(shutil.copy(photo_file, photo_file.with_name("other.png")))
     bench.photos.open(other)  # during a lesson
     bench.wait_until_idle()
-    guide.step.all_lessons.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.all_lessons)
     assert bench.photos.path == other
 
 
@@ -221,11 +211,9 @@ def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
     assert guide.end.isVisible()
     assert store.workspace == own
     guide.end.all_lessons.click()
-    guide.list.choices[number].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[number])
     assert view_of(store.workspace) == view_of(first)
-    guide.step.all_lessons.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.all_lessons)
     assert store.workspace == own
 
 
@@ -236,13 +224,11 @@ def test_undo_within_a_step_loses_nothing_of_the_users(
         bench.store.workspace, decoder="matched", picture_kind="receiver", is_enhanced=True
     )
     bench.store.put(own)
-    guide.list.choices[1].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[1])
     bench.scenes.undo_stack.undo()
     assert bench.scenes.scene == small_scene
     guide.step.next.click()
-    guide.step.all_lessons.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.all_lessons)
     assert bench.store.workspace == own
 
 
@@ -252,8 +238,7 @@ def test_a_lesson_has_a_state_of_its_own_and_restores_the_users(
     bench.settings.set_tolerance(7.0)
     bench.scenes.force("jpeg", True)
     own = bench.settings.settings
-    guide.list.choices[0].click()
-    bench.wait_until_idle()
+    bench.press(guide.list.choices[0])
     assert bench.settings.settings == FIRST_SETTINGS
     bench.scenes.force("vignetting", True)
     bench.settings.set_tolerance(30.0)
@@ -261,7 +246,6 @@ def test_a_lesson_has_a_state_of_its_own_and_restores_the_users(
     guide.step.next.click()
     assert bench.settings.settings == FIRST_SETTINGS
     guide.step.next.click()
-    guide.step.next.click()
-    bench.wait_until_idle()
+    bench.press(guide.step.next)
     assert (bench.scenes.scene, bench.settings.settings) == (small_scene, own)
     assert bench.scenes.undo_stack.undoText() == "end of the lesson"

@@ -90,8 +90,7 @@ def test_a_refused_change_names_the_parameters_at_fault() -> None:
 def test_fields_show_why_there_is_no_picture_and_a_picture_ends_only_that(
     application: Application, user: User
 ) -> None:
-    application.store.change(distance=0.1, yaw=1.2)
-    user.wait_until_idle()
+    user.change(distance=0.1, yaw=1.2)
     names = ("distance", "yaw", "pitch")
     for name in names:
         assert user.row(name).notice.text() == user.message
@@ -99,8 +98,7 @@ def test_fields_show_why_there_is_no_picture_and_a_picture_ends_only_that(
     assert all("behind" in user.row(name).notice.text() for name in names)
     user.enter("yaw", "0")
     assert not any(user.row(name).notice.text() for name in names)
-    application.store.change(distance=0.1, yaw=1.2)
-    user.wait_until_idle()
+    user.change(distance=0.1, yaw=1.2)
     application.controls.show_problem("iso is 0; allowed: 1 to 2.", ("iso",))
     application.results_store.put(
         replace(application.results_store.results, failure=None)
@@ -138,8 +136,7 @@ def test_the_sentence_goes_with_the_next_key_escape_or_focus_and_there_is_one_at
 def test_what_is_wrong_with_a_present_value_is_said_again_at_its_field(
     application: Application, user: User
 ) -> None:
-    application.store.change(distance=0.1, yaw=1.2)
-    user.wait_until_idle()
+    user.change(distance=0.1, yaw=1.2)
     QApplication.processEvents()
     row = user.row("distance")
     user.row("iso").field.setFocus()

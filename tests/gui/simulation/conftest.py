@@ -1,6 +1,7 @@
 """Fixtures of a simulation controller."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from gui.stores import store_of
@@ -42,6 +43,10 @@ class SimulationBench:
 
     def wait_until_idle(self) -> None:
         self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+
+    def change(self, **parameters: Any) -> None:
+        self.store.change(**parameters)
+        self.wait_until_idle()
 
     @property
     def scenes(self) -> list[Scene]:

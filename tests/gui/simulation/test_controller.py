@@ -55,18 +55,15 @@ def test_all_views_show_one_result_before_it_is_announced(
 def test_a_scene_without_a_picture_is_reported_and_the_views_keep_the_last_one(
     bench: SimulationBench, small_scene: Scene
 ) -> None:
-    bench.store.change(**BEHIND_THE_CAMERA)
-    bench.wait_until_idle()
+    bench.change(**BEHIND_THE_CAMERA)
     (sentence,) = bench.failures
     assert "behind the camera" in sentence
     assert sentence.endswith(".")
     assert bench.scenes == [small_scene]
-    bench.store.change(distance=1.0, yaw=0.2)
-    bench.wait_until_idle()
+    bench.change(distance=1.0, yaw=0.2)
     assert bench.scenes[-1] == bench.store.scene
     assert len(bench.failures) == 1
-    bench.store.change(rows=100_000, columns=1_000_000)
-    bench.wait_until_idle()
+    bench.change(rows=100_000, columns=1_000_000)
     assert "million pixels" in bench.failures[-1]
 
 
@@ -123,12 +120,10 @@ def test_a_chosen_decoder_reads_this_and_later_scenes(bench: SimulationBench) ->
     bench.controller.add_decoder("sequence")
     bench.wait_until_idle()
     assert decoders() == [*QUICK_DECODERS, "sequence"]
-    bench.store.change(iso=150.0)
-    bench.wait_until_idle()
+    bench.change(iso=150.0)
     assert decoders() == [*QUICK_DECODERS, "sequence"]
     bench.controller.add_decoder("matched")
-    bench.store.change(iso=160.0)
-    bench.wait_until_idle()
+    bench.change(iso=160.0)
     assert decoders() == list(QUICK_DECODERS)
 
 

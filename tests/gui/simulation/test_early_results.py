@@ -74,8 +74,7 @@ def pictures(bench: SimulationBench, monkeypatch: pytest.MonkeyPatch) -> list[Pi
 def test_a_draft_of_the_scene_comes_before_its_exact_picture(
     bench: SimulationBench, pictures: list[Picture]
 ) -> None:
-    bench.store.change(iso=200.0)
-    bench.wait_until_idle()
+    bench.change(iso=200.0)
     draft, exact = pictures
     assert (is_draft(draft), is_draft(exact)) == (True, False)
     assert draft.frame.scene == exact.frame.scene == bench.store.scene
@@ -98,8 +97,7 @@ def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
 
     for module in (render, plan):
         monkeypatch.setattr(module, "plan_of", note)
-    bench.store.change(iso=200.0, jpeg_quality=jpeg)
-    bench.wait_until_idle()
+    bench.change(iso=200.0, jpeg_quality=jpeg)
     assert [is_draft(picture) for picture in pictures] == [True, False]
     # An early reading without pixels simulates all effects of the scene, without a plan.
     assert observables == ["image"]
@@ -129,8 +127,7 @@ def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
         )
     )
     for iso in (110.0, 120.0, 130.0):
-        bench.store.change(iso=iso, jpeg_quality=jpeg)
-        bench.wait_until_idle()
+        bench.change(iso=iso, jpeg_quality=jpeg)
     assert len(recorder.scenes) >= 3
     assert all(of_picture == of_reading for of_picture, of_reading in recorder.scenes)
 
@@ -143,8 +140,7 @@ def test_drafts_have_the_rows_that_the_screen_shows(
     # A step of less than four rows saves no time.
     bench.controller.set_draft_resolution(lambda: 0.5)
     bench.wait_until_idle()
-    bench.store.change(iso=300.0)
-    bench.wait_until_idle()
+    bench.change(iso=300.0)
     steps = [picture.frame.rows_step for picture in pictures if is_draft(picture)]
     assert steps == [7, LEAST_DRAFT_STEP]
 
@@ -160,8 +156,7 @@ def test_a_picture_without_pixels_that_differ_needs_no_draft(
 def test_a_scene_that_is_read_from_pixels_is_read_from_its_draft_first(
     bench: SimulationBench, pictures: list[Picture]
 ) -> None:
-    bench.store.change(jpeg_quality=80)
-    bench.wait_until_idle()
+    bench.change(jpeg_quality=80)
     early, exact = bench.views[1].readings[-2:]
     assert (early.source, exact.source) == ("draft", "picture")
     assert early.scene == exact.scene == bench.store.scene
@@ -186,8 +181,7 @@ def test_while_the_scene_changes_only_drafts_are_made(
 
     bench.controller.picture_ready.connect(change_again)  # the work waits for its paint
     bench.store.change(iso=90.0)
-    bench.store.change(iso=100.0)
-    bench.wait_until_idle()
+    bench.change(iso=100.0)
     # The second change had no draft.
     assert [is_draft(picture) for picture in pictures] == [*4 * [True], False]
     assert pictures[-1].frame.scene == bench.store.scene
@@ -207,8 +201,7 @@ def test_a_picture_under_way_gives_way_to_a_newer_scene(
         return render_with(scene, *arguments, **options)
 
     monkeypatch.setattr(controller, "render_with", record_and_change)
-    bench.store.change(iso=200.0)
-    bench.wait_until_idle()
+    bench.change(iso=200.0)
     assert [scene.camera.iso for scene in scenes] == [200.0, 300.0]
     results = [(picture.frame.scene.camera.iso, is_draft(picture)) for picture in pictures]
     assert results == [(200.0, True), (300.0, True), (300.0, False)]
@@ -225,10 +218,8 @@ def test_an_exact_picture_begins_after_more_urgent_work(
         return len(counts) < 4
 
     bench.controller.defer_while(must_wait)
-    bench.store.change(iso=200.0)
-    bench.wait_until_idle()
+    bench.change(iso=200.0)
     assert counts == [1] * 4  # after the draft, before the exact picture
     bench.controller.defer_while(lambda: True)  # for ever, longer than the picture waits
-    bench.store.change(iso=210.0)
-    bench.wait_until_idle()
+    bench.change(iso=210.0)
     assert [is_draft(picture) for picture in pictures] == [True, False] * 2

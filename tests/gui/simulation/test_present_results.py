@@ -27,8 +27,7 @@ def present(bench: SimulationBench, messages: list[str]) -> PresentResults:
     """Return present results after the first picture."""
     present = PresentResults(bench.controller)
     present.status_message.connect(messages.append)
-    bench.store.change(iso=150.0)
-    bench.wait_until_idle()
+    bench.change(iso=150.0)
     return present
 
 

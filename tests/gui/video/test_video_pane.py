@@ -34,8 +34,7 @@ def film_in(application: Application) -> Path | None:
 @pytest.fixture
 def pane(application: Application, user: User) -> Iterator[VideoWiring]:
     """Show the mode with a simulated film of six frames."""
-    application.window.modes.switch("video")
-    user.wait_until_idle()
+    user.switch("video")
     wiring = application.video.wiring
     wiring.view.form.count.setValue(6)
     user.wait_until_idle()
@@ -114,8 +113,7 @@ def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode
     store.put(replace(store.workspace, film=FilmChoice(film_file)))
     assert film_in(application) == film_file
     assert application.shell.find_pane("video") is None
-    application.window.modes.switch("video")
-    user.wait_until_idle()
+    user.switch("video")
     pane = application.video.wiring
     assert pane.path == film_file
     pane.view.bar.read.click()

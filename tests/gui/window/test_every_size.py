@@ -80,8 +80,7 @@ def test_nothing_is_cut_at_any_size_after_all_modes_and_with_filled_limits(
 def test_nothing_is_cut_for_any_light_and_verdict(
     qtbot: QtBot, application: Application, user: User, changes: dict[str, Any]
 ) -> None:
-    application.store.change(**changes)
-    user.wait_until_idle()
+    user.change(**changes)
     assert_none(faults_of(qtbot, application, user, (USUAL, LEAST)))
 
 

@@ -162,13 +162,11 @@ def test_a_pane_that_needs_less_height_than_when_it_was_seen_covers_nothing_belo
     application: Application, user: User, photo_file: Path, size: tuple[int, int]
 ) -> None:
     window = application.window
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     needed = window.docks["profile"].minimumHeight()
     store = application.store.store
     store.put(replace(store.workspace, photo=PhotoChoice()), "no photo")
-    window.modes.switch("explore")
-    user.wait_until_idle()
+    user.switch("explore")
     window.modes.layouts.clear()
     window.resize(*size)
     window.modes.switch("photo")

@@ -113,8 +113,7 @@ def test_an_open_photo_is_named_in_every_mode_but_its_own(
     assert isinstance(line, StatusLine)
     badge = line.photo
     assert not badge.isVisible()
-    application.files.open_photo(photo_file)
-    user.wait_until_idle()
+    user.open_photo(photo_file)
     assert not badge.isVisible()
     window.resize(1000, 700)
     window.modes.switch("explore")

@@ -22,7 +22,6 @@ Grey: TypeAlias = NDArray[np.uint8]
 GreyPicture: TypeAlias = Callable[[QWidget], Grey]
 SnapshotOf: TypeAlias = Callable[..., Snapshot]
 
-T = TypeVar("T")
 Widget = TypeVar("Widget", bound=QWidget)
 
 
@@ -57,12 +56,6 @@ def _simulated(asked: bytes) -> Snapshot:
 def simulated(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
     """Simulate a scene as the window does, once for the tests that want the same."""
     return _simulated(pickle.dumps((scene, settings)))
-
-
-def not_none(value: T | None) -> T:
-    """Take for granted that there is something."""
-    assert value is not None
-    return value
 
 
 def collect(signal: Any) -> list[Any]:

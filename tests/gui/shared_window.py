@@ -184,7 +184,6 @@ class SharedWindow:
             self.close()
         if self._kept is None:
             self._open(qtbot, scene)
-        assert self._kept is not None
         # The keys, which a widget has had that another test has shown.
         QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         self._kept.window.activateWindow()
@@ -232,7 +231,6 @@ class SharedWindow:
         """
         qtbot.waitUntil(lambda: kept.is_idle)
         window, mode, home = kept.window, next(iter(MODES)), self._home
-        assert home is not None
         forget_lessons(kept)
         kept.video.close()
         kept.pins.clear()

@@ -9,7 +9,6 @@ from pathlib import Path
 import damaged_photos
 import pytest
 from film_source import FilmSource
-from gui.kinds import not_none
 from gui.mouse import turn_wheel, views_of
 from hard_cases.attack import hostile
 from hard_cases.attack.promise import LONGEST
@@ -511,8 +510,8 @@ class Monkey:
 
     def write_for_a_board(self) -> None:
         self._trigger("transmitter")
-        transmitter = not_none(self._application.shell.find_pane("transmitter"))
-        dialog = not_none(transmitter.dialog)
+        transmitter = self._application.shell.find_pane("transmitter")
+        dialog = transmitter.dialog
         dialog.board.setCurrentIndex(self._random.randrange(dialog.board.count()))
         dialog.board.chosen.emit(dialog.board.key())
         boards = self._folder / "boards" / str(self._random.random())

@@ -76,7 +76,6 @@ class Starts:
             stream.write_bytes(b"")
         asked = [argv, program, here, _PATIENCE_S, *map(str, self._streams)]
         assert self._importer.stdin is not None
-        assert self._importer.stdout is not None
         print(json.dumps(asked), file=self._importer.stdin, flush=True)
         code = int(self._importer.stdout.readline())
         out, error = (stream.read_text("utf-8") for stream in self._streams)

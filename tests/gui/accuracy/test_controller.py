@@ -280,12 +280,10 @@ def test_all_stated_times_of_a_plan_are_one_number(bench: Bench, qtbot: QtBot) -
     assert forecast.seconds == costs.picture.times.median
     present = [d.effect for d in forecast.plan.decisions if d.estimate]
     complete = costs.times_with(present)
-    assert complete is not None
     sets = dict(zip(forecast.effect_sets, forecast.effect_set_seconds, strict=True))
     (all_of_them,) = [s for each, s in sets.items() if each.effects == frozenset(present)]
     assert all_of_them == complete.median
     (no_effects,) = [s for each, s in sets.items() if not each.effects]
     bare = costs.times_with(())
-    assert bare is not None
     # The points of the study have no effects.
     assert bench.pane.points[-1].seconds == no_effects == bare.median

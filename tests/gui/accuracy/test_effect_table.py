@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect, not_none
+from gui.kinds import SnapshotOf, add_widget, collect
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from pytestqt.qtbot import QtBot
@@ -130,7 +130,7 @@ def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
 def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> None:
     place = [row.effect for row in table.effects.rows].index("sensor-noise")
     area = table.visualRect(table.effects.index(place, ERROR))
-    limit = not_none(table.effects.rows[place].limit)
+    limit = table.effects.rows[place].limit
     for tolerance, has_colour in ((limit / 2.0, True), (2.0 * limit, False)):
         table.show_tolerance(tolerance)
         image = table.viewport().grab().toImage()

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import not_none
 from gui.user import PATIENCE_S, User
 from PIL import Image
 from PySide6.QtWidgets import QApplication
@@ -61,7 +60,7 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     docks = application.window.docks
     user.open_photo(photo_path)
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
-    assert not_none(application.results_store.results.document).match_request is None
+    assert application.results_store.results.document.match_request is None
     application.window.modes.switch("explore")
     user.choose("&Line by line")
     QApplication.processEvents()
@@ -102,7 +101,7 @@ def test_a_match_finds_the_readout_time_and_applying_it_in_one_step_places_the_p
     matched: Application, user: User, small_scene: Scene
 ) -> None:
     assert matched.store.scene == small_scene
-    match = not_none(matched.shell.pane("photo").matching.match)
+    match = matched.shell.pane("photo").matching.match
     assert match.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
     steps = matched.store.undo_stack.count()
     user.choose("&Apply to the scene")
@@ -214,7 +213,7 @@ def test_the_mode_photo_shows_the_verdict_on_the_photo_instead_of_the_simulation
     assert matched.window.modes.mode == "photo"
     assert verdict.isVisible()
     assert not story.verdict.isVisible()
-    match = not_none(matched.shell.pane("photo").matching.match)
+    match = matched.shell.pane("photo").matching.match
     assert verdict.heading.startswith(f"Photo: {match.verdict}")
     badges = {badge.key: badge for badge in verdict.badges.badges}
     simulation = badges["simulation"]

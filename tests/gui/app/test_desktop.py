@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import GreyPicture, add_widget, collect, not_none
+from gui.kinds import GreyPicture, add_widget, collect
 from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -219,7 +219,7 @@ def test_the_palette_finds_an_entry_by_its_search_words_and_jumps_to_a_parameter
     for command in (other, jump):
         command.run()
         QApplication.processEvents()
-        field = not_none(window.focusWidget())
+        field = window.focusWidget()
         assert field.isVisible()
     assert field is application.controls.main_rows()["f_number"].field
 
@@ -229,7 +229,7 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
 ) -> None:
     application.story.show_whole_picture(True)
     pane = application.view("picture").simulation
-    frame = not_none(application.view("picture").frame)
+    frame = application.view("picture").frame
     readout = application.window.readout
     view = pane.graphics
     place = view.mapFromScene(pane.box.mapViewToScene(QPointF(40, 30)))

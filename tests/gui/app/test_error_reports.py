@@ -122,7 +122,7 @@ def qt_log(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixtur
 
 def test_a_message_keeps_its_level_and_text(qt_log: pytest.LogCaptureFixture) -> None:
     ends: list[str] = []
-    log_qt_messages(lambda: ends.append("only after a fatal message"))  # type: ignore[arg-type,return-value]
+    log_qt_messages(lambda: ends.append("only after a fatal message"))
     qDebug("a detail")
     qWarning(HARMLESS_MESSAGE)  # a platform's note on every window
     qWarning("an odd thing")

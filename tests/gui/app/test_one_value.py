@@ -135,7 +135,6 @@ def test_what_all_panes_state_of_a_quantity_is_one_value(
 def check_band_model(application: Application, texts: list[str]) -> None:
     """Check that all places have the band model, or none."""
     results = application.results_store.results
-    assert results.reading is not None
     is_undefined = bool(results.reading.band_undefined)
     places = (
         any("no band model here" in text for text in texts),  # the legend
@@ -155,7 +154,6 @@ def check_bars(application: Application, texts: list[str]) -> None:
 def check_times(application: Application) -> None:
     """Check that the last picture's time is among those that the pane of accuracy states."""
     snapshot = application.results_store.results.snapshot
-    assert snapshot is not None
     times = application.simulation.moves.costs_of(snapshot.frame).picture.times
     stated = application.window.findChildren(StatusLine)[0].timing.toolTip()
     ((low, high),) = values_of(stated, SECOND, rf"simulated in {_T}")

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
-from gui.kinds import not_none
 from gui.pane_bench import handle_middle
 from gui.user import User
 from pytestqt.qtbot import QtBot
@@ -100,7 +99,7 @@ def test_six_ways_give_the_same_rate(
     settings, images = SimulationSettings(), SCENE_IMAGES
     frequency = scene.transmitter.switching_frequency
     banner = make_scene_rate_job(Request(scene, settings, decoder))
-    rate = not_none(compute_scene_rate(do_job(banner, lambda: None).value))
+    rate = compute_scene_rate(do_job(banner, lambda: None).value)
     percent = occ.success_rate(scene, images, decoder)
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)
@@ -180,7 +179,6 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     assert 5.0 < rate < 99.0
     # Some pictures are read in part. Bits a second count whole ones, which the banner states, too.
     (whole,) = count_right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
-    assert own.rate is not None
     assert own.rate.whole == whole
     assert {
         round(100.0 * s.present_rate.fraction, 9) for s in strips.values() if s.present_rate

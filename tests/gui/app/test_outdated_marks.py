@@ -5,7 +5,7 @@ from threading import Event
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, not_none
+from gui.kinds import SnapshotOf
 from gui.user import User
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -44,7 +44,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
     assert decode.origin.text() == "Read from the column profile; the picture follows."
-    reading = not_none(application.view("profile").reading)
+    reading = application.view("profile").reading
     assert reading.scene == application.store.scene
     release.set()
     user.wait_until_idle()
@@ -224,7 +224,7 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_states_its_value(drag: Dr
     assert all(marked[first:])  # results without a verdict are marked without flicker
     assert all(drag.move(takes=14))  # even if they arrive soon
     drag.move(takes=round(3e3 * DELAY))
-    reading = not_none(of_reading(drag.simulation.results_store.results))
+    reading = of_reading(drag.simulation.results_store.results)
     assert drag.verdict.runs[-1] == (f"ISO speed {reading.scene.camera.iso:.4g}", "")
     drag.outdated.follow_run("")
     assert drag.verdict.runs[-1] == ("", "")

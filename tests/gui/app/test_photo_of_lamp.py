@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import not_none
 from gui.user import User
 from gui.visible_texts import visible_texts
 from matplotlib.figure import Figure
@@ -57,7 +56,7 @@ def test_a_lamp_is_a_lamp_from_its_photo_to_the_figures_of_its_scene(
     form.sent.show_key("lamp")
     form.sent.chosen.emit("lamp")
     user.choose("&Match photo")
-    match = not_none(application.shell.pane("photo").matching.match)
+    match = application.shell.pane("photo").matching.match
     assert (match.lamp_frequency, match.duty) == (1e3, pytest.approx(0.54, abs=0.02))
     pane = "\n".join(visible_texts(application.view("photo")))
     verdict = application.view("photo").verdict.accessibleDescription()

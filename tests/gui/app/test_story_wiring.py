@@ -1,7 +1,6 @@
 """The story is on the first screen, and agrees with the other panes."""
 
 import pytest
-from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import QEvent, QPoint, QRect, Qt
 from PySide6.QtGui import QGuiApplication
@@ -66,7 +65,7 @@ def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(
         story.decoder.chosen.emit(name)
         user.wait_until_idle()
         assert pane.decoders.tabText(pane.decoders.currentIndex()).startswith(name)
-        result = not_none(story.rows.result)
+        result = story.rows.result
         assert result.decoder == name
         assert result.code == 718
     pane.decoders.setCurrentIndex(0)
@@ -110,7 +109,7 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
     story.picture_kind.chosen.emit("receiver")
     assert (story.picture_kind.key(), image.picture_kind) == ("receiver", "receiver")
     assert profile.enhanced.isChecked()
-    reading = not_none(profile.reading)
+    reading = profile.reading
     assert story.rows.profile.levels is reading.signal
     image.choose_picture("camera")
     assert story.picture_kind.key() == "camera"

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers, RememberingWorkers
-from gui.kinds import not_none
 from gui.pane_bench import PaneBench
 from gui.stores import show, store_of
 from PySide6.QtWidgets import QApplication
@@ -55,7 +54,7 @@ class Measuring:
         return self.pane.state.toolTip()
 
     def cell(self, row: int) -> str:
-        item = not_none(self.pane.table.item(row, 2))
+        item = self.pane.table.item(row, 2)
         return item.text()
 
     def measure(self, code_source: str = PUBLISHED) -> None:
@@ -85,7 +84,7 @@ def test_the_scenes_code_and_timing_are_measured(small_scene: Scene) -> None:
 
 def test_what_the_pane_shows_is_what_the_model_measures(measuring: Measuring) -> None:
     measuring.measure()
-    full = not_none(measuring.controller.complete)
+    full = measuring.controller.complete
     request, points = full
     expected = [one for place in request.points for one in measure_bench_point(request, place)]
     assert list(points) == expected
@@ -204,7 +203,7 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
     assert measuring.controller.complete is not None
     _, (first, *_) = measuring.controller.complete
     measuring.pane.table.show_points([replace(first, note="Why.")], RATES, 30.0)
-    item = not_none(measuring.pane.table.item(0, 2))
+    item = measuring.pane.table.item(0, 2)
     assert item.toolTip() == "Why."
     plots = measuring.pane.plots[RATES]
     values = [

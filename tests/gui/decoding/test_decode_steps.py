@@ -47,7 +47,6 @@ def test_the_signal_its_threshold_and_lit_chips_under_columns_above_it_are_drawn
 ) -> None:
     result = snapshot.results["threshold"]
     signal_plot.show_result(result, snapshot.period_columns)
-    assert result.signal is not None
     assert levels(signal_plot.signal) == result.signal.tolist()
     assert levels(signal_plot.model) == []
     assert signal_plot.threshold.isVisible()
@@ -69,8 +68,6 @@ def test_a_folding_decoder_shows_the_folded_signal_and_its_model_and_others_do_n
 ) -> None:
     signal_plot.show_result(snapshot.results["threshold"], snapshot.period_columns)
     signal_plot.show_result(matched, snapshot.period_columns)
-    assert matched.folded is not None
-    assert matched.model is not None
     assert levels(signal_plot.signal) == matched.folded.tolist()
     assert levels(signal_plot.model) == matched.model.tolist()
     assert not signal_plot.chips.isVisible()
@@ -123,15 +120,12 @@ def test_predicted_light_is_drawn_beside_the_measured_and_the_threshold_in_equal
     signal_plot: SignalPlot, snapshot: Snapshot
 ) -> None:
     result = occ.decode(snapshot.frame.image, snapshot.scene, "sequence")
-    assert result.light is not None
-    assert result.light_model is not None
     signal_plot.show_result(result, snapshot.period_columns)
     assert levels(signal_plot.signal) == result.light.tolist()
     assert levels(signal_plot.model) == result.light_model.tolist()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
     result = occ.decode(snapshot.frame.image, snapshot.scene, "equalizer")
-    assert result.equalized is not None
     signal_plot.show_result(result, snapshot.period_columns)
     assert levels(signal_plot.signal) == result.equalized.tolist()
     assert signal_plot.threshold.value() == result.threshold

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, not_none, show_widget, with_result
+from gui.kinds import SnapshotOf, show_widget, with_result
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
@@ -131,7 +131,7 @@ def test_the_cause_of_wrong_bits_is_stated(view: DecodeView, snapshot_of: Snapsh
     )
     view.show_reading(with_result(snapshot, wrong))
     assert view.verdict.text().endswith("bits wrong")
-    assert view.reason.text() == str(not_none(snapshot.causes)["threshold"])
+    assert view.reason.text() == str(snapshot.causes["threshold"])
     assert view.reason.text().startswith("Overexposed. The lit panel would have the level 860.6")
 
 
@@ -139,7 +139,7 @@ def test_a_contradiction_between_a_picture_and_its_profile_is_stated(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(code=718)
-    early = not_none(reading_by_profile(snapshot.request))
+    early = reading_by_profile(snapshot.request)
     view.show_reading(early)
     assert view.origin.text() == "Read from the column profile; the picture follows."
     view.show_reading(snapshot)

@@ -7,7 +7,6 @@ from unittest.mock import Mock, create_autospec
 import numpy as np
 import pytest
 from gui.conftest import RememberingWorkers
-from gui.kinds import not_none
 from gui.stores import show, store_of
 from pytestqt.qtbot import QtBot
 
@@ -83,7 +82,7 @@ def test_the_map_is_the_sweeps_table_of_the_same_points_along_both_sliders(
     axes = {FREQUENCY: rates.x_values, DISTANCE: rates.y_values}
     table = occ.sweep(bench.scenes.scene, axes, images=IMAGES[-1], decoder=QUICK_DECODERS)
     assert rates.least_images == IMAGES[-1]
-    assert map_schedule.make_table(*not_none(bench.controller.complete)).rows == table.rows
+    assert map_schedule.make_table(*bench.controller.complete).rows == table.rows
     for decoder in QUICK_DECODERS:
         np.testing.assert_array_equal(rates.rates(decoder), table.rates(decoder))
     rates.images[0, 0] = IMAGES[-2]
@@ -147,7 +146,7 @@ def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
     bench = bench_of()
     rates = bench.look()
     bench.controller.point_at((3, 3))
-    facts = not_none(last_argument(bench.pane.show_facts))
+    facts = last_argument(bench.pane.show_facts)
     assert (facts.x, facts.y, facts.sent) == (rates.x_values[3], rates.y_values[3], 50)
     for name, right, low, high in facts.counts:
         assert 100 * right / facts.sent == rates.rates(name)[3, 3]
@@ -165,7 +164,6 @@ def test_refused_points_are_hatched_and_give_the_reason(bench_of: Callable[..., 
     assert not refused[:, -1].any()
     np.testing.assert_array_equal(np.isnan(rates.rates("threshold")), refused)
     bench.controller.point_at((0, 0))
-    assert last_argument(bench.pane.show_facts) is not None
     assert last_argument(bench.pane.show_facts).note
 
 
@@ -219,7 +217,6 @@ def test_the_theoretical_limits_are_those_of_theory(
 ) -> None:
     bench = bench_of()
     rates = bench.look()
-    assert rates.theory is not None
     along, _ = rates.theory.places
     exposure = bench.scenes.scene.camera.exposure_time
     frequencies = 500.0 * 200.0**along
@@ -267,7 +264,6 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
     bench.wait_until_idle()
     assert waits_at_maps
     assert not any(waits_at_maps)
-    assert controller.complete is not None
     assert controller.complete[0] is controller.map
     bench.scenes.change(iso=200.0)
     assert waits()

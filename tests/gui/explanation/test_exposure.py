@@ -1,7 +1,7 @@
 """The exposure of the column that the mouse, a click, an arrow key or a number chooses."""
 
 import pytest
-from gui.kinds import not_none, show_widget
+from gui.kinds import show_widget
 from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -152,7 +152,7 @@ def test_the_exposure_follows_the_scene_and_no_column_outside_of_the_picture_is_
     controller.hover(-5)
     assert seen.shown[0] == 0
     controller.hover(10**9)
-    assert seen.shown[0] == len(not_none(seen.results_store.results.snapshot).profile) - 1
+    assert seen.shown[0] == len(seen.results_store.results.snapshot.profile) - 1
     seen.simulate(columns=500)
     assert seen.shown[0] == 499
     seen.see("equations", False)
@@ -186,7 +186,7 @@ def test_the_column_shown_first_is_in_the_panels_first_packet(
     qtbot: QtBot, small_scene: Scene
 ) -> None:
     seen = Bench(qtbot, small_scene.replace(panel_width=0.3))
-    snapshot = not_none(seen.results_store.results.snapshot)
+    snapshot = seen.results_store.results.snapshot
     first, above = snapshot.panel_origin
     assert abs(first - above) > snapshot.period_columns
     assert first < seen.shown[0] < first + snapshot.period_columns

@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from gui.kinds import not_none
 from gui.pane_bench import PaneBench
 from gui.photo.photo_bench import no_actions
 from PIL import Image
@@ -146,7 +145,7 @@ def test_the_photo_is_drawn_beside_the_simulation_and_the_difference_as_it_is_se
     path = tmp_path / "difference.csv"
     assert bench.export("picture", path) == f"Exported difference.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
-    photo = not_none(bench.results_store.results.photo)
+    photo = bench.results_store.results.photo
     rows, columns = photo.image.shape
     assert len(lines) == 1 + rows
     assert len(lines[0].split(",")) == 1 + columns

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from gui.kinds import collect, not_none
+from gui.kinds import collect
 from gui.starts import Starts
 from PySide6.QtCore import QSettings
 
@@ -98,7 +98,7 @@ def test_a_file_that_is_not_a_session_is_renamed_with_a_sentence(
         session = Session(Store(Workspace(Scene())), partial(Workspace, Scene()))
         said = collect(session.status_message)
         session.begin(file, names_scene=False)
-        sentence = not_none(file.invalid_file_message)
+        sentence = file.invalid_file_message
         assert said == [sentence]
         assert sentence.startswith(str(path))
         assert sentence.endswith(f"{reason} It is kept as {name}.")

@@ -7,7 +7,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none
+from gui.kinds import SnapshotOf, collect
 from gui.stores import store_of
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QFileDialog
@@ -31,7 +31,7 @@ class FilesBench:
         self.shown: Snapshot | None = None
         self.waiting: list[Callable[[Snapshot], None]] = []
         self.files = FileController(
-            None,  # type: ignore[arg-type]
+            None,
             self.store,
             self.photos,
             self.preferences,
@@ -131,7 +131,7 @@ def test_a_saved_picture_is_exactly_the_one_shown(
     path = tmp_path / f"picture.{ending}"
     bench.files.save_picture(path)
     assert bench.status_message == [f"Saved picture.{ending}: the camera's picture"]
-    written = not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
+    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(written, shown.frame.camera_image)
 
 
@@ -149,7 +149,7 @@ def test_a_picture_saved_after_a_wait_is_of_the_kind_chosen_before_it(
     (write,) = bench.waiting
     write(shown)
     assert "the receiver's picture" in bench.status_message[-1]
-    written = not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
+    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(written, shown.frame.image)
 
 

@@ -194,7 +194,6 @@ def test_only_a_command_line_that_names_a_scene_asks_for_one(
     monkeypatch.setenv("OCC_STATE", str(tmp_path))
     begun = command_line.read_start(command_line.make_parser().parse_args(words))
     file = begun.session_file
-    assert file is not None
     file.close()
     assert begun.names_scene is asks
 

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.kinds import not_none
 from small_rooms import small_room
 
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
@@ -59,7 +58,7 @@ def test_every_setting_is_restored(tmp_path: Path) -> None:
     file.close()
     again = SessionFile(tmp_path)
     assert again.last == SavedSession(workspace)
-    kept = not_none(again.last.workspace.pins[1])
+    kept = again.last.workspace.pins[1]
     assert kept.request.more_decoders == ("sequence",)  # not compared between pins
     again.close()
 
@@ -101,7 +100,7 @@ def test_an_invalid_part_alone_gets_its_first_value(place: tuple[str, ...], valu
     for name in place[:-1]:
         at = at[name]
     at[place[-1]] = value
-    kept = not_none(read_session(record))
+    kept = read_session(record)
     assert kept.workspace == replace(workspace, **{place[0]: first[place[0]]})
 
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from gui.kinds import collect, not_none
+from gui.kinds import collect
 from gui.stores import store_of
 from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
@@ -70,7 +70,6 @@ def test_a_second_window_leaves_the_scene_of_an_open_one_to_it(tmp_path: Path) -
     former.write(SavedSession(Workspace(scenes[0])), in_use=False)
     former.close()
     second = SessionFile(tmp_path)
-    assert second.last is not None
     assert second.last.workspace.scene == scenes[0]
     first.close()
     assert SessionFile(tmp_path).last == SavedSession(Workspace(scenes[1]))
@@ -114,7 +113,7 @@ def test_a_changed_scene_is_written_after_a_moment_with_the_settings_in_one_file
     qtbot.waitUntil(lambda: scenes_in(tmp_path) == [store.scene])
     scenes.settings.set_tolerance(3.5)
     session.end()
-    last = not_none(SessionFile(tmp_path).last)
+    last = SessionFile(tmp_path).last
     assert last.workspace == scenes.store.workspace
     assert [path.name for path in tmp_path.glob("*.json")] == ["session-1.json"]
 

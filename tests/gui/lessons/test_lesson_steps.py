@@ -6,7 +6,7 @@ from threading import Event
 from typing import Any
 
 import pytest
-from gui.kinds import add_widget, not_none
+from gui.kinds import add_widget
 from gui.lessons.conftest import Lessons
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QDesktopServices
@@ -81,7 +81,7 @@ def test_check_formula_explanation_and_report_use_the_present_scene(
     assert "18.2 columns" in guide.step.equation.toPlainText()
     assert guide.step.equation.toPlainText().count("Columns") == 1
     assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.explanation.text()
-    lesson = not_none(bench.pane.controller.current)
+    lesson = bench.pane.controller.current
     (first, *others) = bench.pane.answers.list_steps(lesson)
     assert first.scene == bench.scenes.scene
     assert [each.scene for each in others] == [each.step.question_scene for each in others]

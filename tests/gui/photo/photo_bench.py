@@ -3,7 +3,6 @@
 from dataclasses import replace
 from pathlib import Path
 
-from gui.kinds import not_none
 from gui.stores import store_of
 from PySide6.QtGui import QAccessible
 
@@ -57,7 +56,7 @@ class PhotoBench:
 
     def change(self, **changes: object) -> None:
         """Let something else be found in the open photo, or be asked of it."""
-        document = not_none(self.results_store.results.document)
+        document = self.results_store.results.document
         self.photos.put(replace(document, **changes))  # type: ignore[arg-type]  # fields of its own
 
     def show_reading(self, reading: Reading) -> None:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.kinds import not_none
 from gui.photo.photo_bench import PhotoBench
 from gui.user import PATIENCE_S
 from matches import match_with
@@ -235,9 +234,10 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
     assert bench.controller.match is None, "read in another way it is not what the table matched"
     show_listed(LoadOptions())
     assert bench.controller.match is row.match
-    assert not_none(bench.part.outcome).is_listed
+    assert bench.part.outcome.is_listed
     bench.controller.apply()
-    assert bench.scenes.scene == not_none(row.match).scene
+    assert row.match is not None
+    assert bench.scenes.scene == row.match.scene
     bench.refusal = ("No.",)
     bench.start()
     assert (bench.controller.match, bench.part.refusal) == (row.match, ("No.",))
@@ -254,7 +254,6 @@ def test_applying_puts_what_was_found_into_the_scene_as_one_step(
     bench.start(sent="lamp")
     assert bench.scenes.scene == small_scene
     bench.controller.apply()
-    assert bench.controller.match is not None
     assert bench.scenes.scene == bench.controller.match.scene
     assert bench.scenes.undo_stack.count() == 1
     assert "stripes.png" in bench.scenes.undo_stack.undoText()
@@ -293,7 +292,6 @@ def test_a_saved_match_records_values_photo_date_uncertainty_and_the_inputs_it_w
     assert bench.controller.save("my phone", "Measured from stripes.png", DAY)
     assert (own / "my phone.toml").is_file()
     preset = preset_named("my phone")
-    assert bench.controller.match is not None
     assert preset.scene == bench.controller.match.scene
     source = preset.sources["readout_time"]
     for part in ("±2.0 ns", "photo stripes.png", "2026-01-31", "lamp frequency being 1 kHz"):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from gui.kinds import not_none, show_widget
+from gui.kinds import show_widget
 from gui.mouse import drag_mouse
 from gui.photo.photo_bench import PhotoBench, no_actions
 from matches import match_with
@@ -76,11 +76,11 @@ def test_every_lamp_has_an_outline_with_its_number_above_it_and_a_row(bench: Ben
     bench.find()
     table = bench.form.table
     assert len(bench.outlines.items) == table.rowCount() == len(LAMPS)
-    texts = [[not_none(table.item(row, column)).text() for column in range(4)] for row in range(3)]
+    texts = [[table.item(row, column).text() for column in range(4)] for row in range(3)]
     assert texts[0] == ["1", "10\u201339", "20.000 ± 0.020", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
-    tip = not_none(table.item(2, 3)).toolTip()
+    tip = table.item(2, 3).toolTip()
     assert tip == "Doubtful: only 2.1 periods are visible, which may be a coincidence."
     for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
         place = (number.pos().x(), number.pos().y())
@@ -133,7 +133,7 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
 
 
 def test_the_photo_lies_on_the_picture_where_it_is_placed(bench: Bench) -> None:
-    source = not_none(bench.results_store.results.document).source
+    source = bench.results_store.results.document.source
     bench.choose(placed_photo=PlacedPhoto(source, Placement(3.0, 4.0)))
     assert bench.picture.overlay.placement == Placement(3.0, 4.0)
     assert bench.pane.view.placement.column.value() == 3.0
@@ -172,7 +172,7 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
     bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
     bench.parts.draw(Region(30, 50, 60, 90))
     drag(QPointF(10, 5), QPointF(40, 25))
-    found = not_none(bench.choice.rectangle)
+    found = bench.choice.rectangle
     corners = (found.first_row, found.last_row, found.first_column, found.last_column)
     assert corners == pytest.approx((5, 25, 10, 40), abs=1)
 
@@ -204,7 +204,7 @@ def test_a_region_stays_with_another_channel_and_comes_back_with_its_photo(
 
 def photo_in(record: Mapping[str, object]) -> PhotoChoice:
     """Read the settings of photos from a session with a scene."""
-    kept = not_none(read_session({"scene": Scene().to_toml()} | dict(record)))
+    kept = read_session({"scene": Scene().to_toml()} | dict(record))
     return kept.workspace.photo
 
 
@@ -222,7 +222,7 @@ def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
     """The middle half of the photo, so that all its corners can be dragged."""
     rows, columns = photo.image.shape
     bench.parts.set_by_hand(True)
-    middle = not_none(bench.choice.rectangle)
+    middle = bench.choice.rectangle
     assert (2 * middle.rows, 2 * middle.columns) == (rows, columns)
     assert middle.first_row == rows - middle.last_row
     assert middle.first_column == columns - middle.last_column
@@ -256,7 +256,7 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
         bench.results_store.results,
         listed=ListedRows((row,), LoadOptions(), ("switching_frequency", 1e4)),
     )
-    document = not_none(listed.document)
+    document = listed.document
     own = replace(
         listed,
         document=replace(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gui.kinds import Grey, not_none
+from gui.kinds import Grey
 from gui.stores import store_of
 from gui.user import PATIENCE_S
 from PIL import Image
@@ -59,7 +59,7 @@ class Bench:
 
     @property
     def image(self) -> Grey:
-        photo = not_none(self.shown[-1])
+        photo = self.shown[-1]
         return photo.image
 
 

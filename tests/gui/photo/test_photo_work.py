@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, not_none
+from gui.kinds import SnapshotOf
 from gui.photo.photo_bench import PhotoBench
 from gui.user import PATIENCE_S
 from matches import match_with
@@ -78,7 +78,7 @@ class Bench(PhotoBench):
         self._qtbot.waitUntil(lambda: self.work.task.is_idle)
 
     def move(self, placement: Placement | None) -> None:
-        document = not_none(self.results_store.results.document)
+        document = self.results_store.results.document
         self.choose(
             placed_photo=None if placement is None else PlacedPhoto(document.source, placement)
         )
@@ -96,11 +96,11 @@ class Bench(PhotoBench):
 
     @property
     def last(self) -> PhotoProfile:
-        return not_none(self.shown)
+        return self.shown
 
     @property
     def comparison(self) -> Comparison:
-        return not_none(self.last.comparison)
+        return self.last.comparison
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none, show_widget, with_result
+from gui.kinds import SnapshotOf, collect, show_widget, with_result
 from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
@@ -83,7 +83,7 @@ def test_a_draft_lies_where_its_picture_will_says_so_and_gives_the_levels_of_its
     assert view.simulation.caption.text() == caption
     view.show_picture(Picture(draft))
     for row in (0, 6, 7, small_scene.camera.rows - 1):
-        levels = not_none(view.levels_at(1500, row))
+        levels = view.levels_at(1500, row)
         assert levels["receiver"] == draft.image[row // 7, 1500]
         assert view.simulation.level_at(1500, row) == levels["camera"]
     assert view.levels_at(1500, small_scene.camera.rows) is None
@@ -96,7 +96,7 @@ def test_a_photo_is_compared_with_all_rows_of_a_draft(
     view.set_mode("difference")
     draft = occ.render(small_scene, rows_step=7)
     view.show_picture(Picture(draft))
-    simulated = not_none(view.overlay.simulated)
+    simulated = view.overlay.simulated
     assert simulated.shape == (small_scene.camera.rows, small_scene.camera.columns)
     assert np.array_equal(simulated[::7], draft.camera_image)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 import pytest
 from amount import amount
-from gui.kinds import Grey, collect, not_none
+from gui.kinds import Grey, collect
 from gui.mouse import drag_mouse
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
@@ -267,11 +267,11 @@ def test_a_grid_at_the_very_edge_also_has_means(place: float, width: float) -> N
 def test_cells_of_a_difference_cover_only_the_overlap() -> None:
     first = (np.full((40, 60), 90, dtype=np.uint8), QRectF(-0.5, -0.5, 60.0, 40.0))
     second = (np.full((40, 60), 65, dtype=np.uint8), QRectF(29.5, 9.5, 60.0, 40.0))
-    found = not_none(difference_cells(first, second, 900))
+    found = difference_cells(first, second, 900)
     levels, grid = found
     assert grid == QRectF(29.5, 9.5, 30.0, 30.0)
     assert levels.shape == (30, 30)
     assert np.allclose(levels, 25.0)
-    few = not_none(difference_cells(first, second, 10))
+    few = difference_cells(first, second, 10)
     assert few[0].shape == (10, 10)
     assert difference_cells(first, (second[0], QRectF(100.0, 0.0, 60.0, 40.0)), 900) is None

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none, show_widget
+from gui.kinds import SnapshotOf, collect, show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PySide6.QtWidgets import QTableWidget
@@ -111,7 +111,6 @@ def test_the_same_state_twice_has_no_differing_inputs_and_a_pin_no_picture(
     snapshot = bare_snapshot_of()
     pin_two(pins, snapshot, snapshot)
     assert (pins.pinned.inputs, pins.pinned.outputs) == ((), ())
-    assert pins.pinned.a is not None
     assert not any(
         isinstance(value, np.ndarray) and value.ndim > 1
         for value in (getattr(pins.pinned.a, name) for name in pins.pinned.a.__slots__)
@@ -160,9 +159,8 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
     listed = texts(view.table)
     assert listed[:2] == [["Inputs"], ["ISO speed", "100", "200"]]
     assert ["Outputs"] in listed
-    assert "Allowed" in not_none(view.table.item(1, 0)).toolTip()
+    assert "Allowed" in view.table.item(1, 0).toolTip()
     for name, pin in (("A", pins.pinned.a), ("B", pins.pinned.b)):
-        assert pin is not None
         assert np.array_equal(view.curves[name].getOriginalDataset()[1], pin.profile)
     view.show_pinned(PinnedPair())
     assert "press Pin A" in view.hint.text()

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none, show_widget, with_result
+from gui.kinds import SnapshotOf, collect, show_widget, with_result
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
@@ -79,7 +79,7 @@ def test_the_band_model_is_drawn_where_it_is_defined_and_else_a_sentence_says_wh
 ) -> None:
     snapshot = snapshot_of(exposure_time=68e-6, switching_frequency=10e3, band_reading="literal")
     view.show_reading(snapshot)
-    assert curve_data(view.band)[1] == not_none(snapshot.band).tolist()
+    assert curve_data(view.band)[1] == snapshot.band.tolist()
     assert "band model" in legend_texts(view)
     assert view.reason.text().startswith("The band model drifts 76 columns a packet: it rounds")
     view.show_reading(snapshot_of(exposure_time=68e-6))
@@ -98,7 +98,6 @@ def test_the_band_model_is_enhanced_by_its_own_histogram(
     for method in ("equalization", "stretch", "none"):
         snapshot = snapshot_of(enhancement=method)
         view.show_reading(snapshot)
-        assert snapshot.band is not None
         view.enhanced.setChecked(True)
         assert curve_data(view.band)[1] == enhance(snapshot.band, method).tolist()
         assert view.plot.viewRange()[1][1] >= max(curve_data(view.band)[1])
@@ -228,7 +227,6 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
     assert (snapshot.frame.plan.kinds <= {"column"}) == math.isinf(tolerance)
     view.show_reading(snapshot)
     region, read = snapshot.results["threshold"].region, snapshot.results["threshold"].signal
-    assert region is not None
     assert read is not None
     assert float(np.ptp(read)) > 100.0
     columns = slice(region.first_column, region.last_column)
@@ -308,7 +306,7 @@ def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     view: ProfileView, snapshot: Snapshot
 ) -> None:
     before, after = view.shades
-    read = not_none(snapshot.results["threshold"].region)
+    read = snapshot.results["threshold"].region
     assert (before.isVisible(), after.isVisible()) == (True, True)
     assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column
     assert after.getRegion()[0] == read.last_column

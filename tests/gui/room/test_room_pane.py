@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import Grey, not_none
+from gui.kinds import Grey
 from gui.pane_bench import PaneBench
 from photo_files import save_as_taken
 from pyqtgraph import PlotWidget, TargetItem
@@ -210,8 +210,7 @@ def test_the_place_is_shown_with_its_errors_and_the_lamps_with_their_names(
     assert re.match(r"I am here: x 0\.\d+ ± 0\.0\d+ m, y ", pane.view.answer.line.text())
     assert "4 of 4 lamps named" in pane.view.answer.details.text()
     shown = wait_until_read(qtbot, pane)
-    assert shown.reading is not None
-    located = not_none(shown.reading.located)
+    located = shown.reading.located
     # The ellipse is the covariance's, enlarged by the stated factor, around the place found.
     x, _ = pane.view.plan.ellipse.getData()
     enlarged = float(pane.view.legend.text().split("enlarged ")[1].split(" times")[0])
@@ -370,5 +369,4 @@ def test_another_room_is_sought_in_the_photo_and_dragging_closes_the_photo(
     wait_until_read(qtbot, pane)
     assert pane.view.answer.line.text() == "The place is not determined"
     pane.view.plan.camera.setPos(0.3, 0.5)
-    assert pane.source is not None
     assert pane.source.photo is None

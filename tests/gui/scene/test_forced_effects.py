@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import QRect
 
@@ -71,7 +70,7 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
 )  # fmt: skip
 def test_what_is_set_by_hand_is_one_badge(settings: dict[str, Any], text: str) -> None:
     labels = {effect.name: effect.label for effect in EFFECTS}
-    badge = not_none(accuracy_badge(replace(FIRST_SETTINGS, **settings), labels))
+    badge = accuracy_badge(replace(FIRST_SETTINGS, **settings), labels)
     assert badge.text == text
     assert badge.state is (State.DOUBTFUL)
     for effect in settings.get("force", {}):

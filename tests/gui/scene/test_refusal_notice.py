@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from gui.kinds import not_none
 from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import Qt
@@ -144,7 +143,7 @@ def test_what_is_wrong_with_a_present_value_is_said_again_at_its_field(
     assert count_red_pixels(row.field) > 0
     row.field.setFocus()
     assert row.notice.isVisible()
-    assert not_none(row.notice.parentWidget()).rect().contains(row.notice.geometry())
+    assert row.notice.parentWidget().rect().contains(row.notice.geometry())
 
 
 def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, not_none
+from gui.kinds import SnapshotOf
 
 from occ_gui.simulation import jobs
 from occ_gui.simulation.jobs import LEAST_ROWS, LONGEST_DRAFT, MOST_THINNING, DraftRows
@@ -75,7 +75,7 @@ def test_a_picture_of_few_pixels_needs_no_draft(
     monkeypatch.setattr(jobs, "SMALL_PICTURE", pixels)
     assert jobs.draft_of(request, planned) is None
     monkeypatch.setattr(jobs, "SMALL_PICTURE", pixels - 1)
-    draft = not_none(jobs.draft_of(request, planned))
+    draft = jobs.draft_of(request, planned)
     assert draft.rows_step == request.draft_step
 
 

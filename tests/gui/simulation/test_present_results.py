@@ -5,7 +5,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from gui.kinds import not_none
 from gui.simulation.conftest import SimulationBench
 
 import occ_model as occ
@@ -49,7 +48,7 @@ def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
 ) -> None:
     path, store = tmp_path / "picture.png", bench.store
     photos = PhotoController(store.store, ResultsStore())
-    files = FileController(None, store, photos, Preferences(), present.ask)  # type: ignore[arg-type]
+    files = FileController(None, store, photos, Preferences(), present.ask)
     files.status_message.connect(messages.append)
     store.change(yaw=1.5, panel_width=50.0)  # behind the camera
     files.save_picture(path)
@@ -66,6 +65,6 @@ def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
     assert snapshots == []
     assert messages[-1] == "Saved picture.png: the camera's picture"
     image = occ.render(store.scene).camera_image
-    assert np.array_equal(not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED)), image)
+    assert np.array_equal(cv2.imread(str(path), cv2.IMREAD_UNCHANGED), image)
     present.ask(snapshots.append)
     assert len(snapshots) == 1

@@ -9,7 +9,7 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from gui.kinds import GreyPicture, SnapshotOf, not_none, with_result
+from gui.kinds import GreyPicture, SnapshotOf, with_result
 from gui.mouse import turn_wheel_at
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from pytestqt.qtbot import QtBot
@@ -33,7 +33,7 @@ def place_of(row: StoryRow, column: float) -> QPoint:
 
 
 def read_out(rows: StoryRows) -> ColumnValues:
-    return not_none(rows.values())
+    return rows.values()
 
 
 @pytest.mark.parametrize(("width", "zoom"), [(520, 4.0), (900, 1.0), (1573, 0.13)])
@@ -147,7 +147,6 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
     rows: StoryRows, snapshot: Snapshot
 ) -> None:
     code, result = rows.code, snapshot.results["threshold"]
-    assert code.edges is not None
     bits: dict[int | None, int | None] = {}
     for field in code.fields:
         rows.crosshair.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
@@ -167,14 +166,14 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
 
 def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qtbot: QtBot) -> None:
     light = rows.light
-    window = not_none(light.exposure_window())
+    window = light.exposure_window()
     middle = (window[0] + window[1]) / 2
     button = Qt.MouseButton.LeftButton
     qtbot.mousePress(light, button, pos=place_of(light, middle))
     for distance in (20, 60, 100):
         qtbot.mouseMove(light, place_of(light, middle + distance))
     qtbot.mouseRelease(light, button, pos=place_of(light, middle + 100))
-    moved_window = not_none(light.exposure_window())
+    moved_window = light.exposure_window()
     assert rows.crosshair.column == moved_window[0]
     # A pixel of the mouse is less than one column here.
     assert moved_window[0] - window[0] == pytest.approx(100.0, abs=1.0)
@@ -188,7 +187,7 @@ def test_a_click_on_any_row_or_a_key_chooses_a_column_and_keys_zoom_and_fit(
     for row, column in zip(all_rows(rows), (1250, 1300, 1500, 1700), strict=True):
         qtbot.mouseClick(row, Qt.MouseButton.LeftButton, pos=place_of(row, column))
         assert rows.crosshair.column == pytest.approx(column, abs=1)
-    chosen, home = not_none(rows.crosshair.column), rows.axis.span
+    chosen, home = rows.crosshair.column, rows.axis.span
     for key, moved in ((Qt.Key.Key_Right, 1), (Qt.Key.Key_PageUp, 11), (Qt.Key.Key_Left, 10)):
         qtbot.keyClick(rows.light, key)
         assert rows.crosshair.column == chosen + moved

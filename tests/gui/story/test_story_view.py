@@ -1,7 +1,7 @@
 """The pane of the story: its pages, ranges, scales and cursors, and the space that it needs."""
 
 import pytest
-from gui.kinds import SnapshotOf, not_none, show_widget
+from gui.kinds import SnapshotOf, show_widget
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -40,7 +40,7 @@ def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     assert checked_ranges(view) == ["panel"]
     view.choose_decoder("matched")
     assert view.decoder.key() == "matched"
-    assert not_none(view.rows.result).decoder == "matched"
+    assert view.rows.result.decoder == "matched"
     assert view.verdict.heading.startswith("Code 718 read, all bits right")
 
 
@@ -50,13 +50,13 @@ def test_the_difference_is_that_of_the_model(view: StoryView, snapshot: Snapshot
     cursors = rows.crosshair.cursors
     cursors.move(0, 100.0, rows.crosshair.columns)
     cursors.move(1, 225.0, rows.crosshair.columns)
-    difference = not_none(measure(cursors, snapshot, rows.profile.levels))
+    difference = measure(cursors, snapshot, rows.profile.levels)
     assert difference.columns == 125.0
     assert difference.time == pytest.approx(125 * scene.camera.readout_time)
     chips = difference.time * scene.transmitter.switching_frequency
     assert difference.count == pytest.approx(chips)
     assert difference.unit == "chips"
-    levels = not_none(rows.profile.levels)
+    levels = rows.profile.levels
     assert difference.levels == pytest.approx(levels[225] - levels[100])
     assert view.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")
     assert "as a period 1 kHz" in view.measured.toolTip()

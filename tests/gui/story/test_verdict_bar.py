@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect, not_none, with_result
+from gui.kinds import SnapshotOf, add_widget, collect, with_result
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -141,7 +141,7 @@ def test_a_good_verdict_states_a_large_error(bar: VerdictBar, small_scene: Scene
         assert bar.heading == heading
     # Before its picture is there, too.
     planned = plan_scene(small_scene, rough.request.settings)
-    early = not_none(reading_by_profile(rough.request, planned))
+    early = reading_by_profile(rough.request, planned)
     bar.show_reading(early)
     assert bar.heading == heading
     bar.show_reading(replace(snapshot, error=math.inf))

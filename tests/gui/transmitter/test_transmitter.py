@@ -5,7 +5,7 @@ from io import BytesIO
 from pathlib import Path
 
 import pytest
-from gui.kinds import add_widget, collect, not_none
+from gui.kinds import add_widget, collect
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PIL import Image
@@ -119,7 +119,7 @@ def test_another_board_sends_another_frequency_and_is_remembered(
     assert dialog.wiring.accessibleDescription() == "ESP32"
     dialog.reject()
     transmitter.show()
-    again = not_none(transmitter.dialog)
+    again = transmitter.dialog
     assert again is not dialog
     assert again.board.key() == "esp32"
     wait(qtbot, transmitter)
@@ -163,7 +163,7 @@ def test_a_drawing_that_fails_is_told_where_the_dialog_is_open_still(
     window = add_widget(qtbot, QWidget())
     transmitter = TransmitterController(window, store, Preferences())
     transmitter.show()
-    dialog = not_none(transmitter.dialog)
+    dialog = transmitter.dialog
     if not is_open:
         dialog.reject()
     wait(qtbot, transmitter)

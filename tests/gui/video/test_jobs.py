@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import not_none
 
 import occ_model as occ
 from occ_gui.video import reading_controller
@@ -79,7 +78,6 @@ def test_the_last_report_equals_the_models_reading_of_the_whole_film(
     figures = {fact.label: fact.text for fact in found.facts}
     assert figures["Packets"] == f"{whole.read} read, {whole.lost} lost"
     assert read == whole.read
-    assert whole.clock is not None
     frequency, unit, _, error, _ = figures["Frequency"].split()
     assert unit == "kHz"
     assert float(error) == pytest.approx(whole.clock.switching_frequency.error, rel=0.05)
@@ -202,15 +200,13 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
 ) -> None:
     shown = process_frame(request_of)
     assert shown.film is None
-    assert shown.simulated is not None
-    assert shown.story is not None
     assert np.array_equal(shown.simulated.image, film.frame(3).image)
     assert shown.time == film.frame(3).time
     reading = shown.story.reading
     assert shown.story.knows_light
     assert reading.scene == film.frame(3).scene
     assert tuple(reading.results["threshold"].bits.tolist()) == reading.sent != ()
-    read = not_none(reading.results["threshold"].region)
+    read = reading.results["threshold"].region
     ends = [each(axis=0).tolist() for each in (reading.corners.min, reading.corners.max)]
     assert ends[0] == [read.first_column - 0.5, read.first_row - 0.5]
     assert ends[1] == [read.last_column - 0.5, read.last_row - 0.5]
@@ -220,7 +216,6 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
     assert "frame 4, read by itself, not enhanced: code " in shown.story.title
     dim = occ.load_preset("phone-136us").replace(switching_frequency=13.9e3, rows=1152)
     enhanced = process_frame(replace(request_of, index=0, scene=dim))
-    assert enhanced.story is not None
     assert "read by itself, enhanced: code " in enhanced.story.title
 
 
@@ -229,9 +224,6 @@ def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(
 ) -> None:
     other = request_of.scene.replace(code=5)
     shown = process_frame(replace(request_of, film=film, scene=other))
-    assert shown.film is not None
-    assert shown.simulated is not None
-    assert shown.story is not None
     assert np.array_equal(shown.film.image, film.frame(3).image)
     assert not np.array_equal(shown.simulated.image, shown.film.image)
     assert not shown.story.knows_light
@@ -244,7 +236,6 @@ def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(
 
 def test_a_small_picture_is_exact_and_not_called_a_draft(request_of: FrameRequest) -> None:
     small = process_frame(replace(request_of, draft_step=8)).simulated
-    assert small is not None
     assert small.rows_step == 1
     assert "draft" not in small.caption
 
@@ -253,12 +244,8 @@ def test_a_draft_lies_where_the_whole_picture_does(request_of: FrameRequest) -> 
     large = request_of.scene.replace(rows=1000)
     draft = process_frame(replace(request_of, scene=large, draft_step=8)).simulated
     whole = process_frame(replace(request_of, scene=large)).simulated
-    assert draft is not None
-    assert whole is not None
     assert "draft" in draft.caption
     assert (draft.rows_step, whole.rows_step) == (8, 1)
-    assert draft.region is not None
-    assert whole.region is not None
     assert abs(draft.region.first_row - whole.region.first_row) <= 8
     assert abs(draft.region.last_row - whole.region.last_row) <= 8
 
@@ -282,13 +269,10 @@ def test_the_simulation_is_in_phase_with_a_film_of_the_same_code(
 ) -> None:
     for index in range(6):
         shown = process_frame(replace(request_of, film=film, index=index))
-        assert shown.simulated is not None
         assert shown.simulated.caption == "Simulated: in phase with the film"
-        assert shown.story is not None
         start = start_of(shown.story.reading.results["threshold"], request_of.scene)
         truth = film.frame(index).scene
         assert start is not None
-        assert truth is not None
         packet = len(occ.packet(truth)) / truth.transmitter.switching_frequency
         error = math.remainder(start - truth.model.start_time, packet)
         assert abs(error) < 0.3 * truth.camera.readout_time

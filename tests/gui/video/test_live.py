@@ -8,7 +8,6 @@ import cv2
 import numpy as np
 import pytest
 from film_source import ListedSource
-from gui.kinds import not_none
 from gui.user import PATIENCE_S
 
 from occ_gui.video import camera
@@ -94,7 +93,7 @@ def test_a_camera_that_is_not_there_is_a_sentence() -> None:
 def test_a_camera_gives_pictures_until_it_is_unplugged(capture: FakeCapture) -> None:
     source = CameraSource(CameraDevice(0, "Webcam"))
     source.open()
-    picture = not_none(source.read())
+    picture = source.read()
     assert picture.pixels.shape == (2, 3, 3)
     assert picture.time >= 0.0
     assert source.read() is None
@@ -253,7 +252,7 @@ def test_a_device_that_cannot_be_opened_is_a_sentence(
     video = start(source)
     assert list(video) == []
     video.join()
-    assert str(error) in not_none(video.problem)
+    assert str(error) in video.problem
 
 
 def test_the_exposure_is_held_between_two_pictures(start: Start) -> None:

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from film_source import FilmSource
-from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
@@ -91,7 +90,7 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
     source = FilmSource([*film] * 200, "Stand-in")
     pane.live.start(source)
     qtbot.waitUntil(lambda: pane.view.pictures.are_visible[0] and len(states(pane)) > 0)
-    video = not_none(pane.live.video)
+    video = pane.live.video
     assert pane.view.bar.axis.key() == "columns"
     assert pane.view.bar.title.toolTip() == "Stand-in, live"
     assert not pane.view.transport.play.isEnabled()

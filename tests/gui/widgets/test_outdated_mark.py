@@ -1,7 +1,7 @@
 """The mark of an outdated result appears after a moment, and lets all input through."""
 
 import pytest
-from gui.kinds import GreyPicture, add_widget, not_none
+from gui.kinds import GreyPicture, add_widget
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette, QPixmap
 from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
@@ -51,7 +51,7 @@ def test_a_present_result_ends_the_wait_and_the_mark(mark: OutdatedMark, qtbot: 
 def test_the_mark_covers_the_pane_and_lets_input_through(
     mark: OutdatedMark, pane: QWidget, qtbot: QtBot
 ) -> None:
-    button = not_none(pane.findChild(QPushButton))
+    button = pane.findChild(QPushButton)
     mark.show_age(1.0, "computing…")
     pane.resize(320, 160)
     assert mark.geometry() == pane.rect()

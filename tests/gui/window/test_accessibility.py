@@ -3,7 +3,6 @@
 from itertools import groupby, pairwise
 
 import pytest
-from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
@@ -19,7 +18,7 @@ VALUE, DESCRIPTION = QAccessible.Text.Value, QAccessible.Text.Description
 
 
 def face_of(widget: QWidget) -> QAccessibleInterface:
-    return not_none(QAccessible.queryAccessibleInterface(widget))
+    return QAccessible.queryAccessibleInterface(widget)
 
 
 def test_a_slider_and_its_field_announce_the_value_with_its_unit(
@@ -57,7 +56,7 @@ def walk(window: QWidget, key: Qt.Key) -> list[QWidget]:
     stops: list[QWidget] = []
     for _ in range(MOST):
         QTest.keyClick(QApplication.focusWidget() or window, key)
-        widget = not_none(QApplication.focusWidget())
+        widget = QApplication.focusWidget()
         if widget in stops:
             assert widget is stops[0], f"the key is caught at {widget.accessibleName()}"
             return stops

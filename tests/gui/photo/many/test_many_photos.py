@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from gui.kinds import add_widget, collect, not_none
+from gui.kinds import add_widget, collect
 from gui.stores import store_of
 from gui.user import PATIENCE_S
 from matches import match_with
@@ -129,7 +129,7 @@ def test_the_mean_is_that_of_the_model_and_named_by_the_frequency_that_it_rests_
     view.show_table(table())
     assert all(": if f = 10 kHz: " in label.text() for label in labels)
     view.show_certain(CERTAIN)
-    assert not_none(table().estimated).value == pytest.approx(7e-6)
+    assert table().estimated.value == pytest.approx(7e-6)
     assert view.mean.text() == (
         "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3 sure photos; χ² 0.5 of 2: they agree; "
         "1 left out"
@@ -296,7 +296,6 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
     assert (settings.scene.transmitter.light, settings.scene.transmitter.lamp_frequency) == (
         "lamp", 1e3,
     )  # fmt: skip
-    assert bench.controller.table is not None
     assert bench.controller.table.rows == ROWS
     assert view.mean.text()
     assert view.start.isEnabled()
@@ -324,7 +323,6 @@ def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
     with qtbot.waitSignal(bench.controller.runner.finished):
         assert enter_known(view, 2, "")
     assert column(view, KNOWN)[2] == "10 kHz"
-    assert bench.controller.table is not None
     assert bench.controller.table.rows[2].given is None
 
 

@@ -41,11 +41,11 @@ SHORTEST_SLIDER = 80
 
 
 def visible_controls(window: QWidget) -> list[QWidget]:
-    controls = {control for kind in CONTROLS for control in window.findChildren(kind)}
     return [
         control
-        for control in controls
-        if control.isVisible()
+        for control in window.findChildren(QWidget)
+        if isinstance(control, CONTROLS)
+        and control.isVisible()
         and not isinstance(control.parentWidget(), QAbstractSpinBox | QComboBox | QTabBar)
         and control.objectName() != "qt_toolbar_ext_button"
         # Qt keeps the tab bars of former layouts outside the window.

@@ -86,7 +86,7 @@ def test_the_badge_is_always_whole_on_the_screen(application: Application, user:
         application.store.force(effect, False)
     badges = window.statusBar().findChildren(BadgeLabel)
     (badge,) = (badge for badge in badges if badge.badge.key == "accuracy")
-    for width, height in ((1280, 800), (1024, 700), (1920, 1080)):
+    for width, height in ((1024, 700), (1920, 1080)):
         window.resize(width, height)
         for mode in MODES:
             window.modes.switch(mode)

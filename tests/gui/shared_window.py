@@ -105,7 +105,7 @@ def state_of(application: Application) -> list[object]:
         application.store.store.workspace,
         application.store.undo_stack.count(),
         application.results_store.results.photo,
-        application.shell.pane("photo")._shown.placement,
+        application.view("picture").overlay.placement,
         application.view("photo").form.choice(),
         application.preferences.files,
         (application.pins.pinned.a, application.pins.pinned.b),

@@ -287,3 +287,14 @@ def test_all_stated_times_of_a_plan_are_one_number(bench: Bench, qtbot: QtBot) -
     bare = costs.times_with(())
     # The points of the study have no effects.
     assert bench.pane.points[-1].seconds == no_effects == bare.median
+
+
+def test_moves_of_the_user_count_until_nine_later_ones(bench: Bench, qtbot: QtBot) -> None:
+    log = bench.simulation.moves
+    for number in range(12):
+        bench.scenes.change(iso=200.0 + number)
+        qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+    snapshot = bench.snapshots[-1]
+    times = log.costs_of(snapshot.frame).picture.times
+    assert times.count == 9
+    assert times.least <= snapshot.simulation_seconds <= times.most

@@ -138,17 +138,7 @@ def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> 
         assert (end.saturation() > 100, end.saturation() < 20) == (has_colour, not has_colour)
 
 
-def test_newly_switched_effects_are_tinted(table: EffectTable, frame: Frame) -> None:
-    table.show_rows(make_rows(frame, costs_of(frame), switched=("led-edges",)))
-    assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
-    assert cell(table, "sensor-noise", EFFECT, ROLE.BackgroundRole) is None
-    table.show_rows(make_rows(frame, costs_of(frame), switched=()))
-    assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is None
-
-
-def test_pending_switches_are_shown(
-    table: EffectTable, frame: Frame, snapshot_of: SnapshotOf
-) -> None:
+def test_pending_switches_are_shown_and_new_ones_tinted(table: EffectTable, frame: Frame) -> None:
     without = replace(
         frame.plan,
         decisions=tuple(
@@ -161,6 +151,9 @@ def test_pending_switches_are_shown(
     assert cell(table, "led-edges", EFFECT) == "● → ○ LED rise and fall"
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
     assert cell(table, "sensor-noise", EFFECT) == "● Shot and read noise"
+    table.show_rows(make_rows(frame, costs_of(frame), switched=("sensor-noise",)))
+    assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is None
+    assert cell(table, "sensor-noise", EFFECT, ROLE.BackgroundRole) is not None
 
 
 def test_rows_grow_with_the_text(table: EffectTable, qtbot: QtBot) -> None:

@@ -109,28 +109,29 @@ def test_a_match_finds_the_readout_time_and_applying_it_in_one_step_places_the_p
     assert matched.store.scene == match.scene
     user.choose("&Undo")
     assert matched.store.scene == small_scene
-    corner = matched.shell.pane("photo")._shown.placement
+    overlay = matched.view("picture").overlay
+    corner = overlay.placement
     assert corner != Placement()
     matched.view("photo").result.apply.click()
     user.wait_until_idle()
-    assert matched.shell.pane("photo")._shown.placement == Placement()
+    assert overlay.placement == Placement()
     columns, levels = matched.view("profile").photo.getOriginalDataset()
     assert columns[0] == match.region.first_column + RIM
     simulated = matched.view("profile").simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
-    assert matched.shell.pane("photo")._shown.placement == corner
-    before = matched.shell.pane("photo")._shown.placement
+    assert overlay.placement == corner
+    before = overlay.placement
     matched.view("photo").placement.by_mouse.click()
     assert matched.view("picture").mode.key() == "blend"
-    assert matched.view("picture").overlay.frame.isVisible()
-    matched.view("picture").overlay.frame.setPos((199.5, 49.5))
-    assert matched.shell.pane("photo")._shown.placement == Placement(200.0, 50.0)
+    assert overlay.frame.isVisible()
+    overlay.frame.setPos((199.5, 49.5))
+    assert overlay.placement == Placement(200.0, 50.0)
     assert matched.view("photo").placement.column.value() == 200.0
     columns, _ = matched.view("profile").photo.getOriginalDataset()
     assert columns[0] == 200 + match.region.first_column + RIM
     matched.view("photo").placement.reset.click()
-    assert matched.shell.pane("photo")._shown.placement == before
+    assert overlay.placement == before
 
 
 def test_a_photo_is_drawn_in_the_story_only_where_the_scene_comes_from_its_match(

@@ -175,3 +175,5 @@ def test_a_scene_of_three_colours_says_which_is_read_and_leads_to_all(
     assert application.story.verdict.heading.startswith("Green: code 345 read")
     application.story.verdict.step.click()
     assert not application.window.docks["colour"].isHidden()
+    user.choose("&Undo")
+    assert application.story.verdict.heading.startswith("Code 718 read")

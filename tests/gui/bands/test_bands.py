@@ -234,12 +234,6 @@ def test_brightness_is_kept_by_speed_and_aperture(exposure: float) -> None:
     assert gain(as_bright(_LAMP, exposure)) == pytest.approx(gain(_LAMP))
 
 
-@pytest.mark.parametrize("duty", [0.0, 1.0])
-def test_a_steady_lamp_needs_no_cure(duty: float) -> None:
-    cure = cure_of(_LAMP.replace(light="lamp", duty=duty), 1e-6)
-    assert (cure.repetition_rate, cure.depth) == (0.0, (0.0, 0.0))
-
-
 def test_the_cure_of_a_lamp_of_1920_hz_shows_no_bars() -> None:
     cure = cure_of(_LAMP)
     assert cure.repetition_rate == pytest.approx(1920.0)

@@ -124,17 +124,6 @@ def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
     assert view.reason.text().endswith(f" {symptom(snapshot.results['threshold'].failure or '')}")
 
 
-def test_the_cause_of_wrong_bits_is_stated(view: DecodeView, snapshot_of: SnapshotOf) -> None:
-    snapshot = snapshot_of(exposure_time=136e-6, iso=12800.0)
-    wrong = replace(
-        snapshot.results["threshold"], code=1, bits=1 - np.array(snapshot.sent), failure=None
-    )
-    view.show_reading(with_result(snapshot, wrong))
-    assert view.verdict.text().endswith("bits wrong")
-    assert view.reason.text() == str(snapshot.causes["threshold"])
-    assert view.reason.text().startswith("Overexposed. The lit panel would have the level 860.6")
-
-
 def test_a_contradiction_between_a_picture_and_its_profile_is_stated(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:

@@ -1,6 +1,7 @@
 """The pane of the map: its drawing, clicks on it, and its end."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 from unittest.mock import Mock
 
@@ -234,6 +235,11 @@ def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
     qtbot.waitUntil(lambda: map_bench.background_rates.queue.workers is not None)
     map_bench.stop()
     assert map_bench.workers.closed == 1
+
+
+def test_a_pane_made_later_shows_the_frame_rate_chosen_before(map_bench: MapBench) -> None:
+    map_bench.store.put(replace(map_bench.store.workspace, frame_rate=24.0, shown="bits"))
+    assert (map_bench.view.frame_rate.value(), map_bench.view.quantity.key()) == (24.0, "bits")
 
 
 def test_a_map_of_an_earlier_scene_is_marked_at_once_and_dimmed_later(view: MapView) -> None:

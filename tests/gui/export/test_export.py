@@ -37,6 +37,7 @@ def small_scene() -> Scene:
 
 FIGURES = ("picture", "profile", "decoding-threshold", "decoding-matched")
 """The figures that can be exported when a window has just been opened."""
+"""The figures that can be exported when a window has just been opened."""
 
 
 class Bench(PaneBench):
@@ -268,31 +269,6 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     assert begun == []
 
 
-def test_each_figure_says_where_it_comes_from_and_nothing_temporary_stays(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def write(
-        folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
-    ) -> list[Path]:
-        written = []
-        for drawn in drawings:
-            (path := folder / f"{drawn.name}.svg").write_text(provenance(drawn).title, "utf-8")
-            written.append(path)
-        return written
-
-    monkeypatch.setattr(drawing, "write_all", write)
-    bench.exporter.export_all(tmp_path)
-    bench.wait_until_idle()
-    first_words = {
-        file.name: file.read_text(encoding="utf-8").split()[0] for file in tmp_path.iterdir()
-    }
-    assert first_words == {
-        "picture.svg": "Camera's", "profile.svg": "Column", "decoding-threshold.svg": "Decoding,",
-        "decoding-matched.svg": "Decoding,", "bands.svg": "Least", "flicker.svg": "Flicker",
-    }  # fmt: skip
-    assert "No photo" not in bench.said[-1]  # its figure is no other one without a photo
-
-
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -379,3 +355,28 @@ def test_the_picture_with_the_photo_has_an_entry_of_its_own(
             shapes.append(picture.size)
     over, blended, beside = shapes
     assert over == blended != beside
+
+
+def test_each_figure_says_where_it_comes_from_and_nothing_temporary_stays(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def write(
+        folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
+    ) -> list[Path]:
+        written = []
+        for drawn in drawings:
+            (path := folder / f"{drawn.name}.svg").write_text(provenance(drawn).title, "utf-8")
+            written.append(path)
+        return written
+
+    monkeypatch.setattr(drawing, "write_all", write)
+    bench.exporter.export_all(tmp_path)
+    bench.wait_until_idle()
+    first_words = {
+        file.name: file.read_text(encoding="utf-8").split()[0] for file in tmp_path.iterdir()
+    }
+    assert first_words == {
+        "picture.svg": "Camera's", "profile.svg": "Column", "decoding-threshold.svg": "Decoding,",
+        "decoding-matched.svg": "Decoding,", "bands.svg": "Least", "flicker.svg": "Flicker",
+    }  # fmt: skip
+    assert "No photo" not in bench.said[-1]  # its figure is no other one without a photo

@@ -188,7 +188,8 @@ def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
     first, store = Workspace(small_scene), bench.store
     room = RoomChoice("mine.toml", small_room(), None, 0.03)
     own = replace(
-        store.workspace, settings=replace(FIRST_SETTINGS, tolerance=7.0), decoder="matched",
+        store.workspace, decoder="matched",
+        settings=replace(FIRST_SETTINGS, tolerance=7.0, force={"jpeg": True}),
         picture_kind="receiver", is_enhanced=True, overlay="split", frame_rate=24.0, room=room,
     )  # fmt: skip
     store.put(own)
@@ -201,15 +202,18 @@ def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
         assert store.workspace.scene == step.scene
         assert store.workspace.room == (first.room if step.pane == "room" else room)
         # Changes during a step belong to the lesson, not to the user's work.
+        changed = replace(FIRST_SETTINGS, tolerance=30.0, force={"vignetting": True})
         store.put(
             replace(
-                store.workspace, decoder="sequence", picture_kind="receiver", overlay="difference"
+                store.workspace, decoder="sequence", picture_kind="receiver", overlay="difference",
+                settings=changed,
             )
-        )
+        )  # fmt: skip
         guide.step.next.click()
     bench.wait_until_idle()
     assert guide.end.isVisible()
     assert store.workspace == own
+    assert store.undo_stack.undoText() == "end of the lesson"
     guide.end.all_lessons.click()
     bench.press(guide.list.choices[number])
     assert view_of(store.workspace) == view_of(first)
@@ -230,22 +234,3 @@ def test_undo_within_a_step_loses_nothing_of_the_users(
     guide.step.next.click()
     bench.press(guide.step.all_lessons)
     assert bench.store.workspace == own
-
-
-def test_a_lesson_has_a_state_of_its_own_and_restores_the_users(
-    bench: Lessons, guide: LessonView, small_scene: Scene
-) -> None:
-    bench.settings.set_tolerance(7.0)
-    bench.scenes.force("jpeg", True)
-    own = bench.settings.settings
-    bench.press(guide.list.choices[0])
-    assert bench.settings.settings == FIRST_SETTINGS
-    bench.scenes.force("vignetting", True)
-    bench.settings.set_tolerance(30.0)
-    bench.scenes.change(distance=2.0)
-    guide.step.next.click()
-    assert bench.settings.settings == FIRST_SETTINGS
-    guide.step.next.click()
-    bench.press(guide.step.next)
-    assert (bench.scenes.scene, bench.settings.settings) == (small_scene, own)
-    assert bench.scenes.undo_stack.undoText() == "end of the lesson"

@@ -70,19 +70,6 @@ def test_choosing_a_lamp_confirms_its_frequency_until_another_choice(
     assert not view.form.certain.isChecked()
 
 
-def test_a_known_value_can_be_entered_in_the_form(view: LiveView, qtbot: QtBot) -> None:
-    view.show_scene(occ.Scene())
-    received: list[tuple[str, float]] = []
-    view.form.edited.connect(lambda name, value, _: received.append((name, value)))
-    for name, typed in (("switching_frequency", "2kHz"), ("readout_time", "9us")):
-        field = view.form.known[name]
-        field.selectAll()
-        qtbot.keyClicks(field, typed)
-        qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
-        choose(qtbot, view.form.estimate, "switching_frequency")
-    assert received == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
-
-
 def test_a_match_of_outdated_inputs_is_marked(view: LiveView, match: Match) -> None:
     scene = occ.Scene().replace(switching_frequency=2e3)
     view.show_scene(scene)

@@ -19,7 +19,7 @@ from occ_gui.files.session_record import read_session
 from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.choices import LoadOptions, PhotoChoice, PlacedPhoto, Placement
+from occ_gui.values.choices import LoadOptions, PhotoChoice
 from occ_gui.values.photo_results import ListedRows, MatchOutcome
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
@@ -130,13 +130,6 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
     assert bench.parts.part == LAMPS[2].region
     bench.parts.match_whole()
     assert bench.choice.rectangle is None
-
-
-def test_the_photo_lies_on_the_picture_where_it_is_placed(bench: Bench) -> None:
-    source = bench.results_store.results.document.source
-    bench.choose(placed_photo=PlacedPhoto(source, Placement(3.0, 4.0)))
-    assert bench.picture.overlay.placement == Placement(3.0, 4.0)
-    assert bench.pane.view.placement.column.value() == 3.0
 
 
 def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:

@@ -235,18 +235,6 @@ def test_a_cell_holds_the_exact_mean_of_what_lies_under_it(
     assert means == pytest.approx(by_hand(image, grid, (rows, columns)), abs=1e-6)
 
 
-@pytest.mark.parametrize(("cells", "shift"), [(37, 1.7), (101, 0.3), (250, 0.0), (999, 0.3)])
-def test_fine_stripes_in_coarse_cells_are_grey_without_aliasing(cells: int, shift: float) -> None:
-    period, columns = 4, 4000
-    stripes = np.where(np.arange(columns) % period < period // 2, 0, 255).astype(np.uint8)
-    image = np.tile(stripes, (8, 1))
-    grid = QRectF(shift, 0, columns - 8, 8)
-    means = cell_means(image, QRectF(0, 0, columns, 8), grid, (1, cells))
-    wide = (columns - 8) / cells
-    over = min(wide % period, period - wide % period)
-    assert np.abs(means - 127.5).max() <= 255 * 0.5 * over / wide + 3
-
-
 def test_a_large_image_is_averaged_to_within_two_levels() -> None:
     image = noise(1203, 1601)
     means = cell_means(image, QRectF(0, 0, 1601, 1203), QRectF(1, 1, 1600, 1200), (6, 8))

@@ -168,15 +168,6 @@ def test_edits_and_refusals_of_every_part_are_passed_on(
     assert Counter(heard) == Counter([*PARAMETERS, "No such bits."])
 
 
-def test_choosing_a_preset_emits_its_name(panel: ControlPanel, qtbot: QtBot) -> None:
-    names = collect(panel.preset_chosen)
-    panel.show_preset("small")
-    assert names == []
-    panel.show()
-    qtbot.keyClick(panel.preset, Qt.Key.Key_Down)
-    assert names == ["large"]
-
-
 def test_presets_are_replaced_without_a_signal_and_listed_by_title_or_own_name(
     panel: ControlPanel,
 ) -> None:
@@ -219,3 +210,15 @@ def test_a_row_that_was_moved_shows_the_scene_again(form: ParameterPanel) -> Non
     distance.slider.setValue(300)
     form.show_scene(scene)
     assert distance.field.value() == 0.7
+
+
+def test_what_is_being_typed_stays_while_another_parameter_changes(
+    form: ParameterPanel, qtbot: QtBot
+) -> None:
+    form.show_scene(Scene())
+    readout = form.rows["readout_time"]
+    assert isinstance(readout, QuantityRow)
+    readout.field.selectAll()
+    qtbot.keyClicks(readout.field, "12")
+    form.show_scene(Scene().replace(distance=0.7))
+    assert readout.field.text() == "12"

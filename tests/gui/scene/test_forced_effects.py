@@ -13,7 +13,7 @@ from occ_gui.app import features
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files import preset_controller
-from occ_gui.scene.forced_effects import accuracy_badge, forced_text
+from occ_gui.scene.forced_effects import accuracy_badge
 from occ_gui.values.modes import MODES
 from occ_gui.widgets.state_look import BadgeLabel, State
 from occ_model.effects.registry import EFFECTS
@@ -44,15 +44,6 @@ def by_hand(application: Application, user: User) -> Application:
     application.store.force("vignetting", True)
     user.wait_until_idle()
     return application
-
-
-def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
-    labels = {effect.name: effect.label for effect in EFFECTS}
-    assert forced_text({"jpeg": False, "vignetting": True}, labels) == (
-        "Vignetting switched on, JPEG switched off"
-    )
-    everything = forced_text({effect.name: True for effect in reversed(EFFECTS)}, labels)
-    assert everything.split(", ") == [f"{effect.label} switched on" for effect in EFFECTS]
 
 
 @pytest.mark.parametrize(

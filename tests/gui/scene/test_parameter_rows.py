@@ -99,6 +99,7 @@ def test_the_slider_ends_at_the_declared_range_and_its_middle_is_their_mean(
 ) -> None:
     trial, declared = RowTrial(name, qtbot), quantity(name)
     slider = trial.row.slider
+    assert slider.pageStep() == slider.maximum() // 20
     for position in (slider.minimum(), slider.maximum(), slider.minimum(), slider.maximum() // 2):
         slider.setValue(position)
     low, high = declared.slider
@@ -113,11 +114,15 @@ def test_slider_and_field_show_the_same_value_whichever_is_moved(qtbot: QtBot) -
     row = trial.row
     row.slider.setValue(row.slider.maximum())
     assert row.field.value() == 5.0
-    row.field.selectAll()
-    qtbot.keyClicks(row.field, "20 cm")
-    qtbot.keyClick(row.field, Qt.Key.Key_Return)
-    assert row.slider.value() == row.slider.minimum()
+    for text in ("20 cm", "0 m"):
+        row.field.selectAll()
+        qtbot.keyClicks(row.field, text)
+        qtbot.keyClick(row.field, Qt.Key.Key_Return)
+        assert row.slider.value() == row.slider.minimum()
     assert trial.values == [5.0, 0.2]
+    assert row.notice.text()
+    row.slider.setValue(300)
+    assert row.notice.text() == ""
 
 
 def test_a_value_beyond_the_slider_is_kept_and_shown(qtbot: QtBot) -> None:

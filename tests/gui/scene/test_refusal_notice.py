@@ -5,15 +5,13 @@ from dataclasses import replace
 from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.number_edits import CountEdit
-from occ_gui.scene.parameter_rows import QuantityRow, row_for
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_model.scene.parameters import PARAMETERS, count
+from occ_model.scene.parameters import count
 
 
 def count_red_pixels(field: QWidget) -> int:
@@ -50,23 +48,6 @@ def test_typing_the_old_value_or_changing_the_scene_ends_a_refusal(
     assert row.notice.text() == user.message == ""
 
 
-def test_a_single_row_ends_its_refusal_when_corrected(qtbot: QtBot) -> None:
-    row = row_for(PARAMETERS["distance"])
-    assert isinstance(row, QuantityRow)
-    qtbot.addWidget(row)
-    for mend in (lambda: row.slider.setValue(row.slider.value() + 9), lambda: type_in(row, "3 m")):
-        type_in(row, "0 m")
-        assert row.notice.text()
-        mend()
-        assert row.notice.text() == ""
-
-
-def type_in(row: QuantityRow, text: str) -> None:
-    row.field.selectAll()
-    QTest.keyClicks(row.field, text)
-    QTest.keyClick(row.field, Qt.Key.Key_Return)
-
-
 def test_a_refusal_of_the_scene_is_shown_at_the_edited_field(
     application: Application, user: User
 ) -> None:
@@ -76,14 +57,6 @@ def test_a_refusal_of_the_scene_is_shown_at_the_edited_field(
     below = row.notice.mapToGlobal(row.notice.rect().topLeft()).y()
     assert 0 < below - row.field.mapToGlobal(row.field.rect().bottomLeft()).y() < 9
     assert application.controls.code.notices[0].text() == ""
-
-
-def test_a_refused_change_names_the_parameters_at_fault() -> None:
-    store, at_fault = store_of(), []
-    store.refused_for.connect(lambda _, names: at_fault.append(names))
-    store.change(iso=200.0, distance=-1.0)
-    store.change(bits=3)
-    assert at_fault == [("distance",), ("bits",)]
 
 
 def test_fields_show_why_there_is_no_picture_and_a_picture_ends_only_that(
@@ -159,3 +132,11 @@ def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:
     notice.end()
     assert field.accessibleDescription() == ""
     assert count_red_pixels(field) == before
+
+
+def test_a_refused_change_names_the_parameters_at_fault() -> None:
+    store, at_fault = store_of(), []
+    store.refused_for.connect(lambda _, names: at_fault.append(names))
+    store.change(iso=200.0, distance=-1.0)
+    store.change(bits=3)
+    assert at_fault == [("distance",), ("bits",)]

@@ -7,7 +7,6 @@ from gui.kinds import collect
 from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
-from occ_gui.core.store import NO_GESTURE
 from occ_gui.scene import scene_store
 from occ_gui.scene.scene_store import Gestures, SceneStore, new_gesture
 from occ_model.scene.scene import Scene
@@ -83,32 +82,6 @@ def test_an_equal_scene_is_no_step_and_not_emitted(
     assert store.undo_stack.count() == 0
 
 
-def test_changes_of_one_gesture_are_undone_as_one_step(
-    store: SceneStore, scenes: list[Scene], small_scene: Scene
-) -> None:
-    gesture = new_gesture()
-    for iso in (110.0, 120.0, 130.0):
-        store.change(gesture, iso=iso)
-    assert [scene.camera.iso for scene in scenes] == [110.0, 120.0, 130.0]
-    store.undo_stack.undo()
-    assert store.scene == small_scene
-    assert not store.undo_stack.canUndo()
-    store.undo_stack.redo()
-    assert store.scene == small_scene.replace(iso=130.0)
-
-
-@pytest.mark.parametrize("numbers", [(NO_GESTURE, NO_GESTURE), (new_gesture(), new_gesture())])
-def test_different_gestures_are_steps_of_their_own(
-    store: SceneStore, small_scene: Scene, numbers: tuple[int, int]
-) -> None:
-    store.change(numbers[0], iso=110.0)
-    store.change(numbers[1], iso=120.0)
-    store.undo_stack.undo()
-    assert store.scene == small_scene.replace(iso=110.0)
-    store.undo_stack.undo()
-    assert store.scene == small_scene
-
-
 def test_a_gesture_back_at_its_start_leaves_no_step_and_may_continue(
     store: SceneStore, small_scene: Scene
 ) -> None:
@@ -122,23 +95,6 @@ def test_a_gesture_back_at_its_start_leaves_no_step_and_may_continue(
     assert store.scene == small_scene.replace(iso=90.0)
     store.undo_stack.undo()
     assert store.scene == small_scene
-
-
-def test_undo_and_redo_give_exactly_the_same_scenes(
-    store: SceneStore, scenes: list[Scene], small_scene: Scene
-) -> None:
-    store.change(exposure_time=1 / 3 * 1e-4)
-    store.put(Scene(), "opening of a file")
-    store.change(code=3, averaging="light")
-    forward = [small_scene, *scenes]
-    scenes.clear()
-    for _ in range(3):
-        store.undo_stack.undo()
-    assert scenes == forward[-2::-1]
-    scenes.clear()
-    for _ in range(3):
-        store.undo_stack.redo()
-    assert scenes == forward[1:]
 
 
 def test_effects_forced_by_hand_are_undone_and_redone(

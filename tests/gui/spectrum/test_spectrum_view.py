@@ -3,14 +3,11 @@
 import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, show_widget
-from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import spectrum
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.spectrum.pane import SpectrumPane
 from occ_gui.spectrum.spectrum_view import SpectrumView
-from occ_model.scene.scene import Scene
 
 
 @pytest.fixture
@@ -52,21 +49,6 @@ def test_a_bright_panel_is_said_to_lose_light_and_every_grey_level_is_in_view(
     low, high = view.histogram.viewRange()[0]
     assert low <= -0.5
     assert high >= 255.5
-
-
-def test_the_pane_follows_the_simulation_while_it_is_visible(
-    qtbot: QtBot, small_scene: Scene
-) -> None:
-    bench = PaneBench(qtbot, small_scene)
-    curve = bench.add(spectrum()).view.spectrum
-    bench.simulate()
-    before = curve.accessibleDescription()
-    bench.simulate(exposure_time=100e-6)
-    shown = curve.accessibleDescription()
-    assert "first zero of the exposure's response: 10 kHz" in shown != before
-    bench.see("spectrum", False)
-    bench.simulate(exposure_time=50e-6)
-    assert curve.accessibleDescription() == shown
 
 
 def test_only_the_panels_pixels_are_counted(view: SpectrumView, snapshot_of: SnapshotOf) -> None:

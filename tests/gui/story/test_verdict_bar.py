@@ -321,18 +321,6 @@ def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
     assert bar.step.isHidden()
 
 
-def test_the_verdict_on_one_of_three_colours_names_it_and_leads_to_all(
-    bar: VerdictBar, snapshot_of: SnapshotOf, qtbot: QtBot
-) -> None:
-    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
-    bar.name_colour("green")
-    assert bar.heading == "Green: code 718 read, all bits right"
-    with qtbot.waitSignal(bar.colours_wanted):
-        bar.step.click()
-    bar.name_colour("")
-    assert bar.heading == "Code 718 read, all bits right"
-
-
 @pytest.mark.parametrize(
     ("state", "reason", "heading", "explanation"),
     [

@@ -71,14 +71,6 @@ def visible_texts(legend: LineLegend) -> list[str]:
     return [label.text() for label in labels if label.isVisible() and label.text()]
 
 
-def test_an_entry_is_shown_or_hidden_by_its_key(legend: LineLegend) -> None:
-    legend.show_line("solid", True)
-    legend.show_line("dashed", False)
-    assert visible_texts(legend) == ["a solid line"]
-    legend.show_line("dashed", True)
-    assert visible_texts(legend) == ["a solid line", "a dashed line"]
-
-
 @given(
     middle=st.floats(-1e15, 1e15),
     span=st.floats(1e-9, 1e300),

@@ -9,7 +9,6 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import (
     ElidedLabel,
     KeyedComboBox,
@@ -137,10 +136,3 @@ def test_a_widget_is_brought_into_view_from_a_page_that_was_never_in_front(qtbot
     bring_into_view(last)
     assert pages.currentIndex() == 1
     assert not last.visibleRegion().isEmpty()
-
-
-def test_a_logarithmic_axis_has_ticks_at_both_its_ends(qtbot: QtBot) -> None:
-    (_, numbered), (_, between) = LogAxis("left").tickValues(0.0, 2.0, 400.0)
-    ticks = sorted([*numbered, *between])
-    assert (ticks[0], ticks[-1], len(ticks)) == (0.0, 2.0, 19)
-    assert len(set(ticks)) == len(ticks)

@@ -166,7 +166,8 @@ def test_a_pane_that_needs_less_height_than_when_it_was_seen_covers_nothing_belo
     needed = window.docks["profile"].minimumHeight()
     store = application.store.store
     store.put(replace(store.workspace, photo=PhotoChoice()), "no photo")
-    user.switch("explore")
+    window.modes.switch("explore")
+    user.wait_until_idle()
     window.modes.layouts.clear()
     window.resize(*size)
     window.modes.switch("photo")

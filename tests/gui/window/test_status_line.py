@@ -58,16 +58,6 @@ def test_texts_never_overlap(line: StatusLine, width: int, points: int, is_readi
         check_texts(line)
 
 
-def test_a_long_message_ends_in_dots_and_is_whole_in_the_tip(line: StatusLine) -> None:
-    line.resize(800, 24)
-    line.showMessage(LONG)
-    QApplication.processEvents()
-    (label,) = [label for label, _ in texts_of(line)]
-    assert label.text().endswith("…")
-    assert label.toolTip().replace("\n", " ").count("1,000 Hz") == 6
-    assert line.currentMessage() == LONG
-
-
 def test_a_change_of_the_plan_is_shown_until_the_next_message_or_its_end(
     line: StatusLine, qtbot: QtBot
 ) -> None:
@@ -85,14 +75,6 @@ def test_a_change_of_the_plan_is_shown_until_the_next_message_or_its_end(
     line.show_plan_change("Switched in: JPEG")
     line.show_plan_change("")
     qtbot.waitUntil(lambda: texts() == [])
-
-
-def test_a_readout_is_whole_if_there_is_space(line: StatusLine) -> None:
-    line.resize(1600, 24)
-    for text in (READOUT[:30], READOUT):
-        line.readout.set_full_text(text)
-        QApplication.processEvents()
-        assert line.readout.text() == text
 
 
 def test_times_are_shown_to_three_digits(line: StatusLine) -> None:

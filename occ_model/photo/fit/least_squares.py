@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.photo.fit.damped_least_squares import Bounds, minimized
-from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, solved
+from occ_model.photo.fit.levels import LevelShapes, LitColumns
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
-from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
+from occ_model.photo.stripes.envelope import LEAST_SWING, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.products import combined, dot, row_products
 from occ_model.scene.parameters import quantity
@@ -105,10 +105,7 @@ class StripeModel:
         freedom = level_freedom(step * len(profile))
         kept: NDArray[np.bool_] = profile < _SATURATED_LEVEL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
-        shapes = smooth_shapes(len(profile), 2 * freedom - 1)
-        self._equations = NormalEquations(shapes[self._kept], freedom)
-        self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
-        self._kept_shapes = np.ascontiguousarray(self._shapes[:, self._kept])
+        self._shapes = LevelShapes(len(profile), freedom, self._kept)
         self._kept_profile = profile[self._kept]
         # Slopes are needed where the residual has just been computed.
         self._at = lru_cache(maxsize=1)(self._fitted_at)
@@ -126,13 +123,13 @@ class StripeModel:
         lit = self._light.exposed(timing).lit
         tone = self._tone(lit, timing.gamma)
         levels = self._explained(tone, self._kept_profile)
-        low, swing = combined(levels.reshape(2, -1), self._shapes)
+        low, swing = combined(levels.reshape(2, -1), self._shapes.all)
         return lit, tone, low, swing
 
     def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:
         """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
-        kept = LitColumns(self._kept_shapes, tone[self._kept])
-        return solved(self._equations.matrix(np.ones_like(kept.lit), kept.lit), kept.sums(data))
+        lit = tone[self._kept]
+        return self._shapes.explaining(lit, np.ones_like(lit), data)
 
     def _slopes(self, timing: Timing) -> FloatArray:
         """Return the residual's slopes over the timing's fields, shape (columns, 4).
@@ -143,7 +140,7 @@ class StripeModel:
         by_timing = self._light.exposed(timing).slopes()
         changes = swing * self._tone.slopes(lit, timing.gamma, by_timing)
         levels = self._explained(tone, changes[:, self._kept])
-        slopes = LitColumns(self._shapes, tone).light(levels) - changes
+        slopes = LitColumns(self._shapes.all, tone).light(levels) - changes
         slopes[:, low + swing * tone > WHITE] = 0.0
         return np.asarray(slopes.T)
 

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, solved
+from occ_model.photo.fit.levels import LevelShapes, LitColumns
 from occ_model.photo.fit.seen_stripes import BLUR, BLUR_REACH, Seen, SeenSlopes, blurred
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
@@ -50,11 +50,10 @@ class LitProfile:
         slow = min(slow, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
         slow_shapes = smooth_shapes(len(profile.values), slow)
         self._slow = np.ascontiguousarray(slow_shapes[self.kept].T)
-        shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
-        self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
-        self._wide_shapes = np.pad(self._shapes, ((0, 0), (BLUR_REACH, BLUR_REACH)), mode="edge")
-        self._equations = NormalEquations(shapes[self.kept], freedom)
-        self._kept_shapes = np.ascontiguousarray(self._shapes[:, self.kept])
+        self._shapes = LevelShapes(len(profile.values), freedom, self.kept)
+        self._wide_shapes = np.pad(
+            self._shapes.all, ((0, 0), (BLUR_REACH, BLUR_REACH)), mode="edge"
+        )
         # Slopes are needed where the residual has just been computed.
         self._fitted = lru_cache(maxsize=1)(self._fitted_to)
 
@@ -87,11 +86,11 @@ class LitProfile:
             slopes[BLUR] -= blurred(values, rates.kernel)
             slopes = slopes[:, self.kept]
             steep, columns = self._steep(seen, seen.sharp, light)
-        return slopes - steep * columns.light(self._explained((steep, columns), slopes))
+        return slopes - steep * columns.light(self._shapes.explaining(columns.lit, steep, slopes))
 
     def relative_slope(self, seen: Seen) -> FloatArray:
         """Return the slope of the swing's logarithm over columns, shape (kept,)."""
-        swing = combined(self._fitted(seen).levels[self.freedom :], self._shapes)
+        swing = combined(self._fitted(seen).levels[self.freedom :], self._shapes.all)
         swing = np.maximum(swing, LEAST_SWING * float(swing.max()))
         slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
         return np.asarray(slope[self.kept])
@@ -104,9 +103,9 @@ class LitProfile:
         return orthonormal(self._slow / noise)
 
     def _fitted_to(self, seen: Seen) -> _Fitted:
-        kept = LitColumns(self._kept_shapes, seen.lit[self.kept])
+        kept = LitColumns(self._shapes.kept, seen.lit[self.kept])
         light, slope = seen.table.light_of(self.data), seen.table.slope_at(self.data)
-        levels = self._explained((slope, kept), slope * light)
+        levels = self._shapes.explaining(kept.lit, slope, slope * light)
         shown = levels if seen.sharp is None else self._corrected(seen, seen.sharp, levels)
         return _Fitted(kept, levels, shown)
 
@@ -118,9 +117,8 @@ class LitProfile:
         """
         for _ in range(_MOST_CORRECTIONS):
             light = LitColumns(self._wide_shapes, sharp).light(levels)
-            change = self._explained(
-                self._steep(seen, sharp, light), self._less_blurred(seen, light)
-            )
+            steep, columns = self._steep(seen, sharp, light)
+            change = self._shapes.explaining(columns.lit, steep, self._less_blurred(seen, light))
             levels = levels + change
             if np.abs(change).max() < _LEAST_CORRECTION:
                 break
@@ -132,13 +130,7 @@ class LitProfile:
         """Return the kept columns' slopes over the levels: a factor of columns."""
         steep = seen.table.slope_of(light)
         both = blurred(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
-        return both[0], LitColumns(self._kept_shapes, both[1] / both[0])
-
-    def _explained(self, kept: tuple[FloatArray, LitColumns], change: FloatArray) -> FloatArray:
-        """Return the levels' changes that best explain that of the kept columns."""
-        steep, columns = kept
-        products = self._equations.matrix(steep**2, columns.lit)
-        return solved(products, columns.sums(steep * change))
+        return both[0], LitColumns(self._shapes.kept, both[1] / both[0])
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
         return self.data - blurred(seen.table.value_of(light), seen.kernel)[self.kept]

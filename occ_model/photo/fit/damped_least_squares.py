@@ -25,11 +25,6 @@ class Bounds:
     high: FloatArray
     most_change: FloatArray | float = math.inf
 
-    def held(self, place: FloatArray, gradient: FloatArray) -> FloatArray:
-        """Return 0 for the parameters at a bound that less of the sum lies beyond, else 1."""
-        below, above = (place <= self.low) & (gradient > 0.0), (place >= self.high) & (gradient < 0)
-        return np.where(below | above, 0.0, 1.0)
-
     def limited(self, place: FloatArray, there: FloatArray) -> FloatArray:
         """Return where a step from a place to another one may end."""
         there = np.clip(there, place - self.most_change, place + self.most_change)
@@ -62,14 +57,12 @@ def minimized(
     damping = 1e-2
     for _ in range(rounds):
         steep = slopes(here)
-        gradient = row_products(value, steep.T)
-        held = bounds.held(here, gradient)
         products = row_products(steep.T, steep.T)
-        products *= np.outer(held, held)
+        gradient = row_products(value, steep.T)
         gain, before = 0.0, dot(value, value)
         for _ in range(_MOST_TRIES):
             damped = products + np.diag(damping * np.diag(products) + 1e-9)
-            there = bounds.limited(here, here - np.linalg.solve(damped, held * gradient))
+            there = bounds.limited(here, here - np.linalg.solve(damped, gradient))
             new = residual(there)
             gain = before - dot(new, new)
             if gain > 0.0:

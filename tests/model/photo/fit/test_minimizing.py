@@ -65,17 +65,18 @@ def test_a_fit_that_is_hopeless_ends_after_a_step() -> None:
 
 
 @pytest.mark.parametrize("most", [np.inf, 0.2])
-def test_within_bounds_the_least_sum_is_that_of_what_is_free(most: float) -> None:
-    """The first number is held at its bound; the two others take its part, in steps or at once."""
-    low, high = np.array([-1.0, -5.0, -5.0]), np.array([1.0, 5.0, 5.0])
+def test_steps_end_within_bounds_and_are_no_longer_than_is_allowed(most: float) -> None:
+    """Of two numbers one ends at its bound, which the least sum is beyond."""
+    low, high, least = np.array([[-1.0, -4.0], [1.0, 4.0], [3.0, -2.5]])
     places = []
 
     def residual(x: np.ndarray) -> np.ndarray:
         places.append(x)
-        return A @ x - B
+        return 3.0 * (x - least)
 
-    found, _ = minimized(residual, lambda _: A, np.zeros(3), 50, bounds=Bounds(low, high, most))
-    rest = np.linalg.lstsq(A[:, 1:], B - A[:, 0], rcond=None)[0]
-    assert found == pytest.approx([1.0, *rest], abs=0.02)
+    found, _ = minimized(
+        residual, lambda _: 3.0 * np.eye(2), np.zeros(2), 50, bounds=Bounds(low, high, most)
+    )
+    assert found == pytest.approx([1.0, -2.5], abs=0.02)
     assert np.abs(np.diff(places, axis=0)).max() <= most + 1e-12
     assert ((low <= places) & (places <= high)).all()

@@ -6,6 +6,8 @@ Edges show the width of an exposure and of blur together, so that one may be mis
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.joint_fit import JointFit, averaged, distinct
 from occ_model.photo.fit.joint_model import JointModel
@@ -62,7 +64,22 @@ def mean_fit(models: Sequence[JointModel], timing: Timing) -> JointFit:
     for model, free in again:
         is_likely = free.misfit < least + _MOST_SHAPED_EXCESS
         shaped += _of_each_shape(model, free) if is_likely else [free]
+        hopeless = _HOPELESS_RATIO * free.misfit
+        other = model.fit(_mirrored(free.values), _LAST_ROUNDS, hopeless=hopeless)
+        is_apart = abs(other.exposure - free.exposure) > free.deviation
+        if is_apart and other.misfit < least + _MOST_SHAPED_EXCESS:
+            shaped.append(other)
     return averaged([fit.unbiased for fit in shaped])
+
+
+def _mirrored(values: FloatArray) -> FloatArray:
+    """Return parameters whose exposure is on the other side of the nearest whole chips.
+
+    As far from them, both make about the same stripes.
+    """
+    values = values.copy()
+    values[1] = abs(2.0 * np.rint(values[1]) - values[1])
+    return values
 
 
 def _fit_near(model: JointModel, here: FloatArray) -> JointFit:

@@ -9,7 +9,7 @@ from lit_fractions import blurred_light
 
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.joint_model import PRIORS, JointModel
-from occ_model.photo.fit.mean_fit import _with_blur
+from occ_model.photo.fit.mean_fit import _mirrored, _with_blur
 from occ_model.photo.fit.seen_stripes import blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -165,3 +165,14 @@ def test_another_blur_leaves_the_edges_width() -> None:
         assert other[[0, 2, 3, 8]].tolist() == TRUE[[0, 2, 3, 8]].tolist()
     # A blur as wide as the edge leaves a short exposure, and no negative one.
     assert _with_blur(TRUE, 2.9)[1] == pytest.approx(0.2 * 0.09)
+
+
+@pytest.mark.parametrize(("exposure", "other"), [(0.97, 1.03), (1.6, 2.4), (3.1, 2.9), (0.3, 0.3)])
+def test_the_mirrored_exposure_is_as_far_from_the_nearest_whole_chips(
+    exposure: float, other: float
+) -> None:
+    values = TRUE.copy()
+    values[1] = exposure
+    found = _mirrored(values)
+    assert found[1] == pytest.approx(other)
+    assert np.delete(found, 1).tolist() == np.delete(TRUE, 1).tolist()

@@ -137,6 +137,8 @@ class ImageView(QWidget):
 
     def show_picture(self, picture: Picture) -> None:
         """Show a picture in place of the previous one; the region stays until the next reading."""
+        if not picture.view_as(self.picture_kind).is_whole:
+            return  # the draft stays until all rows are there
         self.frame = frame = picture.frame
         image = frame.picture(self.picture_kind)
         self.simulation.show_picture(image, frame.rows_step)

@@ -8,8 +8,9 @@ The results of a change arrive in this order, each by a signal:
    and the verdict of every decoder. It is read from column means, without pixels, or from the
    draft if the rows of the scene differ (a lens, a file, a panel that is not level). While the
    scene keeps changing, this begins again at 1.
-3. ``picture_ready`` with the exact Picture, before it is decoded. Without a draft, the Reading
-   comes with it, or before it if the picture is small but takes time.
+3. ``picture_ready`` with the exact rows that show the panel, if the others take much longer, and
+   with the exact Picture, before it is decoded. Without a draft, the Reading comes with it, or
+   before it if the picture is small but takes time.
 4. ``snapshot_ready``, ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read
    from that picture. It is a Reading, too, and the final one. If a decoder has failed, these come
    again when the cause is known.
@@ -54,11 +55,6 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
     """Simulate a scene and decode its picture; raises ParameterError or ProjectionError."""
     request = SimulationRequest(scene, settings)
     return explain_failures(snapshot_of(request, render_with(scene, settings)))
-
-
-def _made_picture(frame: Frame, request: SimulationRequest, reading: Reading | None) -> Picture:
-    frame.picture(request.picture_kind)  # made here, since the window must not wait for it
-    return Picture(frame, request, reading)
 
 
 class SimulationController(QObject):
@@ -136,22 +132,29 @@ class SimulationController(QObject):
         planned, reading, draft = move.planned, move.reading, move.draft
         # Without a draft, a scene whose simulation has begun is always shown.
         heartbeat: Callable[[], None] = report.give_way if draft is not None else lambda: None
+
+        def show(frame: Frame, reading: Reading | None = None) -> None:
+            frame.picture(request.picture_kind)  # made here, since the window must not wait for it
+            report(Picture(frame, request, reading))
+            report.wait_for_paint(_LONGEST_PAINT)
+
         if draft is not None:
             self._draft_rows.record_time(move.draft_seconds)
             report(MoveTime.of(draft, move.draft_seconds))
-            report(_made_picture(draft, request, reading))
-            report.wait_for_paint(_LONGEST_PAINT)
+            show(draft, reading)
             reading = None
             report.give_way(self.ages.rest(_REST_TIME))
             self._wait_for_others(report)
         elif reading is not None and not is_fast(planned):
             report(reading)
             reading = None
-        frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
+        frame = render_with(
+            request.scene, request.settings, heartbeat=heartbeat, planned=planned,
+            show_panel=None if draft is None else show,
+        )  # fmt: skip
         if reading is not None:
             reading = replace(reading, has_picture=True)
-        report(_made_picture(frame, request, reading))
-        report.wait_for_paint(_LONGEST_PAINT)
+        show(frame, reading)
         if reading is not None:
             report.give_way()  # the verdict is shown already, so a later scene comes first
         snapshot = snapshot_of(request, frame)  # which may need the receiver's picture, too

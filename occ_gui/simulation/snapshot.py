@@ -119,6 +119,11 @@ class PictureView:
     # Shape (4, 2): the panel's corners in the whole picture, each as (column, row)
     corners: FloatArray
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether the rows are spread over the whole picture."""
+        return (len(self.rows) + 1) * self.rows.step > self.size[0]
+
     def view_as(self, _picture_kind: str) -> Self:
         return self
 

@@ -35,7 +35,8 @@ class StripesRow(StoryRow):
     def show_picture(self, picture: PictureView) -> None:
         self._image, self._corners, self._rows = picture.image, picture.corners, picture.rows
         self._all_rows = range(picture.size[0])
-        self.thumbnail.show_image(picture.image, *picture.size)
+        if picture.is_whole:
+            self.thumbnail.show_image(picture.image, *picture.size)
         self._mark_view()
         self.redraw()
 
@@ -92,7 +93,9 @@ class StripesRow(StoryRow):
         self.thumbnail.setVisible(height >= _LEAST_THUMBNAIL)
 
     def _mark_view(self) -> None:
-        first, last = (row * self._rows.step for row in self.panel_rows())
+        # The first row of a draft is in the middle of those that it stands for.
+        above, step = self._rows.start // self._rows.step, self._rows.step
+        first, last = ((above + row) * step for row in self.panel_rows())
         self.thumbnail.show_view(self.axis.first, self.axis.last, first, last)
 
 

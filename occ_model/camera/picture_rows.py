@@ -179,6 +179,9 @@ class PictureRows:
         self._is_even = not (self._transmission or any(each.emission for each in optics))
         self._last_common_row: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
 
+    def may_show_panel(self, rows: range) -> bool:
+        return any(panel.coverage.reaches(rows) for panel in self._panels)
+
     def of(self, rows: range, end_stage: Callable[[str], object] = lambda _stage: None) -> Rows:
         """Compute some rows; ``end_stage`` is called with the name of each stage at its end."""
         lit = [

@@ -151,8 +151,8 @@ class Frame:
     plan
         The effects simulated, with reasons.
     rows
-        The rows of the picture that are in ``image``: all, or every k-th in a draft, which a view
-        draws k rows high.
+        The rows of the picture that are in ``image``: all, those that show the panel, or every k-th
+        in a draft, which a view draws k rows high.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in order, each as (column, row).
     timings

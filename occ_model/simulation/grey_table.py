@@ -8,6 +8,7 @@ half count as negative; then sign, exponent and first bits of a floating-point n
 """
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -32,16 +33,9 @@ _APART = 96  # exponents from level to level, at which the cells of none overlap
 _SPAN = 288  # exponents from the lowest of a negative number to the highest
 
 
-class Scratch:
-    """Arrays for drawing pixels, which are used again: new ones would be slow."""
-
-    def __init__(self, shape: tuple[int, ...]) -> None:
-        kinds = (np.int32, np.uint32, np.float32, np.bool_)
-        self._arrays = [np.empty(shape, dtype=kind) for kind in kinds]
-
-    def of(self, rows: int) -> list[Any]:
-        """Return the arrays of some rows."""
-        return [array[:rows] for array in self._arrays]
+def make_scratch(shape: tuple[int, ...]) -> list[NDArray[Any]]:
+    """Return arrays for drawing pixels, which are used again: new ones would be slow."""
+    return [np.empty(shape, dtype=kind) for kind in (np.int32, np.uint32, np.float32, np.bool_)]
 
 
 class GreyTable:
@@ -67,10 +61,15 @@ class GreyTable:
         self._entries[place] = _fill_cells(ends, lowest, span, bits)
 
     def draw(
-        self, levels: Pixels, numbers: Numbers, out: ByteArray, scratch: Scratch | None = None
+        self,
+        levels: Pixels,
+        numbers: Numbers,
+        out: ByteArray,
+        scratch: Sequence[NDArray[Any]] | None = None,
     ) -> None:
-        """Draw the grey level of each pixel; all arrays have one shape."""
-        place, entry, signed, is_above = (scratch or Scratch(out.shape)).of(len(out))
+        """Draw the grey level of each pixel; all arrays have one shape, or more rows in scratch."""
+        arrays = scratch or make_scratch(out.shape)
+        place, entry, signed, is_above = (array[: len(out)] for array in arrays)
         np.copyto(signed, numbers.view(np.int32), casting="unsafe")
         cell = signed.view(np.int32)
         cell >>= self._shift

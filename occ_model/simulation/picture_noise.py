@@ -11,7 +11,7 @@ from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
-from occ_model.simulation.grey_table import Scratch, grey_table
+from occ_model.simulation.grey_table import grey_table, make_scratch
 from occ_model.simulation.pixel_draw import GainPattern, PictureNumbers, dither
 
 _TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
@@ -47,7 +47,7 @@ class PictureNoise:
         levels = self._scale(levels)
         numbers = self._numbers.of(mean.rows, _CHUNK)
         shape = (min(_CHUNK, len(mean.rows)), self._columns)
-        scratch, buffer = Scratch(shape), np.empty(shape, dtype=np.float32)
+        scratch, buffer = make_scratch(shape), np.empty(shape, dtype=np.float32)
         for start in range(0, len(mean.rows), _CHUNK):
             part = slice(start, min(start + _CHUNK, len(mean.rows)))
             drawn = buffer[: part.stop - start]
@@ -62,7 +62,7 @@ class PictureNoise:
     def vary(self, mean: Rows, end_stage: Callable[[str], object]) -> Pixels:
         """Return the values of some rows of pixels with their gains, shape (rows, columns)."""
         varied = np.empty((len(mean.rows), self._columns), dtype=np.float32)
-        self._vary(self._scale(mean), slice(0, len(varied)), varied)
+        self._vary(self._scale(mean.expand_rows()), slice(0, len(varied)), varied)
         end_stage(FixedPattern.name)
         return varied
 

@@ -14,14 +14,6 @@ from occ_model.simulation.columns import ColumnMeans
 from occ_model.simulation.threads import each_in_threads
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ShownPanel:
-    """Where some rows show the panel."""
-
-    place: slice  # The rows, of those of the picture that is made
-    panel: PanelPart
-
-
 @dataclass(frozen=True, eq=False)
 class PaintedColumns:
     """A picture whose rows are equal on the panel."""
@@ -45,7 +37,7 @@ class Pictures:
     # Shape (columns,): mean of the panel's pixels in each column of the camera's picture, or the
     # column's value if it has no pixel of the panel
     profile: FloatArray
-    panels: Sequence[ShownPanel]
+    panels: Sequence[tuple[slice, PanelPart]]  # Parts of the rows, and where they show the panel
     enhancement: Enhancement  # of the panel, by the receiver
     values: FloatArray  # Shape (columns,): the columns' values before enhancement
     timings: dict[str, float]  # Seconds of each stage, to which that of the enhancement is added
@@ -65,11 +57,17 @@ class Pictures:
         start = perf_counter()
         image = np.empty_like(self.camera_image)
 
-        def enhance(shown: ShownPanel) -> ColumnMeans:
-            out = image[shown.place]
-            self._enhance(self.camera_image[shown.place], shown.panel, out)
+        def enhance(shown: tuple[slice, PanelPart]) -> ColumnMeans:
+            place, panel = shown
+            camera, out = self.camera_image[place], image[place]
+            out[:] = camera
+            for columns in panel.inside:
+                self.enhancement.enhance_bytes(camera[:, columns], out[:, columns])
+            for columns, inside in panel.rims:
+                enhanced = self.enhancement.enhance_bytes(camera[:, columns])
+                np.copyto(out[:, columns], enhanced, where=inside)
             means = ColumnMeans(image.shape[1])
-            means.add(shown.panel, out)
+            means.add(panel, out)
             return means
 
         means = ColumnMeans(image.shape[1])
@@ -78,12 +76,3 @@ class Pictures:
         signal = means.means(self.enhancement(self.values).astype(np.float64))
         self.timings["image"] = self.timings.get("image", 0.0) + perf_counter() - start
         return image, signal
-
-    def _enhance(self, camera: ByteArray, panel: PanelPart, out: ByteArray) -> None:
-        """Enhance grey levels on the panel, and copy those beside it."""
-        out[:] = camera
-        for columns in panel.inside:
-            self.enhancement.enhance_bytes(camera[:, columns], out[:, columns])
-        for columns, inside in panel.rims:
-            enhanced = self.enhancement.enhance_bytes(camera[:, columns])
-            np.copyto(out[:, columns], enhanced, where=inside)

@@ -1,9 +1,8 @@
 """The pixels of a picture whose rows differ: exposed and stored some rows at a time, in threads."""
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -15,33 +14,25 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.picture_rows import (
     JPEG_BLOCK,
     LitPanel,
+    PanelPart,
     PictureRows,
     Rows,
     split_at,
     split_into_blocks,
 )
-from occ_model.effects.effect import FileEffect, OpticsEffect, PaperView, PixelEffect
+from occ_model.effects.effect import OpticsEffect, PaperView
 from occ_model.effects.noise import noise_of
 from occ_model.effects.registry import effects_planned
+from occ_model.effects.sensor_effects import FullWell, Jpeg
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Plan
 from occ_model.scene.scene import Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.picture_noise import PictureNoise
-from occ_model.simulation.pictures import Pictures, ShownPanel
+from occ_model.simulation.pictures import Pictures
 from occ_model.simulation.pixel_draw import PictureNumbers
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ExposedRows:
-    """Some rows of pixels before rounding."""
-
-    place: slice  # Their place in the picture, in which the exposed rows are one below the other
-    # Shape (rows, columns): pixel values from 0 to 255, whole ones if they are drawn
-    values: Pixels | ByteArray
-    mean: Rows  # The same without noise, and the place of the panel
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -77,9 +68,9 @@ class PixelExposure:
         self._region = view.region
         self._timer = timer
         self._columns = columns
-        self._limits = effects_planned(plan, PixelEffect)
+        self._limits = effects_planned(plan, FullWell)
         self._noise = noise_of(scene, plan.included)
-        self._files = effects_planned(plan, FileEffect)
+        self._files = effects_planned(plan, Jpeg)
         self._bands = bands or split_into_blocks(range(scene.camera.rows), scene.camera.columns)
         height = sum(len(band) for band in self._bands)
         self._shape = (height, scene.camera.columns)
@@ -106,77 +97,87 @@ class PixelExposure:
             return None
         return PictureNoise(self._noise, self._scene, self._brightest, numbers)
 
-    def _split_bands(self, heartbeat: Heartbeat = lambda: None) -> Iterator[_Band]:
+    def _split_bands(self) -> Iterator[_Band]:
         place = 0
         for rows in self._bands:
-            heartbeat()
             yield _Band(slice(place, place + len(rows)), rows)
             place += len(rows)
 
     def _expose(
-        self,
-        band: _Band,
-        noise: PictureNoise | None,
-        timer: StageTimer,
-        out: ByteArray | None = None,
-    ) -> ExposedRows:
-        """Expose some rows; pixels that are drawn may have a place, ``out``."""
-        mean = self._mean.of(band.rows, timer.end_stage)
+        self, mean: Rows, noise: PictureNoise | None, timer: StageTimer, out: ByteArray
+    ) -> Pixels | ByteArray:
+        """Return the pixel values of some rows before rounding: ``out``, if they are drawn."""
         if noise is not None and noise.is_drawn:
-            drawn = np.empty((len(band.rows), self._shape[1]), np.uint8) if out is None else out
-            noise.draw(mean, drawn, timer.end_stage)
-            return ExposedRows(band.place, drawn, mean)
-        each_row = mean.expand_rows()
-        if noise is None:
-            return ExposedRows(band.place, self._limit_values(each_row, timer).values, mean)
-        varied = noise.vary(each_row, timer.end_stage)
-        held = self._limit_values(replace(each_row, nodes=varied, rims=()), timer)
-        return ExposedRows(band.place, held.nodes, mean)
-
-    def _limit_values(self, mean: Rows, timer: StageTimer) -> Rows:
-        """Limit mean values to what a pixel can hold."""
+            noise.draw(mean, out, timer.end_stage)
+            return out
+        values = mean.values if noise is None else noise.vary(mean, timer.end_stage)
         for limit in self._limits:
-            mean = mean.change_nodes(partial(limit.apply, self._scene))
+            values = limit.apply(self._scene, values)
             timer.end_stage(limit.name)
-        return mean.change_nodes(lambda values: np.minimum(values, np.float32(WHITE)))
+        return np.minimum(values, np.float32(WHITE))
 
     def pictures(
         self,
         enhancement: Enhancement,
         numbers: PictureNumbers,
         heartbeat: Heartbeat = lambda: None,
+        show_panel: Callable[[slice, Pictures], object] | None = None,
     ) -> Pictures:
-        """Make the camera's and the receiver's picture of the exposed rows."""
+        """Make the camera's and the receiver's picture of the exposed rows.
+
+        ``show_panel`` is called with the place of the rows that show the panel, and with their
+        picture, where they are so few that it is worth while to make them first.
+        """
         camera_image = np.empty(self._shape, dtype=np.uint8)
         noise = self._prepare_noise(numbers)
 
-        def make(band: _Band) -> tuple[ShownPanel, ColumnMeans, StageTimer]:
+        def make(band: _Band) -> tuple[tuple[slice, PanelPart], ColumnMeans, StageTimer]:
             timer = StageTimer()
-            camera = camera_image[band.place]
-            exposed = self._expose(band, noise, timer, camera)
-            means, panel = ColumnMeans(self._shape[1]), exposed.mean.panel
-            if exposed.values is not camera:
-                cv2.convertScaleAbs(exposed.values, dst=camera)
+            camera, means = camera_image[band.place], ColumnMeans(self._shape[1])
+            mean = self._mean.of(band.rows, timer.end_stage)
+            values = self._expose(mean, noise, timer, camera)
+            if values is not camera:
+                cv2.convertScaleAbs(values, dst=camera)
             timer.end_stage("image")
-            stored = self._stored_columns(exposed.mean)
+            stored = self._stored_columns(mean)
             for file in self._files if stored else ():
                 camera[:, stored] = file.apply(self._scene, camera[:, stored])
                 timer.end_stage(file.name)
-            means.add(panel, camera if self._files else exposed.values)
+            means.add(mean.panel, camera if self._files else values)
             timer.end_stage("image")
-            return ShownPanel(band.place, panel), means, timer
+            return (band.place, mean.panel), means, timer
 
         means = ColumnMeans(self._shape[1])
-        panels, timers = [], []
-        for panel, of_band, timer in each_in_threads(make, self._split_bands(heartbeat)):
+        panels: list[tuple[slice, PanelPart]] = []
+
+        def pictures_in(place: slice) -> Pictures:
+            own, timings, top = self._columns.profile, self._timer.timings, place.start
+            shown = [(slice(at.start - top, at.stop - top), panel) for at, panel in panels]
+            return Pictures(camera_image[place], means.means(own), shown, enhancement, own, timings)
+
+        def watch(bands: Sequence[_Band]) -> Iterator[_Band]:
+            for band in bands:
+                heartbeat()
+                yield band
+
+        bands = list(self._split_bands())
+        first = [band for band in bands if self._mean.may_show_panel(band.rows)]
+        if show_panel is None or not 0 < 2 * sum(len(b.rows) for b in first) <= self._shape[0]:
+            first = []
+        bands = [*first, *(band for band in bands if band not in first)]
+        timers: list[StageTimer] = []
+        for panel, of_band, timer in each_in_threads(make, watch(bands)):
             means.include(of_band)
             panels.append(panel)
             timers.append(timer)
+            if show_panel is not None and len(panels) == len(first):  # threads go on meanwhile
+                self._timer.end_parallel_stages(timers)
+                timers.clear()
+                place = slice(first[0].place.start, first[-1].place.stop)
+                show_panel(place, pictures_in(place))
+                self._timer.skip()
         self._timer.end_parallel_stages(timers)
-        own = self._columns.profile
-        return Pictures(
-            camera_image, means.means(own), panels, enhancement, own, self._timer.timings
-        )
+        return pictures_in(slice(0, self._shape[0]))
 
     def _stored_columns(self, rows: Rows) -> slice | None:
         """Return the columns that are stored in the file; None if it has none of these rows."""
@@ -198,11 +199,11 @@ class PixelExposure:
         image = np.empty(self._shape, dtype=np.float32)
         noise = self._prepare_noise(numbers)
         for band in self._split_bands():
-            exposed = self._expose(band, noise, StageTimer())
-            image[exposed.place] = exposed.values
+            drawn = np.empty((len(band.rows), self._shape[1]), dtype=np.uint8)
+            values = self._expose(self._mean.of(band.rows), noise, StageTimer(), drawn)
             for file in self._files:
-                whole = np.asarray(cv2.convertScaleAbs(exposed.values), dtype=np.uint8)
-                image[exposed.place] = file.apply(self._scene, whole)
+                values = file.apply(self._scene, np.asarray(cv2.convertScaleAbs(values), np.uint8))
+            image[band.place] = values
         region, above = self._region, self._bands[0].start
         rows = slice(region.first_row - above, region.last_row - above)
         seen = image[rows, region.first_column : region.last_column]

@@ -1,6 +1,6 @@
 """Render a scene: simulate its picture stage by stage, in the order that light travels."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -122,10 +122,12 @@ def render_with(
     rows_step: int = 1,
     heartbeat: Heartbeat = lambda: None,
     planned: PlannedScene | None = None,
+    show_panel: Callable[[Frame], object] | None = None,
 ) -> Frame:
     """Simulate the picture of a scene with some settings, as :func:`render` does.
 
     The heartbeat is called before each band of rows; ``planned`` saves a :func:`plan_scene`.
+    ``show_panel`` is called with a frame of the rows that show the panel, if these are made first.
     """
     check_count("rows_step", rows_step, 1, scene.camera.rows)
     settings = settings.check(NAMES)
@@ -139,6 +141,7 @@ def render_with(
         rows_step=rows_step,
         timer=timer,
         heartbeat=heartbeat,
+        show_panel=show_panel,
     )
 
 
@@ -150,6 +153,7 @@ def render_plan(
     rows_step: int = 1,
     timer: StageTimer | None = None,
     heartbeat: Heartbeat = lambda: None,
+    show_panel: Callable[[Frame], object] | None = None,
 ) -> Frame:
     """Simulate a picture with planned effects."""
     scene = view.scene
@@ -162,30 +166,23 @@ def render_plan(
     around, corners = to_bytes(columns.around), view.corners
     rows = draft_rows(scene.camera.rows, rows_step)
     made: Pictures | PaintedColumns
+    frame = partial(Frame, scene=scene, plan=chosen, corners=corners, timings=timer.timings)
     if chosen.kinds <= {"column"}:
         image = paint(enhanced, corners, rows, around)
         camera_image = partial(paint, to_bytes(columns.profile), corners, rows, around)
         made = PaintedColumns(image, columns.profile, enhanced.astype(np.float64), camera_image)
         timer.end_stage("image")
     else:
-        exposure = PixelExposure(
-            view,
-            chosen,
-            columns,
-            timer,
-            split_into_blocks(rows, scene.camera.columns),
-            panel_only=rows_step > 1,
-        )
+        bands = split_into_blocks(rows, scene.camera.columns)
+        exposure = PixelExposure(view, chosen, columns, timer, bands, panel_only=rows_step > 1)
         numbers = PictureNumbers(seed, scene.camera.columns)
-        made = exposure.pictures(enhancement, numbers, heartbeat)
-    return Frame(
-        scene=scene,
-        plan=chosen,
-        rows=rows,
-        corners=corners,
-        timings=timer.timings,
-        pictures=made,
-    )
+
+        def show(place: slice, part: Pictures) -> None:
+            if show_panel is not None:
+                show_panel(frame(rows=rows[place], pictures=part))
+
+        made = exposure.pictures(enhancement, numbers, heartbeat, show_panel and show)
+    return frame(rows=rows, pictures=made)
 
 
 def draft_rows(rows: int, step: int) -> range:

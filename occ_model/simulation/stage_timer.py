@@ -18,14 +18,16 @@ class StageTimer:
 
     def end_stage(self, stage: str) -> None:
         """Add the time since the last stage ended to that of this stage."""
-        now = self._now()
-        self._add(stage, now - self._last)
-        self._last = now
+        self._add(stage, self.skip())
+
+    def skip(self) -> float:
+        """Return the time since the last stage ended, and count it for none."""
+        before, self._last = self._last, self._now()
+        return self._last - before
 
     def end_parallel_stages(self, timers: Sequence[Self]) -> None:
         """Divide the time since the last stage ended among parallel ones, by their thread time."""
-        now = self._now()
-        passed, self._last = now - self._last, now
+        passed = self.skip()
         taken: dict[str, float] = {}
         for timer in timers:
             for stage, seconds in timer.timings.items():

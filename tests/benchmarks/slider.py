@@ -30,6 +30,7 @@ _WARM_UP = 5
 _DRAG_SECONDS = 3.0
 _MOVE_SECONDS = 0.016
 _SIZES = ((1280, 800), (1920, 1080))
+_NAMES = ("picture or its draft", "profile and verdict", "exact panel", "exact picture")
 
 CASES = {
     "noise-free": ("phone-136us", SimulationSettings(tolerance=math.inf)),
@@ -77,9 +78,9 @@ class Window(QObject):
         self.come_to_rest()
 
     def _on_picture(self, picture: Picture) -> None:
-        self._waiting.append(
-            ("draft" if picture.frame.rows_step > 1 else "exact", picture.frame.scene)
-        )
+        kind = "exact" if picture.view_as("camera").is_whole else "panel"
+        kind = "draft" if picture.frame.rows_step > 1 else kind
+        self._waiting.append((kind, picture.frame.scene))
 
     def _on_reading(self, reading: Reading) -> None:
         self._waiting.append(("verdict", reading.scene))
@@ -99,8 +100,8 @@ class Window(QObject):
             self.paint()
         self._qt.processEvents()
 
-    def single_moves(self, moves: int) -> list[tuple[float, float, float]]:
-        """Move and wait; give the seconds until picture, verdict and exact picture are painted."""
+    def single_moves(self, moves: int) -> list[tuple[float, ...]]:
+        """Move and wait; give the seconds until each of ``_NAMES`` is painted."""
         rows = []
         for move in range(moves + _WARM_UP):
             start = perf_counter()
@@ -108,9 +109,8 @@ class Window(QObject):
             scene = self.application.store.scene
             self.come_to_rest()
             first = self.painted.first
-            kinds = (("draft", "exact"), ("verdict",), ("exact",))
-            picture, verdict, exact = (first(scene, *names) - start for names in kinds)
-            rows.append((picture, verdict, exact))
+            kinds = (("draft", "exact"), ("verdict",), ("panel", "exact"), ("exact",))
+            rows.append(tuple(first(scene, *names) - start for names in kinds))
         return rows[_WARM_UP:]
 
     def drag(self) -> tuple[float, float]:
@@ -146,8 +146,7 @@ def _measure(case: str, size: tuple[int, int], moves: int) -> None:
     rate, exact = window.drag()
     window.close()
     print(f"{case}, {size[0]} x {size[1]}:")
-    names = ("picture or its draft", "profile and verdict", "exact picture")
-    for name, values in zip(names, ms.T, strict=True):
+    for name, values in zip(_NAMES, ms.T, strict=True):
         median, late = np.percentile(values, (50, 95))
         print(f"  {name:22s} median {median:6.1f} ms, 95th percentile {late:6.1f} ms")
     print(f"  a drag of {_DRAG_SECONDS:g} s: {rate:.1f} pictures a second painted, the exact one")

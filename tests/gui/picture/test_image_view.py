@@ -89,6 +89,17 @@ def test_a_draft_lies_where_its_picture_will_says_so_and_gives_the_levels_of_its
     assert view.levels_at(1500, small_scene.camera.rows) is None
 
 
+def test_a_draft_is_shown_until_all_rows_of_its_picture_are_there(
+    view: ImageView, small_scene: Scene
+) -> None:
+    draft, whole = (occ.render(small_scene, rows_step=step) for step in (7, 1))
+    view.show_picture(Picture(draft))
+    view.show_picture(Picture(replace(whole, rows=whole.rows[60:140])))
+    assert view.frame is draft
+    view.show_picture(Picture(whole))
+    assert view.frame is whole
+
+
 def test_a_photo_is_compared_with_all_rows_of_a_draft(
     view: ImageView, small_scene: Scene, photo: Photo
 ) -> None:

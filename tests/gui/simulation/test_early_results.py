@@ -82,6 +82,17 @@ def test_a_draft_of_the_scene_comes_before_its_exact_picture(
     assert bench.views[0].snapshots[-1].frame is exact.frame
 
 
+def test_exact_rows_of_a_small_panel_come_before_the_others(
+    bench: SimulationBench, pictures: list[Picture]
+) -> None:
+    bench.store.change(rows=1000, distance=6.0)
+    bench.wait_until_idle()
+    draft, panel, exact = (picture.frame for picture in pictures)
+    assert draft.rows_step > panel.rows_step == exact.rows_step == 1
+    assert len(panel.rows) < len(exact.rows) == 1000
+    np.testing.assert_array_equal(panel.camera_image, exact.camera_image[panel.rows])
+
+
 @pytest.mark.parametrize("jpeg", [0, 80])
 def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
     bench: SimulationBench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch, jpeg: int

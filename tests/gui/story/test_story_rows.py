@@ -22,6 +22,9 @@ from occ_gui.story.column_values import ColumnValues, describe_values
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.widgets.state_look import State
+from occ_model.results.frame import Frame
+from occ_model.scene.scene import SimulationSettings
+from occ_model.simulation.render import render_with
 
 
 def all_rows(rows: StoryRows) -> list[StoryRow]:
@@ -94,6 +97,20 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
     np.testing.assert_array_equal(drafted[:, GUTTER:], exact[:, GUTTER:])
     assert rows.stripes.thumbnail.view.top() == pytest.approx(view.top(), abs=7)
     assert rows.stripes.thumbnail.view.height() == pytest.approx(view.height(), abs=14)
+
+
+def test_exact_rows_of_the_panel_are_shown_beside_the_whole_draft(
+    rows: StoryRows, snapshot_of: SnapshotOf, grey_picture: GreyPicture
+) -> None:
+    frame = snapshot_of(rows=1000, distance=6.0).frame
+    rows.show_picture(Picture(frame))
+    exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail.view
+    parts: list[Frame] = []
+    render_with(frame.scene, SimulationSettings(), show_panel=parts.append)
+    (part,) = parts
+    rows.show_picture(Picture(part))
+    np.testing.assert_array_equal(grey_picture(rows.stripes), exact)
+    assert rows.stripes.thumbnail.view == view
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.sensor_effects import Jpeg
+from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import render_with
 
@@ -59,6 +60,36 @@ def test_the_file_of_a_draft_is_made_of_its_rows_where_the_panel_is(
         seen = slice(rows.min() + 1, rows.max())
         np.testing.assert_array_equal(kept[seen, shown], whole[seen, shown])
     assert ((kept == whole) | (kept == bare)).all()
+
+
+@pytest.mark.parametrize(
+    "turn", [{}, {"roll": 0.3, "yaw": 0.2, "distance": 2.0}, {"jpeg_quality": 0}]
+)
+def test_rows_of_the_panel_that_are_made_first_are_the_pictures(
+    scene: Scene, turn: dict[str, float]
+) -> None:
+    turned, settings = scene.replace(rows=1200, **turn), SimulationSettings(tolerance=0.0)
+    parts: list[Frame] = []
+    whole = render_with(turned, settings, show_panel=parts.append)
+    (part,) = parts
+    assert part.rows.start <= part.corners[:, 1].min()
+    assert part.rows.stop > part.corners[:, 1].max()
+    assert 2 * len(part.rows) <= len(whole.rows)
+    plain = render_with(turned, settings)
+    for name in ("camera_image", "image", "profile", "signal"):
+        of_whole = getattr(whole, name)
+        of_part = of_whole[part.rows] if of_whole.ndim == 2 else of_whole
+        np.testing.assert_array_equal(getattr(part, name), of_part)
+        np.testing.assert_array_equal(getattr(plain, name), of_whole)
+
+
+@pytest.mark.parametrize("place", [{"distance": 0.5}, {"offset_y": 5.0}])
+def test_no_rows_are_made_first_if_most_show_the_panel_or_none_does(
+    scene: Scene, place: dict[str, float]
+) -> None:
+    parts: list[Frame] = []
+    render_with(scene.replace(**place), SimulationSettings(), show_panel=parts.append)
+    assert not parts
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 10, 385])

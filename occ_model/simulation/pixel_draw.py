@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.row_memory import MEMORY
 from occ_model.simulation.grey_table import Numbers
 
 
@@ -24,16 +25,25 @@ class PictureNumbers:
         words = -(-self._columns // 2)
         source = np.random.PCG64(self._seed)
         source.advance(rows.start * words)
-        for start in range(0, len(rows), height):
-            count = min(height, len(rows) - start)
-            if rows.step == 1:
-                drawn = source.random_raw(count * words).reshape(count, words)
-            else:
-                drawn = np.empty((count, words), dtype=np.uint64)
-                for row in drawn:
-                    row[:] = source.random_raw(words)
-                    source.advance((rows.step - 1) * words)
-            yield drawn.view(np.uint32)[:, : self._columns]
+
+        def draw(count: int) -> NDArray[np.uint64]:
+            return np.asarray(source.random_raw(count * words)).reshape(count, words)
+
+        def draw_each() -> NDArray[np.uint64]:
+            drawn = np.empty((len(rows), words), dtype=np.uint64)
+            for row in drawn:
+                row[:] = draw(1)
+                source.advance((rows.step - 1) * words)
+            return drawn
+
+        starts = range(0, len(rows), height)
+        parts = (draw(min(height, len(rows) - start)) for start in starts)
+        if rows.step > 1:  # the next draft has the same
+            key = "numbers", self._seed.entropy, words, rows
+            each = MEMORY.recall(key, draw_each, lambda drawn: (drawn,))
+            parts = (each[start : start + height] for start in starts)
+        for part in parts:
+            yield part.view(np.uint32)[:, : self._columns]
 
 
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0

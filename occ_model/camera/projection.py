@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
+from occ_model.camera.coverage import column_spans
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Camera, Pose, Scene
 from occ_model.scene.units import METRE
@@ -105,26 +106,7 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
     A pixel is inside if its centre is, or if that is on the left or upper rim, so that it belongs
     to only one of two adjacent panels. Corners may be at any distance outside the image.
     """
-    row = np.arange(rows, dtype=np.float64)
-    left = np.full(rows, np.inf)
-    right = np.full(rows, -np.inf)
-    for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if y0 == y1:
-            continue
-        crossed = slice(_first_row(min(y0, y1), rows), _first_row(max(y0, y1), rows))
-        # Interpolated from both ends, so that it is exact at each; clipped, so that all rows of an
-        # upright edge are equal.
-        along = (row[crossed] - y0) / (y1 - y0)
-        x = np.clip(x0 * (1.0 - along) + x1 * along, min(x0, x1), max(x0, x1))
-        np.minimum(left[crossed], x, out=left[crossed])
-        np.maximum(right[crossed], x, out=right[crossed])
-    first = np.clip(np.ceil(left), 0, columns).astype(np.int64)
-    last = np.clip(np.ceil(right), 0, columns).astype(np.int64)
-    return first, np.maximum(first, last)
-
-
-def _first_row(y: float, rows: int) -> int:
-    return int(min(max(np.ceil(y), 0), rows))
+    return column_spans(corners[:, ::-1], columns, rows)
 
 
 def check_size(camera: Camera) -> None:

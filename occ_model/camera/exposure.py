@@ -13,8 +13,8 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.light.cosine import Cosine
-from occ_model.light.sent import Light, PiecewiseLight, forget_lights, light_of
-from occ_model.light.times import Duration, PhasesInPeriod, count_each, count_phases, forget_steps
+from occ_model.light.sent import Light, PiecewiseLight, light_of
+from occ_model.light.times import Duration, PhasesInPeriod, count_each, count_phases
 from occ_model.scene.scene import Scene
 
 _NO_SHIFT = Fraction(0)
@@ -130,14 +130,6 @@ def lit_fractions(scene: Scene, start_times: Sequence[float]) -> FloatArray:
             [light.means(Fraction(time), step, camera.columns, exposure) for time in start_times]
         )
     return _lit_from(light, phases_of_images(scene, start_times, light), camera.exposure_time)
-
-
-def forget_exposures() -> None:
-    """Clear the caches, so that the next exposure takes as long as the first."""
-    for cached in (_step, _column_starts, _lit_fraction):
-        cached.cache_clear()
-    forget_steps()
-    forget_lights()
 
 
 def on_time(scene: Scene) -> FloatArray:

@@ -110,15 +110,3 @@ def _recorded_light(samples: str) -> PiecewiseLight:
 @lru_cache(maxsize=8)
 def _mains_light(frequency: float, depth: float) -> Cosine:
     return Cosine(MAINS_HARMONIC * frequency, depth)
-
-
-def forget_lights() -> None:
-    for function in (
-        _light_of_chips,
-        _waveform_of_chips,
-        _blinking_light,
-        _light_of_levels,
-        _recorded_light,
-        _mains_light,
-    ):
-        function.cache_clear()

@@ -134,7 +134,3 @@ def _count_steps(step: Fraction, count: int) -> _Steps:
     for values in (steps.unit, steps.fraction, steps.remainder):
         values.flags.writeable = False
     return steps
-
-
-def forget_steps() -> None:
-    _count_steps.cache_clear()

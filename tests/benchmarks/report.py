@@ -30,8 +30,9 @@ from costs import (
 
 import occ_model as occ
 from occ_model.arrays import FloatArray
+from occ_model.camera import exposure
 from occ_model.camera.enhancement import enhance
-from occ_model.camera.exposure import forget_exposures
+from occ_model.light import sent, times
 from occ_model.receiver.matched.templates import make_code_templates
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
@@ -42,7 +43,9 @@ _FIRST_FRAME = Path(__file__).with_name("first_frame.py")
 
 def _new_profile(scene: Scene) -> FloatArray:
     """Compute the column profile of a scene of which nothing is known yet."""
-    forget_exposures()
+    for cached in {**vars(exposure), **vars(sent), **vars(times)}.values():
+        if hasattr(cached, "cache_clear"):
+            cached.cache_clear()
     return occ.column_profile(scene)
 
 

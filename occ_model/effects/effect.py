@@ -12,11 +12,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import ClassVar, Literal, TypeAlias, TypeVar
+from typing import ClassVar, Literal, TypeAlias
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, Pixels
+from occ_model.arrays import FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
     FLAT_SPAN,
@@ -66,40 +66,33 @@ def paper_view_of(
     check_monochrome(scene)
     corners = panel_corners(scene)
     corner_bytes = corners.tobytes()
-    outline = _outline_of(corner_bytes, scene.camera.rows, scene.camera.columns)
+    rows, columns = scene.camera.rows, scene.camera.columns
+    sides, region = _outline_of(corner_bytes, rows, columns)
     end_stage("projection")
     light = ColumnLight.of(scene)
     values = panel_values(scene, light)
     end_stage("exposure")
     lowest, highest = (min(max(float(end), 0.0), WHITE) for end in (values.min(), values.max()))
-    region = outline.region
     return PaperView(
         scene=scene,
         corner_bytes=corner_bytes,
         corners=corners,
         light=light,
         values=values,
-        sides=outline.sides,
-        is_visible=outline.is_visible,
-        region=region,
+        sides=sides,
+        is_visible=region is not None,
+        region=region or Region(0, rows, 0, columns),
         swing=max(highest - lowest, FLAT_SPAN),
     )
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Outline:
-    sides: tuple[float, float, float, float] | None
-    is_visible: bool
-    region: Region
-
-
 @lru_cache(maxsize=16)
-def _outline_of(corners: bytes, rows: int, columns: int) -> _Outline:
-    """Return what follows from the corners alone, cached while they stay the same."""
+def _outline_of(
+    corners: bytes, rows: int, columns: int
+) -> tuple[tuple[float, float, float, float] | None, Region | None]:
+    """Return the sides and the region of a panel, cached while its corners stay the same."""
     places = np.frombuffer(corners).reshape(-1, 2)
-    visible = region_of(places, rows, columns)
-    region = visible or Region(0, rows, 0, columns)
-    return _Outline(_sides(places), visible is not None, region)
+    return _sides(places), region_of(places, rows, columns)
 
 
 def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
@@ -127,8 +120,6 @@ def _first_pixel(place: float, size: int) -> int:
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
 """Whether the rows stay equal, stay equal except for independent noise, or become different."""
-
-Values = TypeVar("Values", FloatArray, Pixels)  # pixel values in double or in single precision
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,17 +184,6 @@ class OpticsEffect(Effect):
         """Add the effect to the panel's optics."""
 
 
-class PixelEffect(Effect):
-    """An effect on a pixel's mean value which depends on that value alone."""
-
-    kind = "column"
-    stage = "sensor"
-
-    @abstractmethod
-    def apply(self, scene: Scene, values: Values) -> Values:
-        """Add the effect to pixel values before they saturate."""
-
-
 class NoiseEffect(Effect):
     """Noise of the electrons of single pixels, independent from pixel to pixel."""
 
@@ -213,22 +193,3 @@ class NoiseEffect(Effect):
     @abstractmethod
     def apply(self, scene: Scene, noise: PixelNoise) -> PixelNoise:
         """Add the effect to the noise of a sensor's pixels."""
-
-
-class FileEffect(Effect):
-    """An effect of the file in which the camera stores the picture."""
-
-    kind = "image"
-    stage = "processing"
-
-    @abstractmethod
-    def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Return the picture as read from the file; each row of 8 x 8 blocks is independent."""
-
-    @abstractmethod
-    def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
-        """Raise a ParameterError for a picture that the file cannot hold."""
-
-    @abstractmethod
-    def steps(self, scene: Scene) -> FloatArray:
-        """Return the steps to which the cosine coefficients of 8 x 8 pixels are rounded."""

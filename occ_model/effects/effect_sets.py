@@ -14,9 +14,10 @@ from typing import Self
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.effects.effect import Effect, FileEffect, NoiseEffect, PaperView
+from occ_model.effects.effect import Effect, NoiseEffect, PaperView
 from occ_model.effects.estimates import Estimates
 from occ_model.effects.registry import EFFECTS
+from occ_model.effects.sensor_effects import Jpeg
 from occ_model.results.frame import EffectSet
 from occ_model.scene.scene import SimulationSettings
 
@@ -129,7 +130,7 @@ def seconds_of(effects: Sequence[Effect], sets: FloatArray, pixels: int) -> Floa
     )
     by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)
     noises = np.array([isinstance(effect, NoiseEffect) for effect in effects], dtype=bool)
-    files = np.array([isinstance(effect, FileEffect) for effect in effects], dtype=bool)
+    files = np.array([isinstance(effect, Jpeg) for effect in effects], dtype=bool)
     noisy = (sets[:, noises] > 0.0).any(axis=1)
     shared = _PIXEL_SECONDS * (sets[:, by_pixel] > 0.0).any(axis=1)
     shared = shared + _NOISY_FILE_SECONDS * (noisy & (sets[:, files] > 0.0).any(axis=1))

@@ -8,10 +8,10 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.grey_law import GreyLaw, grey_law, law_of_known_gains
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_noise import PixelNoise
-from occ_model.effects.effect import PixelEffect
 from occ_model.effects.noise import noise_of
 from occ_model.effects.normal_noise import mean_after_clipping, unclipped_fraction
 from occ_model.effects.registry import effects_named
+from occ_model.effects.sensor_effects import FullWell
 from occ_model.effects.simulated_columns import Names
 from occ_model.scene.scene import Scene
 
@@ -64,7 +64,7 @@ class NoisyPixels:
         return self._limit(included, values)
 
     def _limit(self, included: Names, values: FloatArray) -> FloatArray:
-        for limit in effects_named(included & self._names, PixelEffect):
+        for limit in effects_named(included & self._names, FullWell):
             values = limit.apply(self._scene, values)
         return np.minimum(values, WHITE)
 

@@ -11,12 +11,10 @@ from occ_model.camera.interpolation import Places, divide_weights, interpolate_a
 from occ_model.camera.photometry import saturation_value, surroundings_values
 from occ_model.effects.effect import (
     Effect,
-    FileEffect,
     LightEffect,
     NoiseEffect,
     OpticsEffect,
     PaperView,
-    PixelEffect,
 )
 from occ_model.effects.file_change import FileChange
 from occ_model.effects.level_table import LevelTable
@@ -30,6 +28,7 @@ from occ_model.effects.observed import RandomSquare
 from occ_model.effects.registry import effects_named
 from occ_model.effects.rims import Rims
 from occ_model.effects.sampled_light import SampledLight, sample_of
+from occ_model.effects.sensor_effects import FullWell, Jpeg, quantization_steps
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
 
 _LEVELS_A_GAP = 4  # levels of the table for each at which gaps are computed
@@ -50,9 +49,9 @@ class SampledPixels:
         self.names = frozenset(effect.name for effect in self.effects)
         self.lights = effects_named(self.names, LightEffect)
         self.lenses = effects_named(self.names, OpticsEffect)
-        self.limits = effects_named(self.names, PixelEffect)
+        self.limits = effects_named(self.names, FullWell)
         self.noises = effects_named(self.names, NoiseEffect)
-        self.files = effects_named(self.names, FileEffect)
+        self.files = effects_named(self.names, Jpeg)
         self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
         self._moving = frozenset(self.moving)
         self._noisy = frozenset(effect.name for effect in self.noises)
@@ -166,7 +165,7 @@ class SampledPixels:
         if not self.files:
             return None
         return FileChange(
-            self.files[0].steps(self.scene),
+            quantization_steps(self.scene.camera.jpeg_quality),
             self.sample,
             self.stack,
             self.noise_rms(self.names),

@@ -2,11 +2,12 @@
 
 import math
 from dataclasses import replace
+from typing import TypeVar
 
 import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import (
     WHITE,
     converter_step,
@@ -15,10 +16,12 @@ from occ_model.camera.photometry import (
     saturation_value,
 )
 from occ_model.camera.pixel_noise import PixelNoise
-from occ_model.effects.effect import Cost, FileEffect, NoiseEffect, PixelEffect, Values
+from occ_model.effects.effect import Cost, Effect, NoiseEffect
 from occ_model.errors import ParameterError
 from occ_model.files.writing import LONGEST_SIDE
 from occ_model.scene.scene import Scene
+
+Values = TypeVar("Values", FloatArray, Pixels)  # pixel values in double or in single precision
 
 _LUMINANCE_STEPS = (
     (16, 11, 10, 16, 24, 40, 51, 61),
@@ -33,8 +36,10 @@ _LUMINANCE_STEPS = (
 """Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
 
 
-class Jpeg(FileEffect):
-    """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
+class Jpeg(Effect):
+    """The file in which the camera stores the picture.
+
+    Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
 
     The cosine transform is orthonormal, so that the mean square error of the pixels is that of the
     coefficients (Parseval). The receiver enhances the contrast of the picture read from the file.
@@ -42,16 +47,16 @@ class Jpeg(FileEffect):
 
     name = "jpeg"
     label = "JPEG"
+    kind = "image"
+    stage = "processing"
     parameters = ("jpeg_quality",)
     cost = Cost(pixels=1.5e-3)
 
     def is_present(self, scene: Scene) -> bool:
         return scene.camera.jpeg_quality != 0
 
-    def steps(self, scene: Scene) -> FloatArray:
-        return quantization_steps(scene.camera.jpeg_quality)
-
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
+        """Raise a ParameterError for a picture that the file cannot hold."""
         if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:
             raise ParameterError.of(
                 "jpeg_quality",
@@ -62,6 +67,7 @@ class Jpeg(FileEffect):
             )
 
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
+        """Return the picture as read from the file; each row of 8 x 8 blocks is independent."""
         if not self.is_present(scene):
             return image
         quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]
@@ -70,7 +76,7 @@ class Jpeg(FileEffect):
 
 
 def quantization_steps(quality: int) -> FloatArray:
-    """Return the quantization steps for a quality from 1 to 100, shape (8, 8).
+    """Return the steps of cosine coefficients for a quality from 1 to 100, shape (8, 8).
 
     They are scaled as in the Independent JPEG Group's library, the usual convention.
     """
@@ -79,7 +85,7 @@ def quantization_steps(quality: int) -> FloatArray:
     return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
 
 
-class FullWell(PixelEffect):
+class FullWell(Effect):
     """A pixel holds at most its full well of electrons; more light does not change it.
 
     At low ISO speeds the well is full before the pixel value reaches 255.
@@ -87,6 +93,8 @@ class FullWell(PixelEffect):
 
     name = "full-well"
     label = "Full well"
+    kind = "column"
+    stage = "sensor"
     parameters = ("full_well",)
     cost = Cost(pixels=0.05e-3)
 
@@ -97,6 +105,7 @@ class FullWell(PixelEffect):
         return min(float(pixel_value(brightest, scene.camera)), WHITE) > saturation_value(scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
+        """Limit pixel values before they saturate."""
         full = np.asarray(saturation_value(scene), dtype=values.dtype)
         return np.minimum(values, full)
 

@@ -8,8 +8,9 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import ColumnLight, fast_power, panel_values, saturate
-from occ_model.effects.effect import LightEffect, NoiseEffect, PaperView, PixelEffect
+from occ_model.effects.effect import LightEffect, NoiseEffect, PaperView
 from occ_model.effects.noise import enhancement_of
+from occ_model.effects.sensor_effects import FullWell
 
 Names = frozenset[str]  # effects by name
 
@@ -24,7 +25,7 @@ class SimulatedColumns:
         self,
         view: PaperView,
         lights: Sequence[LightEffect],
-        limits: Sequence[PixelEffect],
+        limits: Sequence[FullWell],
         noises: Sequence[NoiseEffect],
         law: Callable[[Names], GreyLaw | None],
     ) -> None:

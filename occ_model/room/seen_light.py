@@ -19,10 +19,11 @@ from occ_model.camera.photometry import (
     panel_values,
     saturate,
 )
-from occ_model.effects.effect import LightEffect, PixelEffect
+from occ_model.effects.effect import LightEffect
 from occ_model.effects.light_effects import LedEdges
 from occ_model.effects.noise import enhancement_of, law_of
 from occ_model.effects.registry import NAMES, effects_named
+from occ_model.effects.sensor_effects import FullWell
 from occ_model.light.sent import light_period
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import scene_with_lamp
@@ -138,7 +139,7 @@ def _law_of(scene: Scene, values: FloatArray) -> GreyLaw:
 
 def _limit(levels: FloatArray, scene: Scene) -> FloatArray:
     """Return mean pixel values as limited by the sensor."""
-    for limit in effects_named(NAMES, PixelEffect):
+    for limit in effects_named(NAMES, FullWell):
         levels = limit.apply(scene, levels)
     return saturate(levels)
 

@@ -14,9 +14,10 @@ from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.grey_law import GreyLaw
 from occ_model.camera.photometry import panel_values, saturate, surroundings_values
 from occ_model.camera.picture_rows import PanelPart
-from occ_model.effects.effect import LightEffect, PaperView, PixelEffect
+from occ_model.effects.effect import LightEffect, PaperView
 from occ_model.effects.noise import enhancement_of, law_of
 from occ_model.effects.registry import effects_planned
+from occ_model.effects.sensor_effects import FullWell
 from occ_model.results.frame import Plan
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -45,7 +46,7 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
     surroundings = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     profile, around = panel, surroundings
     timer.end_stage("exposure")
-    for limit in effects_planned(chosen, PixelEffect):
+    for limit in effects_planned(chosen, FullWell):
         profile, around = limit.apply(scene, profile), limit.apply(scene, around)
         timer.end_stage(limit.name)
     profile, around = saturate(profile), saturate(around)

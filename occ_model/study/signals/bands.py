@@ -16,8 +16,9 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
 from occ_model.camera.picture_rows import JPEG_BLOCK
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.effect import FileEffect, OpticsEffect, region_of
+from occ_model.effects.effect import OpticsEffect, region_of
 from occ_model.effects.registry import effects_named
+from occ_model.effects.sensor_effects import Jpeg
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Camera, Model, Scene, Transmitter
 from occ_model.simulation.pixel_draw import GainPattern
@@ -89,7 +90,7 @@ def bands_of(scene: Scene, included: frozenset[str]) -> Bands:
     span = region_of(optics.outline, rows, columns)
     if span is None:
         return _without_panel(size)
-    has_file = any(each.is_present(scene) for each in effects_named(included, FileEffect))
+    has_file = any(each.is_present(scene) for each in effects_named(included, Jpeg))
     if optics.is_plain and not has_file:
         first, last = column_spans(optics.outline, rows, columns)
         seen = np.flatnonzero(last > first)

@@ -18,9 +18,9 @@ from occ_model.camera.interpolation import Places, interpolate_at
 from occ_model.camera.photometry import saturate
 from occ_model.camera.pixel_noise import GREYS
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import FileEffect, PixelEffect
 from occ_model.effects.noise import noise_of
 from occ_model.effects.registry import effects_named
+from occ_model.effects.sensor_effects import FullWell, Jpeg, quantization_steps
 from occ_model.receiver.decode import decode
 from occ_model.receiver.signal import bright_level
 from occ_model.results.decoding import DecodeResult, Region
@@ -117,7 +117,7 @@ class _Batch:
         panel, around = expose(images)
         noise, law = noise_of(scene, included), None
         if noise is None:
-            for limit in effects_named(included, PixelEffect):
+            for limit in effects_named(included, FullWell):
                 panel, around = limit.apply(scene, panel), limit.apply(scene, around)
             panel, around = even_out(saturate(panel)), saturate(around)
         else:
@@ -127,8 +127,8 @@ class _Batch:
         self._places = self._pixels.places(panel)
         self._enhancements = self._enhance()
         self._curves = np.array([each.curve for each in self._enhancements], dtype=np.float64)
-        files = effects_named(included, FileEffect)
-        self._steps = next((file.steps(scene) for file in files if file.is_present(scene)), None)
+        quality = scene.camera.jpeg_quality if Jpeg.name in included else 0
+        self._steps = quantization_steps(quality) if quality else None
         self._table = self._pixels.table
         if self._steps is not None:
             self._table = table_of_file(law, self._steps.tobytes())

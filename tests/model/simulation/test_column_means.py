@@ -8,12 +8,13 @@ from scipy.stats import chi2
 
 import occ_model as occ
 from occ_model.camera.coverage import column_spans
-from occ_model.effects.effect import FileEffect, OpticsEffect, paper_view_of
+from occ_model.effects.effect import OpticsEffect, paper_view_of
 from occ_model.effects.registry import NAMES, effects_named
+from occ_model.effects.sensor_effects import Jpeg
 from occ_model.simulation.columns import expose_columns
 
 GREYS = np.arange(256.0)
-_OFF = [*effects_named(NAMES, FileEffect), *effects_named(NAMES, OpticsEffect)]
+_OFF = [*effects_named(NAMES, Jpeg), *effects_named(NAMES, OpticsEffect)]
 FORCE = {effect.name: False for effect in _OFF} | {"sensor-noise": True, "fixed-pattern": True}
 FEWEST_COLUMNS = 20
 NO_SPREAD = 1e-6  # grey levels

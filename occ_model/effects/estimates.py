@@ -35,8 +35,12 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
     observed = SampledObservable(names, observe, (*pixels.moving, *noises))
     region = pixels.view.region
     count = region.rows * region.columns
-    doubt = unsampled_rim_square(pixels, pixels.table.contrast**2 / count)
-    _doubt_rims(pixels, observed, doubt, 3.0 * pixels.table.contrast**2)
+    if pixels.sample.outline:
+        doubt = unsampled_rim_square(pixels, pixels.table.contrast**2 / count)
+        square = 3.0 * pixels.table.contrast**2
+        observed.doubt.update(
+            {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
+        )
     if file is None:
         drawn = {name: pixels.noise_square(name) for name in noises} | pixels.drawn_changes
         for name, moved in drawn.items():
@@ -65,14 +69,6 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
     return observed
 
 
-def _doubt_rims(
-    pixels: SampledPixels, observed: SampledObservable, doubt: float, square: float
-) -> None:
-    """Add doubt, and an error of upright rims, to each effect that moves or blurs the outline."""
-    for name in pixels.sample.outline:
-        observed.doubt[name] = doubt + square * pixels.rims.upright_rim_error(name)
-
-
 def observe_profile(pixels: SampledPixels) -> SampledObservable:
     """Observe the means of the columns, after rounding, clipping and the file."""
     names, sample, file = pixels.names, pixels.sample, pixels.file
@@ -90,9 +86,13 @@ def observe_profile(pixels: SampledPixels) -> SampledObservable:
 
     observed = SampledObservable(names, observe, sorted(names))
     region = pixels.view.region
-    square = pixels.table.contrast**2
-    doubt = unsampled_rim_square(pixels, square / (region.rows**2 * region.columns))
-    _doubt_rims(pixels, observed, doubt + cut_block_square(pixels), square)
+    if pixels.sample.outline:
+        square = pixels.table.contrast**2
+        doubt = unsampled_rim_square(pixels, square / (region.rows**2 * region.columns))
+        doubt += cut_block_square(pixels)
+        observed.doubt.update(
+            {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
+        )
     if file is None:
         noises = {name: pixels.noise_square(name) for name in pixels.variances}
         squares = {name: moved.mean / rows for name, moved in noises.items()}

@@ -9,7 +9,6 @@ from occ_model.effects.effect import Effect
 from occ_model.effects.light_effects import Flicker, LedEdges
 from occ_model.effects.optics_effects import Defocus, Emission, Vignetting
 from occ_model.effects.sensor_effects import FixedPattern, FullWell, Jpeg, SensorNoise
-from occ_model.results.frame import Plan
 
 EFFECTS: tuple[Effect, ...] = (
     LedEdges(),
@@ -27,11 +26,6 @@ EFFECTS: tuple[Effect, ...] = (
 NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
 
 _Kind = TypeVar("_Kind", bound=Effect)
-
-
-def effects_planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
-    """Return the effects of a kind that a plan includes, in order."""
-    return effects_named(plan.included, kind)
 
 
 def effects_named(names: Collection[str], kind: type[_Kind]) -> tuple[_Kind, ...]:

@@ -15,7 +15,7 @@ from occ_model.camera.picture_rows import LitPanel, PictureRows, split_at, split
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect, PaperView, paper_view_of, region_of
 from occ_model.effects.plan import plan_of_any
-from occ_model.effects.registry import NAMES, effects_planned
+from occ_model.effects.registry import NAMES, effects_named
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import light_of
 from occ_model.results.decoding import Region
@@ -173,7 +173,7 @@ def _fastest_change(transmitter: Transmitter) -> float:
 
 def _optics_of(view: PaperView, effect_plan: Plan) -> Optics:
     optics = Optics(view.corners)
-    for effect in effects_planned(effect_plan, OpticsEffect):
+    for effect in effects_named(effect_plan.included, OpticsEffect):
         optics = effect.apply(view.scene, optics)
     return optics
 

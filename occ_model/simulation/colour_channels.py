@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.camera.photometry import ColumnLight, panel_values
 from occ_model.effects.effect import LightEffect, PaperView, paper_view_of
-from occ_model.effects.registry import effects_planned
+from occ_model.effects.registry import effects_named
 from occ_model.results.frame import Plan
 from occ_model.scene.colour_scenes import channel_scene, filter_scene
 from occ_model.scene.scene import Scene
@@ -21,7 +21,7 @@ def channel_views(scene: Scene, leds: Sequence[PaperView], plan: Plan) -> list[P
     lights = []
     for led in leds:
         light = led.light
-        for effect in effects_planned(plan, LightEffect):
+        for effect in effects_named(plan.included, LightEffect):
             light = effect.apply(led.scene, light)
         lights.append(light)
     views = []

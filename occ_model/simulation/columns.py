@@ -16,7 +16,7 @@ from occ_model.camera.photometry import panel_values, saturate, surroundings_val
 from occ_model.camera.picture_rows import PanelPart
 from occ_model.effects.effect import LightEffect, PaperView
 from occ_model.effects.noise import enhancement_of, law_of
-from occ_model.effects.registry import effects_planned
+from occ_model.effects.registry import effects_named
 from occ_model.effects.sensor_effects import FullWell
 from occ_model.results.frame import Plan
 from occ_model.simulation.stage_timer import StageTimer
@@ -38,7 +38,7 @@ class Columns:
 def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = None) -> Columns:
     timer = timer or StageTimer()
     scene, light, panel = view.scene, view.light, view.values
-    for effect in effects_planned(chosen, LightEffect):
+    for effect in effects_named(chosen.included, LightEffect):
         light = effect.apply(scene, light)
         timer.end_stage(effect.name)
     if light is not view.light:
@@ -46,7 +46,7 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
     surroundings = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     profile, around = panel, surroundings
     timer.end_stage("exposure")
-    for limit in effects_planned(chosen, FullWell):
+    for limit in effects_named(chosen.included, FullWell):
         profile, around = limit.apply(scene, profile), limit.apply(scene, around)
         timer.end_stage(limit.name)
     profile, around = saturate(profile), saturate(around)

@@ -18,11 +18,10 @@ from occ_model.camera.picture_rows import (
     PictureRows,
     Rows,
     split_at,
-    split_into_blocks,
 )
 from occ_model.effects.effect import OpticsEffect, PaperView
 from occ_model.effects.noise import noise_of
-from occ_model.effects.registry import effects_planned
+from occ_model.effects.registry import effects_named
 from occ_model.effects.sensor_effects import FullWell, Jpeg
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Plan
@@ -47,9 +46,8 @@ class PixelExposure:
     """The pixels of a picture.
 
     ``bands`` are the rows to expose, in order, all but the last of them whole blocks of a JPEG
-    file; None exposes all. With ``panel_only`` the file has only the blocks that show the panel,
-    which do not depend on others. ``mean`` are the mean pixel values, if they are not those of a
-    single panel.
+    file. With ``panel_only`` the file has only the blocks that show the panel, which do not depend
+    on others. ``mean`` are the mean pixel values, if they are not those of a single panel.
     """
 
     def __init__(
@@ -58,7 +56,7 @@ class PixelExposure:
         plan: Plan,
         columns: Columns,
         timer: StageTimer,
-        bands: Sequence[range] | None = None,
+        bands: Sequence[range],
         *,
         panel_only: bool = False,
         mean: PictureRows | None = None,
@@ -68,22 +66,21 @@ class PixelExposure:
         self._region = view.region
         self._timer = timer
         self._columns = columns
-        self._limits = effects_planned(plan, FullWell)
+        self._limits = effects_named(plan.included, FullWell)
         self._noise = noise_of(scene, plan.included)
-        self._files = effects_planned(plan, Jpeg)
-        self._bands = bands or split_into_blocks(range(scene.camera.rows), scene.camera.columns)
-        height = sum(len(band) for band in self._bands)
-        self._shape = (height, scene.camera.columns)
+        self._files = effects_named(plan.included, Jpeg)
+        self._bands = bands
+        self._shape = (sum(len(band) for band in bands), scene.camera.columns)
         for file in self._files:
             file.check_size(scene, self._shape)
         self._optics = Optics(view.corners)
-        for effect in effects_planned(plan, OpticsEffect):
+        for effect in effects_named(plan.included, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
             timer.end_stage(effect.name)
         if self._optics.is_plain and not self._files and view.sides:
             # Then all rows of a band are equal.
             ends = self._region.first_row, self._region.last_row
-            self._bands = [part for band in self._bands for part in split_at(band, ends)]
+            self._bands = [part for band in bands for part in split_at(band, ends)]
         self._brightest = math.inf
         if mean is None:
             lit = LitPanel(self._optics, columns.panel)

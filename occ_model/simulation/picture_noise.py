@@ -16,7 +16,7 @@ from occ_model.simulation.pixel_draw import GainPattern, PictureNumbers, dither
 
 _TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
 
-_CHUNK = 16  # rows drawn at once, whose arrays stay in the processor's cache
+_CHUNK = 32  # rows drawn at once: their arrays stay in the cache, and threads hardly wait
 
 
 class PictureNoise:

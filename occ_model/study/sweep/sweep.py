@@ -209,16 +209,16 @@ def run_sweep(
     """Measure the points of a sweep's request.
 
     ``executor``: any executor of ``concurrent.futures`` whose workers can import this package, such
-    as ``ProcessPoolExecutor(2)`` or a dask ``client.get_executor()``. If it breaks, this
-    process finishes the sweep and issues a ``RuntimeWarning``. Without an executor, ``jobs``
-    processes are started, at most one per point and a few per core, and replaced if they die. With
-    one job, the sweep runs in this process; so it does, with a ``RuntimeWarning``, if the system
-    cannot start processes. The calling module must not call this when it is imported (``if __name__
-    == "__main__":``). ``progress``: called after each point, and several times a second during a
-    long point, with the points done, all points, and the seconds left (NaN at first). An exception
-    from it ends the sweep and is passed on. ``results``: a CSV file to which each point is written
-    at once. If it contains a part of this same sweep, even of one that was killed, only the
-    remainder is measured; a complete file is in the order of the axes.
+    as ``ProcessPoolExecutor(2)``. If it breaks, this process finishes the sweep and issues a
+    ``RuntimeWarning``. Without an executor, ``jobs`` processes are started, at most one per point
+    and a few per core, and replaced if they die. With one job, the sweep runs in this process; so
+    it does, with a ``RuntimeWarning``, if the system cannot start processes. The calling module
+    must not call this when it is imported (``if __name__ == "__main__":``). ``progress``: called
+    after each point, and several times a second during a long point, with the points done, all
+    points, and the seconds left (NaN at first). An exception from it ends the sweep and is passed
+    on. ``results``: a CSV file to which each point is written at once. If it contains a part of
+    this same sweep, even of one that was killed, only the remainder is measured; a complete file is
+    in the order of the axes.
     """
     counts = SweepCounts(request)
     measure_study(

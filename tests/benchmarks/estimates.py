@@ -19,13 +19,7 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from physics.effect_world import (
-    change_of,
-    large_scene_of,
-    observe_with,
-    present_effects,
-    scene_of,
-)
+from physics.effect_world import large_scene_of, measured_changes, scene_of
 
 import occ_model as occ
 from occ_model.scene.scene import Observable, Scene
@@ -46,18 +40,11 @@ def compared(
 ) -> Iterator[tuple[str, str, float, float, float]]:
     """Yield observable, effect, estimate, limit and change; a plan's tolerance is both of these."""
     for observable in BEFORE_DECISION:
-        everything = occ.plan(scene, 0.0, observable)
-        effects, stretch = present_effects(everything), everything.stretch
-        complete = observe_with(scene, effects, observable, seed)
-        change = change_of(scene, complete, observable, seed, stretch)
-        for decision in everything.decisions:
-            if decision.included:
-                name = decision.effect
-                sizes = decision.estimate, decision.limit
-                yield observable, name, *sizes, change(effects - {name})
-        for tolerance in tolerances:
-            chosen = present_effects(occ.plan(scene, tolerance, observable))
-            yield observable, f"tolerance {tolerance:g}", tolerance, tolerance, change(chosen)
+        of_effects, of_plans = measured_changes(scene, observable, seed, tolerances)
+        for decision, change in of_effects:
+            yield observable, decision.effect, decision.estimate, decision.limit, change
+        for tolerance, change in zip(tolerances, of_plans, strict=True):
+            yield observable, f"tolerance {tolerance:g}", tolerance, tolerance, change
 
 
 def presets() -> None:

@@ -1,14 +1,14 @@
 """A world of scenes wider than the sliders, to test the plan's promise and its estimates."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
 from scene_values import presets_of_codes
 
 import occ_model as occ
-from occ_model.results.frame import Plan
+from occ_model.results.frame import Decision, Plan
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Observable, Scene
@@ -159,16 +159,22 @@ def observe_with(
     return observe(scene, occ.plan(scene, math.inf, observable, force), seed=seed).astype(float)
 
 
-def change_of(
-    scene: Scene, whole: np.ndarray, observable: Observable, seed: int, stretch: float
-) -> Callable[[frozenset[str]], float]:
-    """Return what all effects but some change, which is simulated once for each set of them."""
+def measured_changes(
+    scene: Scene, observable: Observable, seed: int, tolerances: Sequence[float] = ()
+) -> tuple[list[tuple[Decision, float]], list[float]]:
+    """Return what leaving out each effect of a scene changes, and each plan at some tolerances."""
+    everything = occ.plan(scene, 0.0, observable)
+    effects = present_effects(everything)
+    whole = observe_with(scene, effects, observable, seed)
 
     @cache
     def change(included: frozenset[str]) -> float:
-        return rms(whole - observe_with(scene, included, observable, seed)) * stretch
+        seen = observe_with(scene, included, observable, seed)
+        return rms(whole - seen) * everything.stretch
 
-    return change
+    of_effects = [(d, change(effects - {d.effect})) for d in everything.decisions if d.included]
+    plans = (occ.plan(scene, tolerance, observable) for tolerance in tolerances)
+    return of_effects, [change(present_effects(plan)) for plan in plans]
 
 
 def rms(change: np.ndarray) -> float:

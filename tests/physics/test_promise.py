@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from amount import amount
 from physics.effect_world import (
-    change_of,
     large_scene_of,
+    measured_changes,
     observe_with,
     present_effects,
     rms,
@@ -40,17 +40,10 @@ def changes(
 ) -> tuple[list[tuple[float, float, float]], list[float]]:
     """Return each effect's estimate, limit and change, and plans' changes over the tolerance."""
     scene = large_scene_of(number) if is_large else scene_of(number)
-    everything = occ.plan(scene, 0.0, observable)
-    effects = present_effects(everything)
-    whole = observe_with(scene, effects, observable, number)
-    change = change_of(scene, whole, observable, number, everything.stretch)
-    pairs = [
-        (decision.estimate, decision.limit, change(effects - {decision.effect}))
-        for decision in everything.decisions
-        if decision.included
-    ]
-    plans = [occ.plan(scene, tolerance, observable) for tolerance in TOLERANCES]
-    return pairs, [change(present_effects(chosen)) / chosen.tolerance for chosen in plans]
+    of_effects, of_plans = measured_changes(scene, observable, number, TOLERANCES)
+    pairs = [(decision.estimate, decision.limit, change) for decision, change in of_effects]
+    fractions = zip(of_plans, TOLERANCES, strict=True)
+    return pairs, [change / tolerance for change, tolerance in fractions]
 
 
 def ratios_of(observable: Observable) -> np.ndarray:
@@ -187,14 +180,8 @@ def test_an_estimate_for_a_real_scene_is_within_half_of_the_truth(
     name: str, observable: Observable
 ) -> None:
     scene = shrink_scene(occ.load_preset(name))
-    everything = occ.plan(scene, 0.0, observable)
-    effects = present_effects(everything)
-    whole = observe_with(scene, effects, observable, 1)
-    for decision in everything.decisions:
-        if decision.included:
-            without = observe_with(scene, effects - {decision.effect}, observable, 1)
-            change = rms(whole - without) * everything.stretch
-            assert abs(math.log(max(decision.estimate, 0.3) / max(change, 0.3))) < 0.7, decision
+    for decision, change in measured_changes(scene, observable, 1)[0]:
+        assert abs(math.log(max(decision.estimate, 0.3) / max(change, 0.3))) < 0.7, decision
 
 
 def shrink_scene(scene: Scene) -> Scene:

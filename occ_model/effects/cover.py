@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
+from occ_model.camera.coverage import Coverage
 from occ_model.camera.normal import normal_fraction
 from occ_model.camera.optics import Optics
+from occ_model.results.decoding import Region
 
 NEGLIGIBLE_BLUR = 0.1  # blur in pixels below which no light of a neighbour reaches a pixel
 STEEP_SLOPE = 1.5  # slope, in pixels a pixel, above which a rim counts as steep
@@ -74,6 +76,26 @@ def covers_of(
         else:
             inside = (top > 0.0) & (bottom > 0.0) & (left > 0.0) & (right > 0.0)
             covers[names] = inside.astype(np.float64)
+    return covers
+
+
+def exact_covers(
+    region: Region,
+    rows: FloatArray,
+    outlines: Mapping[str, FloatArray],
+    blurs: Mapping[str, float],
+    plain: Optics,
+) -> dict[frozenset[str], FloatArray | None]:
+    """Return what :func:`covers_of` does for rows in each column of a region, pixel by pixel."""
+    corner = np.array([region.first_column, region.first_row])
+    row = np.clip(np.rint(rows) - region.first_row, 0, region.rows - 1).astype(int)
+    places = row, np.arange(region.columns)[:, None]
+    covers: dict[frozenset[str], FloatArray | None] = {}
+    for names in subsets_of([*outlines, *blurs]):
+        outline = next((outlines[name] for name in outlines if name in names), plain.outline)
+        blur = max((blurs[name] for name in blurs if name in names), default=0.0)
+        coverage = Coverage(outline - corner, region.rows, region.columns, blur)
+        covers[names] = coverage.rows(range(region.rows))[places].astype(np.float64)
     return covers
 
 

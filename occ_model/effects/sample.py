@@ -19,6 +19,7 @@ from occ_model.effects.cover import (
     STEEP_SLOPE,
     Spans,
     covers_of,
+    exact_covers,
     pixel_boundary,
     spans_of,
     subsets_of,
@@ -27,6 +28,7 @@ from occ_model.results.decoding import Region
 
 COLUMNS = 192  # largest number of columns in the sample of a wide picture
 _ALL_COLUMNS = 288  # width of a region up to which all columns are sampled, since each can matter
+_ALL_PIXELS = 2**14  # number of pixels of a region up to which all of them are sampled
 _REACH = 3.5  # distance from a blurred rim, in standard deviations, that its nodes cover
 
 _GAUSS, _GAUSS_WEIGHTS = (
@@ -132,7 +134,11 @@ def choose_sample(
     else:
         spans = [spans_of(outline, columns, 0) for outline in outlines]
         rows, row_weights, first = _choose_rows(region, spans, bool(moved_outlines or blur), blur)
-        covers = covers_of(columns, rows, moved_outlines, blurs, plain)
+        if few and region.rows * region.columns <= _ALL_PIXELS:
+            rows, row_weights, first = _take_all_rows(region, rows[:, first : first + len(_GAUSS)])
+            covers = exact_covers(region, rows, moved_outlines, blurs, plain)
+        else:
+            covers = covers_of(columns, rows, moved_outlines, blurs, plain)
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
     nearest = np.clip((places - along.start + step // 2) // step, 0, len(main) - 1)
@@ -236,6 +242,15 @@ def _choose_rows(
     needed[first : first + len(_GAUSS)] = True
     needed[1:-1] |= needed[2:] | needed[:-2]
     return places[:, needed], fractions[:, needed], int(np.count_nonzero(needed[:first]))
+
+
+def _take_all_rows(region: Region, inner: FloatArray) -> tuple[FloatArray, FloatArray, int]:
+    """Take all rows, and amid them, without a weight, the rows between the rims."""
+    each = np.arange(region.first_row, region.last_row, dtype=np.float64)
+    middle = len(each) // 2
+    above, below = (np.tile(part, (len(inner), 1)) for part in (each[:middle], each[middle:]))
+    weights = np.insert(np.full(len(each), 1.0 / len(each)), [middle] * inner.shape[1], 0.0)
+    return np.hstack([above, inner, below]), np.tile(weights, (len(inner), 1)), middle
 
 
 def _even_nodes(count: int) -> tuple[FloatArray, FloatArray]:

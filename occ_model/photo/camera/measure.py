@@ -108,7 +108,7 @@ def _result(best: "_Along", mains_frequency: float) -> CameraMeasurement:
         depth=depth,
         longest_exposure=_longest_exposure(depth, fit, frequency) if is_single else None,
         waves=waves,
-        reasons=tuple(doubts(lines, fit, is_single=is_single)),
+        reasons=tuple(doubts(fit, is_single=is_single)),
         other_bars=None if math.isnan(fit.other) else fit.other,
     )
 
@@ -127,7 +127,7 @@ class _Along:
         fit, shows_any = self.fit, self.fit.gap_to_none > LEAST_FOR_ANY
         if self.is_single:
             return (shows_any, -tilt_of(self.lines, fit).largest)
-        return (shows_any, -len(doubts(self.lines, fit, is_single=False)), fit.gap_to_none)
+        return (shows_any, -len(doubts(fit, is_single=False)), fit.gap_to_none)
 
 
 def _load(photos: Sequence[Photo | str | Path]) -> list[Photo]:

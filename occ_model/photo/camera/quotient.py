@@ -37,21 +37,15 @@ class LineValues:
         Their standard deviations by the scatter within the line; infinite where nothing is seen.
     places : ndarray of float64, shape (tiles,)
         Middles of the tiles in picture widths from the middle of the picture.
-    texture
-        Scatter of the cells of a line about their mean: what of the room did not cancel.
     lines, columns
         Size of the picture in pixels; lines are read one after the other.
-    shift
-        Columns and lines by which the second picture is shifted.
     """
 
     values: FloatArray
     deviations: FloatArray
     places: FloatArray
-    texture: float
     lines: int
     columns: int
-    shift: tuple[float, float] = (0.0, 0.0)
 
     @property
     def seen(self) -> float:
@@ -78,23 +72,8 @@ def quotient_of_lines(photos: list[Photo], scan_axis: str) -> LineValues:
         ``"lines"`` or ``"columns"`` of the upright photo: what the camera reads one by one.
     """
     first, *others = [_in_cells(photo, scan_axis) for photo in photos]
-    lines, columns = _upright(photos[0], scan_axis).shape
-    shift = (0.0, 0.0)
-    if others:
-        second, shift = _align(first, others[0])
-    else:
-        second = _columns_medians(first)
-    values, deviations, places, texture = _tiles(*_quotient(first, second))
-    step = (columns / first.light.shape[1], lines / first.light.shape[0])
-    return LineValues(
-        values,
-        deviations,
-        places,
-        texture,
-        lines,
-        columns,
-        (shift[0] * step[0], shift[1] * step[1]),
-    )
+    second = _aligned(first, others[0]) if others else _columns_medians(first)
+    return LineValues(*_tiles(*_quotient(first, second)), *_upright(photos[0], scan_axis).shape)
 
 
 def light_of(values: FloatArray) -> FloatArray:
@@ -127,7 +106,7 @@ def _columns_medians(one: _Light) -> _Light:
     return _Light(np.broadcast_to(medians, one.light.shape), np.ones_like(one.light))
 
 
-def _align(first: _Light, second: _Light) -> tuple[_Light, tuple[float, float]]:
+def _aligned(first: _Light, second: _Light) -> _Light:
     """Shift the second picture onto the first by their texture, without the lines' means."""
     window = cv2.createHanningWindow(first.light.shape[::-1], cv2.CV_64F)
     (across, down), response = cv2.phaseCorrelate(
@@ -136,13 +115,13 @@ def _align(first: _Light, second: _Light) -> tuple[_Light, tuple[float, float]]:
     rows, columns = first.light.shape
     is_far = abs(across) > _MOST_SHIFT * columns or abs(down) > _MOST_SHIFT * rows
     if response < _LEAST_RESPONSE or is_far:
-        return second, (0.0, 0.0)
+        return second
     matrix = np.array([[1.0, 0.0, -across], [0.0, 1.0, -down]])
     light, clear = (
         np.asarray(cv2.warpAffine(each, matrix, (columns, rows), flags=cv2.INTER_LINEAR), float)
         for each in (second.light, second.is_clear)
     )
-    return _Light(light, (clear > 0.999).astype(np.float64)), (across, down)
+    return _Light(light, (clear > 0.999).astype(np.float64))
 
 
 def _texture(light: FloatArray) -> FloatArray:
@@ -166,12 +145,10 @@ def _quotient(first: _Light, second: _Light) -> tuple[FloatArray, BoolArray]:
     return np.where(is_seen, (first.light - other) / np.maximum(total, 1e-9), 0.0), is_seen
 
 
-def _tiles(
-    quotient: FloatArray, is_seen: BoolArray
-) -> tuple[FloatArray, FloatArray, FloatArray, float]:
+def _tiles(quotient: FloatArray, is_seen: BoolArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Average the quotient over the columns of each tile, without outliers."""
     ends = np.linspace(0, quotient.shape[1], TILES + 1).round().astype(int)
-    values, deviations, scatters = [], [], []
+    values, deviations = [], []
     for first, last in pairwise(ends):
         seen = np.where(is_seen[:, first:last], quotient[:, first:last], np.nan)
         count = np.isfinite(seen).sum(axis=1)
@@ -184,12 +161,5 @@ def _tiles(
         left = np.maximum(np.isfinite(kept).sum(axis=1), 1)
         values.append(np.nanmean(kept, axis=1))
         deviations.append(np.where(is_enough, np.nanstd(kept, axis=1) / np.sqrt(left), np.inf))
-        scatters.append(spread[is_enough, 0])
     places = 0.5 * (ends[1:] + ends[:-1]) / quotient.shape[1] - 0.5
-    texture = np.concatenate(scatters)
-    return (
-        np.array(values),
-        np.array(deviations),
-        places,
-        float(np.median(texture)) if texture.size else 0.0,
-    )
+    return np.array(values), np.array(deviations), places

@@ -25,14 +25,15 @@ _MOST_MODULATION = 0.5
 # Relative deviations of answers that are doubtful for these reasons, from the same simulated pairs.
 _ERROR_OF_FEW, _ERROR_OF_CHANGING = 0.12, 0.08
 
-# Of one picture, in which the room's own pattern does not cancel:
-_MOST_TEXTURE = 0.1  # scatter along a line, and misfit, over the swing of the bars
-_MOST_TILT = 5e-4  # bars over lines, in radians: what people hang is level to about 1e-2
-_STEEPEST = 0.65  # of its swing by which light changes in a sixteenth of a cycle; lamps: 0.2 to 0.5
-_SLANTED = 0.08  # the same, above which lamps on other phases do not explain it
-
+# Of one picture, in which the room's own pattern does not cancel, slopes in radians:
+_MOST_TILT = 5e-4  # of bars over lines: what people hang is level to about 1e-2
+_SLANTED = 0.08  # above which lamps on other phases do not explain it
 
 _ANOTHER = "Take a second picture a moment later, and give both."
+_ONE_PICTURE = (
+    "One picture does not tell bars of light from what is painted or built, such as slats or the "
+    f"boards of a door. {_ANOTHER}"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +121,7 @@ def stated_deviation(fit: BarsFit) -> float:
     return math.hypot(*parts)
 
 
-def doubts(lines: LineValues, fit: BarsFit, *, is_single: bool) -> list[str]:
+def doubts(fit: BarsFit, *, is_single: bool) -> list[str]:
     """Return sentences on why bars may be others, or their number wrong; none if it is sure."""
     reasons = []
     if fit.bars < _FEWEST_SURE_BARS:
@@ -141,28 +142,7 @@ def doubts(lines: LineValues, fit: BarsFit, *, is_single: bool) -> list[str]:
         reasons.append("The bars change much from one place of the picture to another.")
     if fit.bend_gap > _PERHAPS_BENT:
         reasons.append("The bars seem bent, as by a correction of the lens's distortion.")
-    return [*reasons, *(_doubts_about_one(lines, fit) if is_single else [])]
-
-
-def _doubts_about_one(lines: LineValues, fit: BarsFit) -> list[str]:
-    swing = float(np.median(np.ptp(fit.waves, axis=1)))
-    rough = max(lines.texture, fit.residual)
-    if rough > _MOST_TEXTURE * swing:
-        return [f"One picture does not tell bars of light from the room's own pattern. {_ANOTHER}"]
-    if _steepness(fit) > _STEEPEST:
-        return [f"The bars have sharp edges, as slats do, and exposed light hardly. {_ANOTHER}"]
-    if not tilt_of(lines, fit).is_level:
-        return [
-            f"The bars are not exactly along the lines, as blinds or slats would be. {_ANOTHER}"
-        ]
-    return []
-
-
-def _steepness(fit: BarsFit) -> float:
-    """Return by how much of its swing the light changes in a sixteenth of a cycle, at most."""
-    step = max(1, round(fit.waves.shape[1] / fit.bars / 16.0))
-    changes = np.abs(fit.waves[:, step:] - fit.waves[:, :-step]).max(axis=1)
-    return float(np.median(changes / np.maximum(np.ptp(fit.waves, axis=1), 1e-9)))
+    return [*reasons, _ONE_PICTURE] if is_single else reasons
 
 
 def tilt_of(lines: LineValues, fit: BarsFit) -> _Tilt:

@@ -48,10 +48,12 @@ def measured_along_lines(paths: list[Path], mains: float = 50.0) -> occ.CameraMe
     return occ.measure_camera(paths, mains, scan_axis="lines")
 
 
-def test_an_even_wall_gives_the_readout_time_within_its_error(tmp_path: Path) -> None:
+def test_an_even_wall_gives_the_readout_time_but_is_never_sure(tmp_path: Path) -> None:
+    """Its pixels are those of level slats with soft edges, too."""
     measured = occ.measure_camera(saved(tmp_path, wall()), 50.0)
     error = measured.uncertainties["readout_time"]
-    assert measured.verdict == "sure"
+    assert measured.verdict == "doubtful"
+    assert "One picture does not tell" in measured.reasons[-1]
     assert measured.readout_time == pytest.approx(FRAME / ROWS, abs=3.0 * error)
     assert error < 3e-3 * measured.readout_time
     assert measured.depth == pytest.approx(0.3, abs=0.01)
@@ -111,24 +113,6 @@ def test_bars_bent_by_a_lens_correction_are_refused_by_name(tmp_path: Path) -> N
         measured_along_lines(saved(tmp_path, *bent))
 
 
-@pytest.mark.parametrize("tilt", [0.0, 0.01, -0.02])
-def test_slats_in_one_picture_are_never_sure(tmp_path: Path, tilt: float) -> None:
-    place = np.arange(ROWS)[:, None] + tilt * np.arange(COLUMNS)[None, :]
-    slats = np.where((place / 70.0) % 1.0 < 0.6, 150, 60).astype(np.uint8)
-    assert is_not_sure(saved(tmp_path, slats))
-
-
-def test_one_picture_of_a_textured_room_is_never_sure(tmp_path: Path) -> None:
-    assert is_not_sure(saved(tmp_path, pair()[0]))
-
-
-def is_not_sure(paths: list[Path]) -> bool:
-    try:
-        return measured_along_lines(paths).verdict == "doubtful"
-    except occ.MatchError:
-        return True
-
-
 def test_wrong_arguments_are_refused(tmp_path: Path) -> None:
     paths = saved(tmp_path, wall(), wall(start=0.3)[:-20], wall())
     with pytest.raises(occ.ParameterError, match="photos is 3 pictures; allowed: two pictures"):
@@ -163,7 +147,7 @@ def test_the_result_is_kept_as_json_and_answers_in_a_sentence(tmp_path: Path) ->
     measured = measured_along_lines(saved(tmp_path, wall()))
     kept = json.loads(json.dumps(measured.to_dict()))
     assert kept["readout_time"] == measured.readout_time
-    assert kept["verdict"] == "sure"
+    assert kept["verdict"] == "doubtful"
     assert measured.sentence.startswith("Your camera reads a line in 103.")
     assert measured.longest_exposure == pytest.approx(0.02)
 

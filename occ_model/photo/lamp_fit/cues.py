@@ -10,10 +10,11 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.lamp_fit.fit import LampFit
-from occ_model.photo.lamp_fit.model import COUNT
+from occ_model.photo.lamp_fit.model import BLUR, COUNT, FAR, NEAR
 from occ_model.photo.lamp_fit.readings import readings_of
 from occ_model.products import row_products
 
+_LEAST_BLUR = 0.3  # columns, of which the error is told
 _CHANCE_SCATTER = 0.3 / 4.13  # of edges at random places, as a fraction of the period
 
 
@@ -24,6 +25,7 @@ class Cues:
     floor: float  # Light between the stripes that no reading explains, of their height
     floor_expected: float  # Light between the stripes by the nearest reading, of their height
     blur: float  # Standard deviation
+    blur_error: float  # of it
     ramp: float
     period: float
     edges: int  # in view
@@ -35,7 +37,7 @@ class Cues:
     misfit: float  # Root mean square of the residual that repeats with the period, of their height
     unexplained: float  # Root mean square of all of the residual, of their height
     dips: int  # Times that the envelope falls and rises again
-    gamma: float  # Of the tone curve
+    tension: float  # Of the tone curve: how far it is from usual ones, in deviations
     narrowest: float  # The shorter of a stripe and the gap between two
     white: float  # Fraction of the columns in which pixels are clipped
 
@@ -50,6 +52,7 @@ class Cues:
 def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
     """Measure the cues of a fit; ``rows``: profiles of bands of rows, shape (bands, columns)."""
     wave = fit.wave
+    blur, blur_error = _blur(fit)
     floors = np.array([one.floor for one in readings_of(wave.width, wave.ramp_part)])
     nearest = float(floors[np.argmin(np.abs(floors - fit.floor))])
     shifts, noises = _edge_shifts(fit)
@@ -58,7 +61,8 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
     return Cues(
         floor=abs(fit.floor - nearest),
         floor_expected=nearest,
-        blur=fit.model.blur(fit.values),
+        blur=blur,
+        blur_error=blur_error,
         ramp=wave.ramp_columns,
         period=wave.period,
         edges=len(shifts),
@@ -70,10 +74,21 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
         misfit=_periodic_misfit(fit),
         unexplained=math.sqrt(float(np.mean(fit.residual**2))) / fit.height,
         dips=_dips(fit),
-        gamma=fit.gamma,
+        tension=fit.model.tension(fit.values),
         narrowest=min(wave.width, 1.0 - wave.width) * wave.period,
         white=float(fit.profile.clipped.mean()),
     )
+
+
+def _blur(fit: LampFit) -> tuple[float, float]:
+    """Return the deviation of all blur, in columns, 0 where more is sharpened, and its error."""
+    own = math.exp(2.0 * fit.values[BLUR])
+    moment = own + 2.0 * fit.values[NEAR] + 8.0 * fit.values[FAR]
+    slopes = np.zeros(len(fit.values))
+    slopes[[BLUR, NEAR, FAR]] = 2.0 * own, 2.0, 8.0
+    blur = math.sqrt(max(moment, 0.0))
+    error = math.sqrt(max(float(slopes @ fit.covariance @ slopes), 0.0))
+    return blur, error / (2.0 * max(blur, _LEAST_BLUR))
 
 
 def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:

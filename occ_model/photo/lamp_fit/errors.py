@@ -16,11 +16,13 @@ from occ_model.photo.lamp_fit.readings import StripeReading
 
 _SPREAD = 0.35  # weight of the variances by noise and by edges
 _FEW_EDGES = 14.0  # edges of which each tells the others' spread half as well as many do
-_PERIOD_SHIFT, _SHAPE_SHIFT = 8.0, 12.0
-"""Columns by which all edges alike may be off, if the levels' misfit were all of their swing."""
-_TONE_ERROR, _COMMON_PART = 0.014, 0.2
-"""Parts of an edge's length by which its stripe's two edges may be off for each deviation of the
-tone curve from a usual one, and of that, by which all edges alike may be."""
+_LEAST_FREEDOM = 0.2  # of a column, whose residual a fit follows
+_EDGE_SHIFT, _RAMP_SHIFT = 11.0, 18.0
+"""Columns by which all edges alike, and a ramp's length, may be off, if the levels' misfit were all
+of the stripes' height."""
+_MOST_PROCESSED = 0.6
+"""Columns up to which blur is processing's. By what is more, edges and their lengths may be off: a
+lamp that is slow to light up follows no normal law, and goes out in another way."""
 _UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
 
 
@@ -47,17 +49,19 @@ def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     wave = fit.wave
     free = _free_part(fit, hidden_group)
     hidden = _UNKNOWN * max(0.0, hidden_group * free - wave.ramp_columns - 2.0 * wave.blur)
-    period, place, width, ramp = np.sqrt([_variance(fit, each) for each in _directions(fit)])
-    edge = math.hypot(wave.ramp_columns, math.sqrt(12.0) * wave.blur)
-    of_tone = _TONE_ERROR * fit.model.tension(fit.values) * edge
-    of_view = math.hypot(_PERIOD_SHIFT * cues.unexplained * free**2, hidden, _COMMON_PART * of_tone)
-    of_shape = math.hypot(_SHAPE_SHIFT * cues.unexplained, of_tone, hidden) / wave.period
+    period, place, width, ramp = np.sqrt(_variances(fit))
+    of_view = math.hypot(_EDGE_SHIFT * cues.unexplained * free**2, hidden)
+    slow = math.sqrt(max(cues.blur**2 - _MOST_PROCESSED**2, 0.0))
+    of_edges, of_ramps = (
+        math.hypot(each * cues.unexplained, hidden, slow) / wave.period
+        for each in (_EDGE_SHIFT, _RAMP_SHIFT)
+    )
     smaller = min(wave.width, 1.0 - wave.width)
     return ReadingErrors(
         period=wave.period * math.hypot(period, of_view / len(fit.profile.values)),
         place=math.hypot(place, hidden),
-        width=min(math.hypot(width, of_shape), _UNKNOWN),
-        ramp=min(math.hypot(ramp, of_shape), _UNKNOWN * smaller),
+        width=min(math.hypot(width, of_edges), _UNKNOWN),
+        ramp=min(math.hypot(ramp, of_ramps), _UNKNOWN * smaller),
     )
 
 
@@ -75,23 +79,27 @@ def _directions(fit: LampFit) -> FloatArray:
     return slopes
 
 
-def _variance(fit: LampFit, direction: FloatArray) -> float:
-    """Return the variance of a combination of parameters, by noise and by each edge's own errors.
+def _variances(fit: LampFit) -> FloatArray:
+    """Return the variances of what `_directions` tells, by noise and by each edge's own errors.
 
     What processing does to an edge, its columns share: an edge's residuals are added first (the
-    estimate of Liang and Zeger, Biometrika 73:13, 1986).
+    estimate of Liang and Zeger, Biometrika 73:13, 1986), as if the fit had not followed them.
     """
-    responses = fit.responses @ direction
-    halves = 2.0 * (fit.profile.columns - fit.wave.place) / fit.wave.period
-    edges = np.floor(halves).astype(int) - math.floor(halves[0])
-    shifts = np.bincount(edges, weights=responses * fit.unfitted)
-    shares = np.bincount(edges, weights=responses**2)
-    total = float(shares.sum())
-    if total == 0.0:
-        return float(direction @ fit.covariance @ direction)
-    effective = total**2 / float(shares @ shares)
-    both = float(shifts @ shifts) + float(direction @ fit.covariance @ direction)
-    return _SPREAD * both * (1.0 + _FEW_EDGES / effective)
+    slopes, directions = fit.slopes, _directions(fit)
+    followed = slopes @ fit.inverse
+    leverages = np.einsum("ij,ij->i", followed, slopes)
+    freedom = np.maximum(1.0 - leverages, _LEAST_FREEDOM)
+    unfitted = fit.residual / (fit.noise * np.sqrt(freedom))
+    responses = followed @ directions.T
+    edges = np.floor(2.0 * (fit.profile.columns - fit.wave.place) / fit.wave.period)
+    first = np.flatnonzero(np.diff(edges, prepend=edges[0] - 1.0))  # column of each edge
+    shifts = np.add.reduceat(responses * unfitted[:, None], first)
+    shares = np.add.reduceat(responses**2, first)
+    by_noise = np.einsum("ij,jk,ik->i", directions, fit.covariance, directions)
+    both = np.sum(shifts**2, axis=0) + by_noise
+    of_few = np.sum(shares**2, axis=0) / np.maximum(np.sum(shares, axis=0) ** 2, 1e-300)
+    by_edges = _SPREAD * both * (1.0 + _FEW_EDGES * of_few)
+    return np.asarray(np.where(of_few > 0.0, by_edges, by_noise), dtype=np.float64)
 
 
 def _free_part(fit: LampFit, group: float) -> float:

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -42,7 +41,6 @@ _FITTED_STARTS, _HOPELESS = 3, 400.0
 """Starts that are fitted to the end, and evidence behind the best from which none is."""
 _FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # of each round, after which the noise is estimated anew
 _MOST_CORRELATION = 0.8
-_LEAST_FREEDOM = 0.2  # of a column, whose residual a fit follows
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,22 +71,11 @@ class LampFit:
     def covariance(self) -> FloatArray:
         return self.inflation * self.inverse
 
-    @cached_property
-    def _slopes(self) -> FloatArray:
+    @property
+    def slopes(self) -> FloatArray:
+        """The slopes of the levels over the parameters, in deviations, shape (columns, n)."""
         slopes = _weighted(self.profile, self.model, self.values, self.noise)
         return slopes[: len(self.noise)]
-
-    @cached_property
-    def responses(self) -> FloatArray:
-        """The change of each parameter by a residual of one deviation, shape (columns, n)."""
-        return np.asarray(self._slopes @ self.inverse)
-
-    @property
-    def unfitted(self) -> FloatArray:
-        """Residuals in deviations, as if the fit had not followed them, shape (columns,)."""
-        leverages = np.einsum("ij,ij->i", self.responses, self._slopes)
-        freedom = np.maximum(1.0 - leverages, _LEAST_FREEDOM)
-        return np.asarray(self.residual / (self.noise * np.sqrt(freedom)))
 
     @property
     def gamma_error(self) -> float:

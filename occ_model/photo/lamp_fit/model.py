@@ -113,11 +113,6 @@ class Levels:
         slopes[before] = self._processed(values, slopes[before])
         return self._processed(values, levels), slopes.T
 
-    def blur(self, values: FloatArray) -> float:
-        """Return the standard deviation of all blur, in columns; 0 where more is sharpened."""
-        moment = math.exp(2.0 * values[BLUR]) + 2.0 * values[NEAR] + 8.0 * values[FAR]
-        return math.sqrt(max(moment, 0.0))
-
     def _processed(self, values: FloatArray, levels: FloatArray) -> FloatArray:
         near, far = values[NEAR], values[FAR]
         return _mixed(levels, 1.0 - 2.0 * (near + far), near, far)

@@ -65,63 +65,50 @@ class GreyLaw:
 
         ``values`` are the pixels' mean values before saturation.
         """
-        return self.interpolate(self._mean_of(curve), values)
+        return self.interpolate(self.mean_of(curve), values)
 
     def moments(self, values: FloatArray, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return mean and standard deviation of ``curve`` over pixels, as :meth:`mean` does."""
-        places = self._places(values)
-        mean, square = (interpolate_at(self._mean_of(each), places) for each in (curve, curve**2))
+        places = self.places(values)
+        mean, square = (interpolate_at(self.mean_of(each), places) for each in (curve, curve**2))
         return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
 
     @cached_property
     def means(self) -> FloatArray:
         """The mean grey level of a pixel at each level, shape (levels,)."""
-        return self._mean_of(np.arange(256.0))
+        return self.mean_of(np.arange(256.0))
 
     @cached_property
     def deviations(self) -> FloatArray:
         """The standard deviation of a pixel's grey level at each level, shape (levels,)."""
-        square = self._mean_of(np.arange(256.0) ** 2)
+        square = self.mean_of(np.arange(256.0) ** 2)
         return np.sqrt(np.maximum(square - self.means**2, 0.0))
 
-    def values_of(self, means: FloatArray) -> FloatArray:
-        """Return the mean values before saturation of pixels with some mean grey levels.
+    @cached_property
+    def values(self) -> FloatArray:
+        """The mean pixel value before saturation of each level, shape (levels,)."""
+        return np.asarray(
+            WHITE * (np.arange(len(self.below)) / self.to_white) ** (1.0 / self.power)
+        )
 
-        They are those of no light where pixels are darker on average, and the brightest of the law
-        where all pixels have the top code.
-        """
-        levels = np.interp(means, np.maximum.accumulate(self.means), np.arange(len(self.means)))
-        return np.asarray(WHITE * (levels / self.to_white) ** (1.0 / self.power))
+    def at_means(self, of_levels: FloatArray, means: FloatArray) -> FloatArray:
+        """Interpolate a quantity, given for each level, at pixels of some mean grey levels."""
+        return np.interp(means, self._rising_means, of_levels)
 
-    def gaps(self, values: FloatArray) -> FloatArray:
-        """Return how far pixels move that change if their mean changes by a little, d.
+    @cached_property
+    def _rising_means(self) -> FloatArray:
+        return np.asarray(np.maximum.accumulate(self.means))
 
-        The mean square of the changes is d times it, if pixels keep their random numbers. Dark
-        pixels move by much more than the next grey level, where the tone curve is steep.
-        """
-        level = self._places(values)[0]
-        ends = np.concatenate([self.below[level], self.below[level + 1]], axis=1)
-        order = np.argsort(ends, axis=1)
-        is_before = order < self.below.shape[1]
-        before, after = (np.cumsum(ended, axis=1) for ended in (is_before, ~is_before))
-        moved = np.abs(self.greys[before] - self.greys[after])
-        ends = np.take_along_axis(ends, order, axis=1)
-        moving = np.diff(ends, axis=1, append=1.0) * moved
-        squares = (moving * moved).sum(axis=1)
-        return np.asarray((squares + 1e-12) / (moving.sum(axis=1) + 1e-12))
-
-    def fraction_below(self, grey: int, values: FloatArray) -> FloatArray:
-        """Return the probability of a grey level below ``grey``."""
+    def fraction_below(self, grey: int) -> FloatArray:
+        """Return the probability of a grey level below ``grey``, at each level."""
         rank = int(np.searchsorted(self.greys, grey))
-        if rank == 0:
-            return np.zeros(values.shape)
-        if rank == len(self.greys):
-            return np.ones(values.shape)
-        return self.interpolate(self.below[:, rank - 1], values)
+        if 0 < rank < len(self.greys):
+            return self.below[:, rank - 1]
+        return np.full(len(self.below), float(rank > 0))
 
     def histogram(self, values: FloatArray, weights: FloatArray) -> FloatArray:
         """Return the expected number of pixels of each of 256 grey levels, by their weights."""
-        levels = divide_weights(weights, self._places(values), len(self.below))
+        levels = divide_weights(weights, self.places(values), len(self.below))
         used = np.flatnonzero(levels)
         counts: FloatArray = np.zeros(GREYS)
         counts[self.greys] = np.maximum(levels[used] @ self._fractions[used], 0.0)
@@ -129,14 +116,15 @@ class GreyLaw:
 
     def interpolate(self, of_levels: FloatArray, values: FloatArray) -> FloatArray:
         """Interpolate a quantity, given for each level, at mean pixel values."""
-        return interpolate_at(of_levels, self._places(values))
+        return interpolate_at(of_levels, self.places(values))
 
-    def _places(self, values: FloatArray) -> Places:
+    def places(self, values: FloatArray) -> Places:
+        """Return the places of mean pixel values before saturation among the levels."""
         levels = self.to_white * (np.maximum(values, 0.0) / WHITE) ** self.power
         np.minimum(levels, self.last, out=levels)
         return split_levels(levels)
 
-    def _mean_of(self, curve: FloatArray) -> FloatArray:
+    def mean_of(self, curve: FloatArray) -> FloatArray:
         """Return the mean of a curve at each level."""
         own = curve[self.greys]
         return np.asarray(own[-1] - self.below @ np.diff(own))

@@ -24,12 +24,10 @@ from occ_model.transmitter.scheme import check_code
 def observe_image(pixels: SampledPixels) -> SampledObservable:
     """Observe the pixels, whose noise changes with their mean."""
     names, file = pixels.names, pixels.file
-    spread = pixels.spread(names)
-    fraction = pixels.interpolate_at_pixels(1.0 + pixels.table.slope(spread) ** 2)
-    weights = np.sqrt(fraction * pixels.sample.pixel_weights).ravel()
+    weights = np.sqrt(pixels.sample.pixel_weights).ravel()
 
     def observe(sets: Sequence[Names]) -> FloatArray:
-        return pixels.values(sets).reshape(len(sets), -1) * weights
+        return pixels.stored_values(sets).reshape(len(sets), -1) * weights
 
     noises = tuple(pixels.variances)
     observed = SampledObservable(names, observe, (*pixels.moving, *noises))
@@ -42,8 +40,7 @@ def observe_image(pixels: SampledPixels) -> SampledObservable:
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
     if file is None:
-        drawn = {name: pixels.noise_square(name) for name in noises} | pixels.drawn_changes
-        for name, moved in drawn.items():
+        for name, moved in pixels.drawn_changes.items():
             observed.independent[name] = moved.mean
             observed.add_doubt([name], moved.doubt(count))
     else:
@@ -94,12 +91,13 @@ def observe_profile(pixels: SampledPixels) -> SampledObservable:
             {n: doubt + square * pixels.rims.upright_rim_error(n) for n in pixels.sample.outline}
         )
     if file is None:
-        noises = {name: pixels.noise_square(name) for name in pixels.variances}
-        squares = {name: moved.mean / rows for name, moved in noises.items()}
-        observed.add_noise(squares, region.columns)
         for name, moved in pixels.drawn_changes.items():
             observed.independent[name] = moved.mean / rows
-            observed.add_doubt([name], moved.doubt(region.columns, rows))
+            if name in pixels.moving:
+                observed.add_doubt([name], moved.doubt(region.columns, rows))
+            else:  # noise of a known law
+                doubt = moved.relative_doubt(region.columns, rows)
+                observed.bound_factors[name] = 1.0 + doubt / 2.0
     else:
         observed.independent.update(
             {n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()}
@@ -135,7 +133,10 @@ def observe(pixels: SampledPixels, observable: Observable) -> SampledObservable:
     if observable == "image":
         observed = observe_image(pixels)
     else:
-        observed = observe_profile(pixels) if observable == "profile" else observe_signal(pixels)
+        # Without enhancement, pixels from a file are those of the profile, whole grey levels.
+        is_plain = pixels.scene.model.enhancement == "none" and pixels.file is not None
+        of_columns = observe_profile if observable == "profile" or is_plain else observe_signal
+        observed = of_columns(pixels)
     if pixels.file is not None:
         observed.uncertainty = _UNDITHERED_FRACTION * pixels.file.undithered_fraction
         doubt = pixels.file.undithered_square()

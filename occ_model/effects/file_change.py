@@ -251,15 +251,17 @@ class FileChange:
         """Return the standard deviation of a pixel's noise after the file."""
         return np.interp(spread, _NOISES, _tabulate_noise_read_back(self._all.tobytes()))
 
-    def noise_squares(self, own: FloatArray, rest: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def noise_squares(
+        self, squares: FloatArray, variances: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Return the mean square of each noise after the file, in pixels and in column means.
 
-        Each noise counts as the change when it alone is removed, which leaves the noise ``rest``.
+        ``squares`` are the mean square changes before it when each noise alone is removed,
+        ``variances`` what each adds to the variance of pixels.
         """
-        rest = np.sqrt(rest**2 + _ROUNDING_VARIANCE)
-        own = np.sqrt(own**2 + rounding_growth_by_noise(own))
-        step, q = self._step[:, 0], self._others
-        spreads = np.append(rest, np.hypot(own[:1], rest[:1]))[:, None]
+        own, step, q = np.sqrt(squares), self._step[:, 0], self._others
+        total = float(variances.sum())
+        spreads = np.sqrt(np.append(total - variances, total) + _ROUNDING_VARIANCE)[:, None]
         x = self._x[0].mean(axis=2)
         variances = variance_after_rounding(x, (spreads / step)[:, None]).mean(axis=1)
         most = (own[:, None] / step) ** 2 + rounding_growth_by_noise(own[:, None] / step)

@@ -1,7 +1,7 @@
 """The observable of a sample of pixels, and its change without some of the effects."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,14 +23,18 @@ class RandomSquare:
     mean_of_squares: float = 0.0  # Mean over the pixels of the square of each one's mean square
     mean_fourth: float = 0.0  # Mean fourth power of the changes
 
+    @property
+    def first_two(self) -> tuple[float, float]:
+        return self.mean, self.mean_of_squares
+
     def doubt(self, values: int, pixels: int = 1) -> float:
         """Return how far it may be exceeded in one picture, of means over so many pixels each."""
         variance = 2.0 * self.mean_of_squares + self.mean_fourth / pixels
         return SURE_DEVIATIONS * math.sqrt(variance / values) / pixels
 
-    def relative_doubt(self, values: int) -> float:
+    def relative_doubt(self, values: int, pixels: int = 1) -> float:
         """Return :meth:`doubt` as a fraction of the mean."""
-        return self.doubt(values) / self.mean if self.mean else 0.0
+        return self.doubt(values, pixels) * pixels / self.mean if self.mean else 0.0
 
 
 class SampledObservable:
@@ -65,16 +69,6 @@ class SampledObservable:
         self.complete = values[0]
         self._moved = moved = values[1:] - values[0]
         self._products = moved @ moved.T
-
-    def add_noise(self, squares: Mapping[str, float], values: int) -> None:
-        """Add noise of a known law, by mean squares over a number of independent ``values``.
-
-        The RMS of n normal numbers has a relative standard deviation of 1 / sqrt(2 n).
-        """
-        self.independent.update(squares)
-        self.bound_factors.update(
-            dict.fromkeys(squares, 1.0 + SURE_DEVIATIONS / math.sqrt(2.0 * values))
-        )
 
     def add_doubt(self, names: Iterable[str], square: float) -> None:
         """Add a mean square that the sample may have missed to each of some effects."""

@@ -60,12 +60,20 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
         return pixels.mean_of_rows(signals) * weights
 
     observed = SampledObservable(pixels.names, compute_signals, sorted(pixels.names))
-    sampling = SignalSampling(pixels, curves)
-    observed.independent.update(sampling.effect_squares())
+    region = pixels.view.region
+    if pixels.file is None and pixels.noisy.is_drawn(pixels.names):
+        greys = pixels.columns.enhancement(pixels.names).curve.astype(np.float64)
+        inside = pixels.panel_mask([pixels.names])
+        squares = pixels.random_squares(greys, None if inside is None else inside[0])
+        means = {name: moved.mean / region.rows for name, moved in squares.items()}
+        fluctuations = {n: m.doubt(region.columns, region.rows) for n, m in squares.items()}
+    else:
+        sampling = SignalSampling(pixels, curves)
+        means, fluctuations = sampling.effect_squares(), sampling.fluctuations()
+        observed.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
+    observed.independent.update(means)
     add_unsampled(pixels, observed, curves)
-    fluctuations = sampling.fluctuations()
-    observed.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
-    region, contrast = pixels.view.region, float(np.ptp(observed.complete / weights))
+    contrast = float(np.ptp(observed.complete / weights))
     step_size = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM

@@ -18,20 +18,14 @@ from occ_model.effects.effect import (
 )
 from occ_model.effects.file_change import FileChange
 from occ_model.effects.level_table import LevelTable
-from occ_model.effects.noisy_pixels import NoisyPixels
-from occ_model.effects.normal_noise import (
-    rounding_growth,
-    rounding_growth_by_noise,
-    rounding_mean,
-)
+from occ_model.effects.noisy_pixels import GREYS, NoisyPixels
+from occ_model.effects.normal_noise import rounding_growth_by_noise, rounding_mean
 from occ_model.effects.observed import RandomSquare
 from occ_model.effects.registry import effects_named
 from occ_model.effects.rims import Rims
 from occ_model.effects.sampled_light import SampledLight, sample_of
 from occ_model.effects.sensor_effects import FullWell, Jpeg, quantization_steps
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
-
-_LEVELS_A_GAP = 4  # levels of the table for each at which gaps are computed
 
 _DITHERING_NOISE = 0.5  # noise in grey levels above which rounding does not change a pixel's mean
 
@@ -54,6 +48,7 @@ class SampledPixels:
         self.files = effects_named(self.names, Jpeg)
         self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
         self._moving = frozenset(self.moving)
+        self._sets = [self.names, *(self.names - {name} for name in self.moving)]
         self._noisy = frozenset(effect.name for effect in self.noises)
         self._spread_of: dict[Names, tuple[FloatArray, float]] = {}
         self.sample = sample_of(view, self.lenses, in_blocks=bool(self.files))
@@ -76,8 +71,7 @@ class SampledPixels:
     @cached_property
     def stack(self) -> FloatArray:
         """The pixels' mean values with all effects, and without each of ``moving``."""
-        sets = [self.names, *(self.names - {name} for name in self.moving)]
-        return self.values(sets)
+        return self.values(self._sets)
 
     @property
     def complete_values(self) -> FloatArray:
@@ -115,12 +109,6 @@ class SampledPixels:
     def variances(self) -> dict[str, FloatArray]:
         """What each noise adds to a pixel's variance, at each level."""
         return {e.name: self.noisy.variance_by(e.name, self.table.levels) for e in self.noises}
-
-    @cached_property
-    def gaps(self) -> FloatArray:
-        """How far drawn pixels move that change, at each level; 0 without noise."""
-        some = self.table.levels[::_LEVELS_A_GAP]
-        return np.interp(self.table.levels, some, self.noisy.gaps(some))
 
     def spread(self, included: Names) -> FloatArray:
         """Return the noise's standard deviation at each level, with some effects."""
@@ -170,34 +158,47 @@ class SampledPixels:
             self.stack,
             self.noise_rms(self.names),
             self.rims,
-            np.pad(self._moved[:2], ((0, 0), (1, 0))),
+            np.array([(0.0, 0.0), *(self.drawn_changes[n].first_two for n in self.moving)]).T,
         )
-
-    def noise_square(self, name: str) -> RandomSquare:
-        """Return the mean square change of pixels without a noise, apart from their means'.
-
-        Drawn pixels of other gains change by whole gaps between grey levels.
-        """
-        square, gaps = self.variances[name], np.maximum(self.gaps, 1.0)
-        if self.noisy.is_drawn(self.names - {name}):
-            square = square + gaps**2 * rounding_growth_by_noise(np.sqrt(square) / gaps)
-        return RandomSquare(*map(self.mean_over_pixels, (square, square**2, square * gaps**2)))
 
     @cached_property
     def drawn_changes(self) -> dict[str, RandomSquare]:
         """What drawing whole grey levels adds to the mean square change of pixels, by effect."""
+        return self.random_squares(GREYS)
+
+    def random_squares(
+        self, curve: FloatArray, inside: BoolArray | None = None
+    ) -> dict[str, RandomSquare]:
+        """Return what differs from pixel to pixel in the change without each effect.
+
+        ``curve`` is a curve of the grey levels ``inside`` the panel, or everywhere.
+        """
+        names = (*self.moving, *self.variances)
         if not self.noisy.is_drawn(self.names):
-            return dict.fromkeys(self.moving, RandomSquare())
-        means = self._moved.T.tolist()
-        return {name: RandomSquare(*own) for name, own in zip(self.moving, means, strict=True)}
+            squares = np.zeros((len(names), *self.sample.rows.shape))
+            for place, variance in enumerate(self.variances.values(), len(self.moving)):
+                squares[place] = self.interpolate_at_pixels(variance)
+            steps = np.ones(1)
+            if self.files:
+                squares += rounding_growth_by_noise(np.sqrt(squares))
+        else:
+            squares, steps = self._drawn_squares(curve)
+            if inside is not None:
+                squares, steps = np.where(inside, (squares, steps), self._drawn_squares(GREYS))
+        parts = np.stack([squares, squares**2, squares * steps**2])
+        means = np.einsum("pecn,cn->ep", parts, self.sample.pixel_weights)
+        return {name: RandomSquare(*own) for name, own in zip(names, means.tolist(), strict=True)}
+
+    def _drawn_squares(self, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
+        is_rounded = curve is not GREYS or bool(self.files)
+        return self.noisy.drawn_squares(
+            self._sets, self._exposed_places, self.variances, curve, is_rounded=is_rounded
+        )
 
     @cached_property
-    def _moved(self) -> FloatArray:
-        """The means of :class:`RandomSquare`, shape (3, moving)."""
-        gaps = np.maximum(self.interpolate_at_pixels(self.gaps), 1.0)
-        growth = gaps**2 * rounding_growth(np.abs(self.stack[1:] - self.complete_values) / gaps)
-        parts = np.stack([growth, growth**2, growth * gaps**2])
-        return np.asarray(np.einsum("pecn,cn->pe", parts, self.sample.pixel_weights))
+    def _exposed_places(self) -> list[Places]:
+        exposed = self._exposed  # before the law, which depends on the brightest of them
+        return self.noisy.places(self._sets, exposed)
 
     def noise_rms(self, included: Names) -> float:
         """Return the RMS of the noise on the panel with some effects."""
@@ -206,21 +207,25 @@ class SampledPixels:
 
     @cached_property
     def _noise_squares(self) -> dict[str, float]:
-        if not self.variances:
-            return {}
-        inner = self.complete_values[:, self.sample.inner]
-        means = self.table.interpolate(np.stack(list(self.variances.values())), inner).mean(
-            axis=(1, 2)
-        )
-        return dict(zip(self.variances, means.tolist(), strict=True))
+        """The mean variance by each noise between the panel's rims."""
+        inner = self.sample.inner
+        return {n: float(each[:, inner].mean()) for n, each in self._variances_at_pixels.items()}
+
+    @cached_property
+    def _variances_at_pixels(self) -> dict[str, FloatArray]:
+        if self.noisy.is_drawn(self.names):
+            return {n: self.noisy.variance_at(n, self._exposed_places[0]) for n in self.variances}
+        return {n: self.interpolate_at_pixels(each) for n, each in self.variances.items()}
 
     @cached_property
     def noise_read_back(self) -> dict[str, tuple[float, float]]:
         """The mean square of each noise after the file, in pixels and in a column's mean."""
         if self.file is None or not self.variances:
             return {}
-        squares = np.array(list(self._noise_squares.values()))
-        image, mean = self.file.noise_squares(np.sqrt(squares), np.sqrt(squares.sum() - squares))
+        own = np.array([self.drawn_changes[name].mean for name in self.variances])
+        at_pixels = np.stack(list(self._variances_at_pixels.values()))
+        variances = np.einsum("ecn,cn->e", at_pixels, self.sample.pixel_weights)
+        image, mean = self.file.noise_squares(own, variances)
         pairs = zip(image.tolist(), mean.tolist(), strict=True)
         return dict(zip(self.variances, pairs, strict=True))
 
@@ -260,20 +265,24 @@ class SampledPixels:
     def mean_of_columns(self, values: FloatArray) -> float:
         return float(values @ self.sample.weights)
 
+    def stored_values(self, sets: Sequence[Names]) -> FloatArray:
+        """Return the pixels' mean values, of whole levels where a set has the file."""
+        values = self.values(sets)
+        for included, own in zip(sets, values, strict=True):
+            is_stored = any(file.name in included for file in self.files)
+            is_rounded = is_stored and not self.noisy.is_drawn(included)
+            if is_rounded and self.least_noise(included) < _DITHERING_NOISE:
+                own += rounding_mean(own, self.table.interpolate(self.spread(included), own))
+        return values
+
     def values_read_back(self, sets: Sequence[Names]) -> FloatArray:
         """Return the pixels' mean values, after the file where a set has it."""
-        values = self.values(sets)
+        values = self.stored_values(sets)
         with_file = [
             at for at, included in enumerate(sets) if self.files and self.files[0].name in included
         ]
         if self.file is None or not with_file:
             return values
-        for at in with_file:  # the file gets pixels of whole levels
-            if self.noisy.is_drawn(sets[at]):
-                continue  # it is drawn as a whole level
-            if self.least_noise(sets[at]) < _DITHERING_NOISE:
-                spread = self.table.interpolate(self.spread(sets[at]), values[at])
-                values[at] += rounding_mean(values[at], spread)
         noise = np.array([self.noise_rms(sets[at]) for at in with_file])
         values[with_file] = self.file.read_back_means(values[with_file], noise)
         return values

@@ -14,8 +14,10 @@ from occ_model.effects.smoothed_curves import SmoothedCurves
 class SignalSampling:
     """The mean square deviation of a column's mean without each effect.
 
+    It is that of pixels in a file, or of pixels that are not drawn.
+
     A pixel that changes by d crosses a step of the curve with a probability in proportion to d, as
-    noise spreads the pixels of a column, and then moves by a whole gap between grey levels.
+    noise spreads the pixels of a column.
     """
 
     def __init__(self, pixels: SampledPixels, curves: SmoothedCurves) -> None:
@@ -28,8 +30,6 @@ class SignalSampling:
         curve, square, jumps = (curves.tabulate(noises, each) for each in (greys, greys**2, steps))
         self._deviation = np.sqrt(np.maximum(square - curve**2, 0.0))
         self._even = pixels.table.slope(curve) ** 2
-        # The changes by a file include those of the pixels that are stored in it.
-        self._gaps = np.maximum(0.0 if pixels.files else pixels.gaps, np.ones(len(self._even)))
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
         inside = pixels.panel_mask([pixels.names])
         self._inside = None if inside is None else inside[0]  # beside the panel nothing is enhanced
@@ -38,7 +38,7 @@ class SignalSampling:
             self._panel_means(self._even) + self._off_panel_fraction
         )
         pixel_weight = 1.0 / (self._rows**2 * pixels.view.region.columns)
-        moved = (self._even * self._gaps + self._uneven) * self._gaps
+        moved = self._even + self._uneven
         self._pixel = pixels.mean_over_pixels(moved) * pixel_weight
         # One pixel with another random value of its noise.
         self._drawn = pixels.mean_over_pixels(self._even * spread**2) * pixel_weight
@@ -87,7 +87,7 @@ class SignalSampling:
             deviation = np.maximum(np.sqrt(variance), math.sqrt(square_read_back))
             known_square = self._even * total if pixels.files else 0.0  # the file already rounds it
             largest = np.maximum(self._deviation**2 - known_square, 0.0)
-            flips = self._gaps**2 * np.tanh(4.8 * deviation / self._gaps) / 6.0
+            flips = np.tanh(4.8 * deviation) / 6.0
             part = self._even * flips + self._uneven * 0.8 * deviation
             if not pixels.files:
                 part = part + self._even * deviation**2
@@ -133,12 +133,9 @@ class SignalSampling:
             added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.growth)
             by_file = np.maximum(added, 0.0)[:, None, None]
             changes = np.sqrt(changes**2 + by_file)
-        even, uneven, gaps = map(
-            pixels.interpolate_at_pixels, (self._even, self._uneven, self._gaps)
-        )
-        moved = np.minimum(changes / gaps, 0.5)
-        flips = gaps**2 * moved * (1.0 - moved)
-        np.minimum(changes, 0.5 * gaps, out=changes)
+        even, uneven = map(pixels.interpolate_at_pixels, (self._even, self._uneven))
+        np.minimum(changes, 0.5, out=changes)
+        flips = changes * (1.0 - changes)
         if self._inside is not None:
             even, uneven = np.where(self._inside, even, 1.0), uneven * self._inside
         crossings = np.maximum(changes, 0.8 * np.sqrt(by_file))

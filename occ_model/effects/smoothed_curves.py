@@ -62,6 +62,7 @@ class SmoothedCurves:
         self._levels = np.clip(pixels.table.levels, 0.0, WHITE)
         self.files = frozenset(effect.name for effect in pixels.files)
         self._spreads: dict[Names, FloatArray] = {}
+        self._tables: dict[tuple[Names, bytes], FloatArray] = {}
 
     def spread(self, included: Names) -> FloatArray:
         """Return the deviation at each level of pixels that are not drawn, after the file."""
@@ -82,15 +83,23 @@ class SmoothedCurves:
         self, included: Names, values: FloatArray, of_greys: FloatArray
     ) -> FloatArray:
         """Return the mean over drawn pixels of some means, which the file changes further."""
-        noisy, file = self._pixels.noisy, self._pixels.file
-        if file is not None and self.files & included:
-            before = self._pixels.noise_rms(included)
-            after = float(file.spread(np.array([before]))[0])
-            error = np.full(256, math.sqrt(max(after**2 - before**2, 0.0)))
-            of_greys = LevelSteps.of(_GREYS, error).mean_of(of_greys)
-        law = noisy.law(included)
-        exposed = noisy.values_of(included, values)
-        return values if law is None else law.mean(exposed, of_greys)
+        law = self._pixels.noisy.law(included)
+        if law is None:
+            return values
+        key = included.difference(self._pixels.sample.outline, self._pixels.light.dimming)
+        if (key, of_greys.tobytes()) not in self._tables:
+            after_file = self._blur_by_file(included, of_greys)
+            self._tables[key, of_greys.tobytes()] = law.mean_of(after_file)
+        return law.at_means(self._tables[key, of_greys.tobytes()], values)
+
+    def _blur_by_file(self, included: Names, of_greys: FloatArray) -> FloatArray:
+        file = self._pixels.file
+        if file is None or not self.files & included:
+            return of_greys
+        before = self._pixels.noise_rms(included)
+        after = float(file.spread(np.array([before]))[0])
+        error = np.full(256, math.sqrt(max(after**2 - before**2, 0.0)))
+        return LevelSteps.of(_GREYS, error).mean_of(of_greys)
 
     def enhance(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
         """Return the mean of the enhanced pixels for each mean value, shape as ``values``."""

@@ -199,9 +199,8 @@ def test_the_limit_of_noise_in_the_means_of_columns_is_its_law() -> None:
         for a, b in zip(complete, without, strict=True)
     ]
     columns = paper_view_of(scene).region.columns
-    assert noise.limit == pytest.approx(
-        noise.estimate * (1.0 + 3.5 / math.sqrt(2.0 * columns)), rel=1e-3
-    )
+    allowed = (noise.limit / noise.estimate - 1.0) / (3.5 / math.sqrt(2.0 * columns))
+    assert 1.0 < allowed < 1.02  # bright columns have a little more noise than dark ones
     assert math.sqrt(np.mean(np.square(found))) == pytest.approx(
         noise.estimate, rel=4.0 / math.sqrt(2.0 * columns * len(found))
     )

@@ -35,8 +35,6 @@ _FIRST_NOISE = 0.03, 0.02  # parts of the level and of the swing
 _MOST_KNOTS = 30
 _ROUNDING = 0.15 / 255.0  # noise that no profile is below
 
-_ROUGH_PERIOD, _ROUGH_COLUMNS = 12.0, 128
-"""Columns that the shortest period, and the profile, keep where starts are ranked."""
 _FITTED_STARTS, _HOPELESS = 3, 400.0
 """Starts that are fitted to the end, and evidence behind the best from which none is."""
 _FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # of each round, after which the noise is estimated anew
@@ -128,20 +126,18 @@ def fit_lamp(
     if not starts:
         return []
 
-    def fitted(part: LampProfile, period: float, steps: Sequence[int]) -> LampFit:
+    def fitted(period: float, steps: Sequence[int]) -> LampFit:
         check()
-        return _from_period(part, period, is_linear, steps)
+        return _from_period(profile, period, is_linear, steps)
 
-    more = max(1, min(int(min(starts) / _ROUGH_PERIOD), len(profile.values) // _ROUGH_COLUMNS))
-    coarse = profile.averaged(more, 0)
-    rough = [fitted(coarse, period / more, _FIRST_STEPS) for period in starts]
+    rough = [fitted(period, _FIRST_STEPS) for period in starts]
     rough.sort(key=lambda fit: -fit.score)
     hopeful = [fit for fit in rough[:_FITTED_STARTS] if rough[0].score - fit.score < _HOPELESS]
-    found = [fitted(profile, more * start.wave.period, _STEPS) for start in hopeful]
+    found = [fitted(start.wave.period, _STEPS) for start in hopeful]
     check()
     best = max(found, key=lambda fit: fit.score)
     found += [_with_stiffness(best, factor) for factor in _OTHER_STIFFNESSES]
-    return sorted(found, key=lambda fit: -fit.score)
+    return sorted([*found, *rough[len(hopeful) :]], key=lambda fit: -fit.score)
 
 
 def _from_period(

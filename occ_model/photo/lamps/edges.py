@@ -32,6 +32,10 @@ class Edges:
     def __len__(self) -> int:
         return len(self.place)
 
+    @property
+    def swing(self) -> FloatArray:
+        return self.high - self.low
+
     def part(self, first: int, last: int) -> "Edges":
         return self.where(slice(first, last))
 

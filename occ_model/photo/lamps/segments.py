@@ -169,7 +169,7 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
 
 def _stretches(edges: Edges) -> list[tuple[int, int]]:
     """Split edges at wide gaps, and where steps become much smaller or larger."""
-    gaps, swings = np.diff(edges.place), edges.high - edges.low
+    gaps, swings = np.diff(edges.place), edges.swing
     ratio = np.minimum(swings[1:], swings[:-1]) / np.maximum(swings[1:], swings[:-1])
     cuts = (
         np.flatnonzero((gaps > _MOST_GAP_RATIO * np.median(gaps)) | (ratio < _LEAST_STEP_RATIO)) + 1

@@ -64,53 +64,39 @@ def _span(
     edges: Edges, timing: LampTiming, least: float, columns: int
 ) -> tuple[float, float] | None:
     """Return the first and the last column of a lamp in one strip; None if it is not seen there."""
-    swing = edges.high - edges.low
-    shared = np.flatnonzero(matches(edges, timing.edges, timing.chip) & (swing > least))
+    shared = np.flatnonzero(matches(edges, timing.edges, timing.chip) & (edges.swing > least))
     if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None
     begin, end = int(shared[0]), int(shared[-1])
-    if len(shared) < _LEAST_OWN_FRACTION * np.count_nonzero(swing[begin : end + 1] > least):
+    if len(shared) < _LEAST_OWN_FRACTION * np.count_nonzero(edges.swing[begin : end + 1] > least):
         return None
-    begin, end = _with_cut_stripes(edges, begin, end, timing)
+    begin, end = (_outermost(edges, at, side, timing) for at, side in ((begin, -1), (end, 1)))
     first, last = float(edges.place[begin]), float(edges.place[end])
     stripe = _MOST_WIDTH * timing.longest_stripe
     if begin == 0 and not edges.rises[begin] and first < stripe:
         first = 0.0  # the border of the picture cuts the stripe
-    elif begin > 0 and _is_rim(edges, begin - 1, begin, stripe):
-        first = float(edges.place[begin - 1])
     if end + 1 == len(edges) and edges.rises[end] and columns - last < stripe:
         last = columns - 1.0
-    elif end + 1 < len(edges) and _is_rim(edges, end + 1, end, stripe):
-        last = float(edges.place[end + 1])
     return first, last
 
 
-def _with_cut_stripes(edges: Edges, begin: int, end: int, timing: LampTiming) -> tuple[int, int]:
-    """Add the inner edges of the outermost stripes, which the rim shifts because it cuts them."""
-    swing = edges.high - edges.low
-
-    def is_own(at: int, beside: int) -> bool:
-        if not 0 <= at < len(edges) or swing[at] < _LEAST_SWING * swing[beside]:
-            return False
-        outward = edges.rises[at] == (at > beside)  # a bright stripe lies beyond it
-        start = timing.rise if edges.rises[at] else timing.fall
-        turns = (float(edges.place[at]) - start) / timing.spacing
-        near = abs(edges.place[at] - edges.place[beside]) < 1.5 * timing.spacing
-        off = abs(turns - round(turns)) * timing.spacing
-        return bool(outward and near and off < _CUT_TOLERANCE * timing.chip)
-
-    if timing.is_code:
-        return begin, end
-    return begin - is_own(begin - 1, begin), end + is_own(end + 1, end)
-
-
-def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:
-    """Whether an edge beside a lamp's is that of a bright stripe which the lamp's rim cuts."""
-    swing = edges.high - edges.low
-    near = abs(edges.place[at] - edges.place[beside]) < stripe
-    return bool(
-        near and edges.rises[at] == (at < beside) and swing[at] > _LEAST_SWING * swing[beside]
-    )
+def _outermost(edges: Edges, at: int, side: int, timing: LampTiming) -> int:
+    """Follow the stripes outwards that the lamp's rim cuts, and thereby shifts their edges."""
+    off = timing.off_lattice(edges) * timing.spacing
+    while 0 <= (beside := at + side) < len(edges):
+        apart = abs(edges.place[beside] - edges.place[at])
+        ends_stripe = edges.rises[beside] == (side < 0)
+        if ends_stripe:
+            is_own = apart < _MOST_WIDTH * timing.longest_stripe
+        else:
+            is_own = apart < 1.5 * timing.spacing and off[beside] < _CUT_TOLERANCE * timing.chip
+            is_own &= not timing.is_code
+        if not is_own or edges.swing[beside] < _LEAST_SWING * edges.swing[at]:
+            break
+        at = beside
+        if ends_stripe:
+            break
+    return at
 
 
 def around(spans: IndexArray) -> Region:

@@ -58,6 +58,11 @@ class LampTiming:
         whole = rises[:-1] & ~rises[1:]
         return float(np.diff(place)[whole].max()) if whole.any() else self.spacing
 
+    def off_lattice(self, edges: Edges) -> FloatArray:
+        """Return how far edges are from the lattices of their kind, in spacings."""
+        turns = (edges.place - np.where(edges.rises, self.rise, self.fall)) / self.spacing
+        return np.abs(turns - np.rint(turns))
+
     def agrees(self, other: "LampTiming") -> bool:
         """Whether another lamp blinks in time with this one: its edges lie on the same lattices.
 
@@ -67,11 +72,7 @@ class LampTiming:
         same = _SPACING_TOLERANCE + _SHADED_TOLERANCE / len(other.edges)
         if other.is_code > self.is_code or abs(self.spacing - spacing) > same * self.spacing:
             return False
-        offs = []
-        for kind, start in ((True, self.rise), (False, self.fall)):
-            turns = (other.edges.place[other.edges.rises == kind] - start) / self.spacing
-            offs.append(np.abs(turns - np.rint(turns)))
-        return bool(np.median(np.concatenate(offs)) < _LATTICE_TOLERANCE)
+        return bool(np.median(self.off_lattice(other.edges)) < _LATTICE_TOLERANCE)
 
 
 def common_timing(one: LampTiming, other: LampTiming) -> LampTiming | None:

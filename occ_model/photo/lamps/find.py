@@ -52,7 +52,7 @@ than a chip, and above which it is."""
 _PERIOD_TOLERANCE = 0.03  # maximum relative difference of periods by edges and autocorrelation
 _MOST_COMMON_FRACTION = 0.5  # of a lamp inside another one, above which it is a part of that
 _OWN_EDGES = 8  # of a lamp in the light that another one scatters around it
-_GLOW_BRIGHTNESS, _GLOW_STRIPS = 0.5, 4  # relative brightness, and strips, of a lamp's glow
+_GLOW_BRIGHTNESS = 0.5  # of the light that a lamp scatters around it, over the lamp's
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -88,7 +88,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     for group in groups_of(segments):
         blinking += _blinking(group, segments, strips, bounds, means)
         report(0.85)
-    blinking = _without_parts(_without_glow(with_parts_joined(blinking, means, bounds)))
+    blinking = _without_parts(with_parts_joined(blinking, means, bounds))
     lamps = _without_reflections(blinking)
     report(0.9)
     lamps += steady_lamps(means, bounds, [one.lamp for one in blinking])
@@ -103,7 +103,7 @@ def _blinking(
     bounds: IndexArray,
     means: FloatArray,
 ) -> list[Blinking]:
-    swings = [one.edges.high - one.edges.low for one in group]
+    swings = [one.edges.swing for one in group]
     least = _SCATTERED_SWING * float(np.quantile(np.concatenate(swings), _BRIGHT_QUANTILE))
     bright = [float(np.median(swing)) >= least for swing in swings]
     if not any(bright):
@@ -215,26 +215,6 @@ def _is_lamp(timing: LampTiming) -> bool:
         return True
     lit = (timing.fall - timing.rise) / timing.spacing % 1.0
     return lit <= _MOST_DUTY
-
-
-def _without_glow(blinking: Sequence[Blinking]) -> list[Blinking]:
-    """Leave out low strips of faint stripes directly above or below a lamp: its scattered light."""
-    return [
-        one for one in blinking
-        if not any(one.light < _GLOW_BRIGHTNESS * other.light and _lies_at(one.lamp, other.lamp)
-                   for other in blinking)
-    ]  # fmt: skip
-
-
-def _lies_at(low: Lamp, lamp: Lamp) -> bool:
-    """Whether a few strips lie right above or below a lamp, or within it."""
-    here, there = low.region, lamp.region
-    near = 3 * here.rows // max(len(low.spans), 1)
-    if len(low.spans) > _GLOW_STRIPS:
-        return False
-    above = here.last_row >= there.first_row - near and here.first_row <= there.last_row + near
-    shared = min(here.last_column, there.last_column) - max(here.first_column, there.first_column)
-    return above and shared > 0.5 * here.columns
 
 
 def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:

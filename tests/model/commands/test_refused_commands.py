@@ -193,8 +193,8 @@ def test_a_name_of_any_length_is_shortened_in_a_sentence(
     long = "n" * 5000
     (folder / "long.toml").write_text(f"format = 1\nlamps = [{{name = '{long}'}}]\n")
     out = ["-o", "out.png"] if "render" in line and " -o " not in line else []
-    # One of two photos is read.
-    allowed = (0,) if line == "match p.png N" else (1, 2)
+    # One of two photos is read, and a picture that was enhanced may be doubtful.
+    allowed = (0, 1) if line == "match p.png N" else (1, 2)
     assert main([*line.replace("N", long).split(), *out]) in allowed
     assert "n" * 200 not in capsys.readouterr().err
 

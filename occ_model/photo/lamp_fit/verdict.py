@@ -122,10 +122,11 @@ def _measures(cues: Cues) -> Iterator[_Measure]:
 
 def _doubts_by_light(cues: Cues, *, is_confirmed: bool) -> list[str]:
     found = []
-    blur = max(_USUAL_BLUR, _USUAL_BLUR_PART * cues.ramp) + _BLUR_DEVIATIONS * cues.blur_error
-    tension = _USUAL_TENSION
-    if is_confirmed:
-        blur, tension = max(_MOST_BLUR, _BLUR_PART * cues.ramp), _MOST_TENSION
+    blur, tension = max(_MOST_BLUR, _BLUR_PART * cues.ramp), _MOST_TENSION
+    if not is_confirmed:
+        usual = max(_USUAL_BLUR, _USUAL_BLUR_PART * cues.ramp)
+        blur = min(blur, usual + _BLUR_DEVIATIONS * cues.blur_error)
+        tension = _USUAL_TENSION
     if cues.blur > blur:
         found.append(
             "The stripes are blurred over {} columns, as lenses blur things, but no stripes of a "

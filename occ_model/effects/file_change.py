@@ -60,9 +60,10 @@ def _tabulate_noise_read_back(steps: bytes) -> FloatArray:
 class FileChange:
     """How a file changes a sample's pixels, with all effects and without some.
 
-    The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels, and
-    ``spread`` is the RMS of their noise; ``moved``, (2, sets), is the mean square by which whole
-    levels add to the change of each set's pixels, and the mean of the square of each pixel's.
+    The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels,
+    ``around`` those beside the panel, and ``spread`` is the RMS of their noise; ``moved``, (2,
+    sets), is the mean square by which whole levels add to the change of each set's pixels, and the
+    mean of the square of each pixel's.
     """
 
     def __init__(
@@ -72,6 +73,8 @@ class FileChange:
         stack: FloatArray,
         spread: float,
         rims: Rims,
+        *,
+        around: FloatArray,
         moved: FloatArray,
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
@@ -95,9 +98,9 @@ class FileChange:
         )
         self._moved = moved
         self._x = self._coefficients(self._inside)
-        contrast = float(np.ptp(stack[0]))
-        along = self._spectrum_along(float(stack[0].min()), rims.is_level)
-        edge = contrast * np.outer(_EDGE_SPECTRUM, along)
+        seen = np.append(stack[0], around)
+        along = self._spectrum_along(float(seen.min()), rims.is_level)
+        edge = np.ptp(seen) * np.outer(_EDGE_SPECTRUM, along)
         self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
         self._density_at_rims = density_at_boundaries(self._of_rims)
         self._rim_weights = self._all**2 * self._density_at_rims / 64.0

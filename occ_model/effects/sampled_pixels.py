@@ -102,8 +102,13 @@ class SampledPixels:
         low, high = min(float(e.min()) for e in ends), max(float(e.max()) for e in ends)
         if self.sample.covers[self.sample.outline] is not None:  # include pixels beside the panel
             around = surroundings_values(self.scene, self.view.light)
-            low = min(low, float(around.min()), float(self.noisy.means(self.names, around).min()))
+            low = min(low, float(around.min()), float(self._around.min()))
         return LevelTable(low, high, saturation_value(self.scene))
+
+    @cached_property
+    def _around(self) -> FloatArray:
+        """The mean values of pixels beside the panel."""
+        return self.noisy.means(self.names, surroundings_values(self.scene, self.view.light))
 
     @cached_property
     def variances(self) -> dict[str, FloatArray]:
@@ -158,7 +163,8 @@ class SampledPixels:
             self.stack,
             self.noise_rms(self.names),
             self.rims,
-            np.array([(0.0, 0.0), *(self.drawn_changes[n].first_two for n in self.moving)]).T,
+            around=np.zeros(0) if self.sample.is_covered else self._around,
+            moved=np.array([(0.0, 0.0), *(self.drawn_changes[n].first_two for n in self.moving)]).T,
         )
 
     @cached_property

@@ -79,7 +79,9 @@ class CameraDialog(QDialog):
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         roles = QDialogButtonBox.ButtonRole
         self.choose = buttons.addButton("&Choose pictures…", roles.ActionRole)
-        self.choose.setToolTip("Choose two pictures of one room, or one of an even wall.")
+        self.choose.setToolTip(
+            "Choose two pictures of one room. One of an even wall is measured, but always doubtful."
+        )
         self.use = buttons.addButton("&Use this readout time", roles.ActionRole)
         self.use.setToolTip("Set the scene's readout time to what was measured.")
         self.use.setEnabled(False)

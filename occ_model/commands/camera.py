@@ -25,7 +25,7 @@ def add_to(commands: Commands) -> None:
         nargs="+",
         metavar="PICTURE",
         help="two pictures of a room at 1/1000 s, or a short and a long exposure; or one of an "
-        "even wall; not cropped, without lens correction",
+        "even wall, which is always doubtful; not cropped, without lens correction",
     )
     light = parser.add_mutually_exclusive_group()
     add_option(light, "--mains", "50Hz", "frequency of the mains", metavar="FREQUENCY")

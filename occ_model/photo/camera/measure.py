@@ -48,8 +48,8 @@ def measure_camera(
     ----------
     photos
         Two pictures of one room by one camera, such as two of a burst at 1/1000 s, or a short and a
-        long exposure; or one of an even wall. Photos, or files. They have to be whole: not cropped,
-        and without a lens correction.
+        long exposure; or one of an even wall, whose measure is always doubtful. Photos, or files.
+        They have to be whole: not cropped, and without a lens correction.
     mains_frequency
         Frequency of the mains in Hz: 50 or 60 in most countries. The light swings at twice that.
     scan_axis

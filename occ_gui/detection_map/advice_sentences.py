@@ -10,6 +10,8 @@ from occ_model.results.limit_text import (
     format_value,
     gaps_text,
     interval_text,
+    limit_text,
+    others_text,
     present_rate_text,
     search_end_text,
     search_sentences,
@@ -20,8 +22,7 @@ from occ_model.results.limit_text import (
 from occ_model.results.limits import Advice, Limits, RangeEnd, WorkingRange
 from occ_model.scene.parameters import quantity
 
-_FREQUENCY, _HIGHEST = "switching_frequency", "highest frequency"
-_LEAST = ("lowest frequency", "shortest exposure")
+_FREQUENCY = "switching_frequency"
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,19 +40,19 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
     lines = [AdviceLine(_make_title(advice.limits), is_title=True)]
     if advice.cause:
         lines.append(AdviceLine(f"It does not read the scene as it is. {advice.cause}"))
-    for values, theory, low_name, high_name in (
-        (advice.limits.frequency, advice.frequency, _LEAST[0], _HIGHEST),
-        (advice.limits.exposure, advice.exposure, _LEAST[1], "longest exposure"),
+    for values, theory, what in (
+        (advice.limits.frequency, advice.frequency, "frequencies"),
+        (advice.limits.exposure, advice.exposure, "exposures"),
     ):
         parameter, lowest, highest = values.parameter, values.lowest, values.highest
         if lowest is None or highest is None:
             lines.append(AdviceLine(_explain_unread(advice.limits, values)))
         else:
             lines += [
-                _make_line(parameter, low_name, lowest),
-                _make_line(parameter, high_name, highest),
+                _make_line(parameter, f"{what} down to", lowest),
+                _make_line(parameter, f"{what} up to", highest),
             ]
-        if values.gaps:
+        if values.others:
             lines.append(AdviceLine(gaps_text(values)))
         if values.most_chips is not None:
             lines.append(AdviceLine(search_end_text(values), is_detail=True))
@@ -67,11 +68,18 @@ def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) 
     return lines
 
 
+def make_rough_sentence(decoder: str, frequencies: WorkingRange) -> str:
+    """State what one picture at each frequency says."""
+    highest = frequencies.highest
+    found = f"up to roughly {format_end(_FREQUENCY, highest)}" if highest else "roughly none"
+    return f"The {decoder} decoder reads frequencies {found}; its limits are still searched for."
+
+
 def make_frequency_line(advice: Advice) -> AdviceLine:
     frequencies = advice.limits.frequency
     if frequencies.highest is None:
         return AdviceLine(_explain_unread(advice.limits, frequencies))
-    return _make_line(frequencies.parameter, _HIGHEST, frequencies.highest)
+    return _make_line(frequencies.parameter, "frequencies up to", frequencies.highest)
 
 
 def make_answer(found: Sequence[Advice], sought: Sequence[str]) -> tuple[str, str]:
@@ -86,8 +94,8 @@ def make_answer(found: Sequence[Advice], sought: Sequence[str]) -> tuple[str, st
         end = frequencies.highest
         name = "paper's threshold" if decoder == "threshold" else decoder
         reads = "at no frequency" if end is None else f"up to {limit_text(_FREQUENCY, end)}"
-        gaps = ", with gaps" if frequencies.gaps else ""
-        parts.append(f"the {name} decoder {'' if parts else 'reads '}{reads}{gaps}")
+        again = f", again {others_text(frequencies)}" if frequencies.others else ""
+        parts.append(f"the {name} decoder {'' if parts else 'reads '}{reads}{again}")
         if end is not None and end.interval is not None:
             place = interval_text(_FREQUENCY, end.interval)
             intervals.append(f"The {decoder} decoder's true end is between {place}.")
@@ -134,19 +142,10 @@ def _make_title(limits: Limits) -> str:
     )
 
 
-def limit_text(parameter: str, end: RangeEnd, bound: str = "at least") -> str:
-    """Format an end of a range, and say if it is doubtful, or only a bound of the true end."""
-    value = format_end(parameter, end)
-    if not end.is_sure:
-        value = f"about {value}"
-    return f"{bound} {value}" if end.fails is None else value
-
-
-def _make_line(parameter: str, limit: str, end: RangeEnd) -> AdviceLine:
+def _make_line(parameter: str, up_to: str, end: RangeEnd) -> AdviceLine:
     detail = end_text(parameter, end)
     detail = f"{detail[:1].upper()}{detail[1:]}"
-    place = limit_text(parameter, end, "at most" if limit in _LEAST else "at least")
-    text = f"The {limit} that it reads is {place}"
+    text = f"It reads {up_to} {limit_text(parameter, end)}"
     if not end.is_sure:
         return AdviceLine(f"{text}; no value within is sure to be read.", detail=detail)
     destination = (parameter, end.value, format_end(parameter, end))

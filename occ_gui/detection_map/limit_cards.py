@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from occ_gui.detection_map.advice_sentences import limit_text, make_answer, make_frequency_line
+from occ_gui.detection_map.advice_sentences import make_answer, make_frequency_line
 from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import (
     ElidedLabel,
@@ -16,7 +16,7 @@ from occ_gui.widgets.building import (
     push_button,
 )
 from occ_model.errors import inflect
-from occ_model.results.limit_text import format_end, format_gaps
+from occ_model.results.limit_text import format_end, others_text, value_text
 from occ_model.results.limits import Advice, RangeEnd, WorkingRange
 
 _PARAMETER = "switching_frequency"
@@ -59,9 +59,13 @@ class LimitCards(QWidget):
         super().hideEvent(event)
         self.rest_timer.stop()
 
+    @property
+    def is_up_to_date(self) -> bool:
+        """Whether the limits of the present scene have been found."""
+        return self._is_complete and not self._is_outdated and not self._is_running
+
     def _schedule_search(self) -> None:
-        is_needed = self._is_outdated or not self._is_complete
-        if is_needed and not self._is_running and self.isVisible():
+        if not self.is_up_to_date and not self._is_running and self.isVisible():
             self.rest_timer.start()
 
     def show_begun(self) -> None:
@@ -208,17 +212,17 @@ class LimitCard(QFrame):
         if end is None:
             self._show("none", tip, None)
             return
-        self._show(limit_text(_PARAMETER, end), tip, end.value if end.is_sure else None)
+        self._show(value_text(_PARAMETER, end), tip, end.value if end.is_sure else None)
 
     def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""
         texts = [text for text in (cause, "a plug-in failed" if frequencies.faults else "") if text]
-        if frequencies.gaps:
-            first, *more = format_gaps(frequencies)
-            others, gap = len(more), f"gap {first}"
-            texts.insert(0, f"{gap} and {inflect(others, 'gap')} more" if others else gap)
+        if frequencies.others:
+            texts.insert(0, f"again {others_text(frequencies)}")
         if frequencies.lowest is not None:
             texts.insert(0, f"from {format_end(_PARAMETER, frequencies.lowest)}")
+        if frequencies.highest is not None and frequencies.highest.fails is None:
+            texts.insert(0, "not searched beyond")
         self.range.set_full_text("; ".join(texts))
 
     def set_outdated(self, outdated: bool) -> None:

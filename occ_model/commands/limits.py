@@ -21,7 +21,8 @@ from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.limit_text import (
     end_text,
     format_end,
-    format_gaps,
+    limit_text,
+    others_text,
     present_rate_text,
     search_end_text,
     search_sentences,
@@ -29,7 +30,7 @@ from occ_model.results.limit_text import (
     theory_text,
     two_packets_text,
 )
-from occ_model.results.limits import Limits, RangeEnd, WorkingRange
+from occ_model.results.limits import Limits, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.colour_scenes import is_colour
 from occ_model.scene.parameters import quantity
@@ -121,9 +122,9 @@ def _rough_text(scene: Scene, settings: RateSettings, rate: float) -> str:
 
 
 _COLUMNS = (
-    "decoder", "lowest", "highest", "gaps", "shortest", "longest", "gaps", "bits a second",
+    "decoder", "lowest", "highest", "again", "shortest", "longest", "again", "bits a second",
 )  # fmt: skip
-_WIDTHS = (10, 23, 23, 32, 23, 23, 32, 14)
+_WIDTHS = (10, 31, 31, 38, 31, 31, 38, 14)
 
 
 def _heading_lines(scene: Scene, options: argparse.Namespace) -> list[str]:
@@ -151,17 +152,11 @@ def format_row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
 
 
 def range_cells(found: WorkingRange) -> tuple[str, str, str]:
-    """Format the lowest and the highest value of a range, and its first gap."""
+    """Format both ends of what is read without a gap, and what is read beyond gaps."""
     if found.lowest is None or found.highest is None:
         return "none", "none", ""
-    first, *others = format_gaps(found) or ["no"]
-    remainder = f", {len(others)} more" if others else ""
-    return _end_text(found, found.lowest), _end_text(found, found.highest), first + remainder
-
-
-def _end_text(found: WorkingRange, end: RangeEnd) -> str:
-    value = format_end(found.parameter, end)
-    return f"{value} (searched to)" if end.fails is None else value
+    low, high = (limit_text(found.parameter, end) for end in (found.lowest, found.highest))
+    return low, high, others_text(found) or "no"
 
 
 def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
@@ -189,14 +184,13 @@ def _range_lines(decoder: str, found: WorkingRange) -> list[str]:
     faults = [found.faults] if found.faults else []
     if found.failure is not None:
         return [found.failure, *faults]
-    name, gaps = found.parameter, format_gaps(found)
+    name = found.parameter
     lines = [f"The {decoder} decoder, {quantity(name).in_sentence}:"]
-    for gap, interval in zip(["", *gaps], found.intervals, strict=True):
-        if gap:
-            lines.append(f"  gap from {gap}")
-        kind = "island, " if interval.is_island else ""
+    for index, interval in enumerate(found.intervals):
+        if index:
+            lines.append("  beyond a gap:")
         ends = (interval.lowest, interval.highest)
-        lines += [f"  {kind}{format_end(name, end)}: {end_text(name, end)}" for end in ends]
+        lines += [f"  {format_end(name, end)}: {end_text(name, end)}" for end in ends]
     if found.most_chips is not None:
         lines.append(f"  {search_end_text(found)}")
     return lines + faults

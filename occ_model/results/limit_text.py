@@ -4,7 +4,14 @@ import math
 
 from occ_model.errors import inflect, one_line
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import Limits, RangeEnd, TheoryLimits, Trial, WorkingRange
+from occ_model.results.limits import (
+    Limits,
+    RangeEnd,
+    ReadInterval,
+    TheoryLimits,
+    Trial,
+    WorkingRange,
+)
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import typed_form
 from occ_model.scene.scene import Scene
@@ -48,7 +55,7 @@ def format_end(parameter: str, end: RangeEnd | None) -> str:
 def end_text(parameter: str, end: RangeEnd) -> str:
     """State the 95 % interval of an end of a range, and how the end is known."""
     if end.fails is None:
-        return f"{_trial_text(parameter, end.works, end)}; values beyond were not tried."
+        return f"{_trial_text(parameter, end.works, end)}; it was not searched beyond."
     trials = ", ".join(_trial_text(parameter, trial, end) for trial in (end.works, end.fails))
     if end.interval is None:
         return f"known to a step of the search: {trials}."
@@ -69,32 +76,36 @@ def _trial_text(parameter: str, trial: Trial, end: RangeEnd) -> str:
     return f"{place} {_rate_text(trial)}"
 
 
-def format_gaps(working_range: WorkingRange) -> list[str]:
-    """Format the gaps in a range, in which a decoder does not read."""
-    name = working_range.parameter
-    return [
-        f"{format_end(name, end)} to {format_end(name, following)}"
-        for end, following in working_range.gaps
-    ]
+def limit_text(parameter: str, end: RangeEnd) -> str:
+    """Format an end of a range, and say if it is only the end of the search."""
+    value = value_text(parameter, end)
+    return f"{value} (not searched beyond)" if end.fails is None else value
+
+
+def value_text(parameter: str, end: RangeEnd) -> str:
+    """Format an end of a range, and say if it is doubtful."""
+    value = format_end(parameter, end)
+    return value if end.is_sure else f"about {value}"
+
+
+def others_text(working_range: WorkingRange) -> str:
+    """State the first of the intervals beyond gaps, and how many more there are."""
+    others = working_range.others
+    if not others:
+        return ""
+    remainder = f" and {len(others) - 1} more" if others[1:] else ""
+    return _span_text(working_range.parameter, others[0]) + remainder
 
 
 def gaps_text(working_range: WorkingRange) -> str:
-    """State the gaps, and the islands between them; empty without any."""
-    if not working_range.gaps:
-        return ""
-    name = working_range.parameter
-    islands = [
-        f"{format_end(name, each.lowest)} to {format_end(name, each.highest)}"
-        for each in working_range.intervals
-        if each.is_island
-    ]
-    sentences = [
-        "It does not read everywhere between them: there are gaps from "
-        f"{'; '.join(format_gaps(working_range))}."
-    ]
-    if islands:
-        sentences.append(f"Islands, in which it reads, are from {'; '.join(islands)}.")
-    return " ".join(sentences)
+    """State all intervals beyond gaps; empty without any."""
+    spans = [_span_text(working_range.parameter, each) for each in working_range.others]
+    return f"With gaps between, it also reads {'; '.join(spans)}." if spans else ""
+
+
+def _span_text(parameter: str, interval: ReadInterval) -> str:
+    low, high = (format_end(parameter, end) for end in (interval.lowest, interval.highest))
+    return f"at {low}" if low == high else f"from {low} to {high}"
 
 
 def search_end_text(working_range: WorkingRange) -> str:

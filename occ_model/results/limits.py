@@ -1,7 +1,6 @@
 """The working range of a decoder, and the theoretical limits."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 from occ_model.results.bit_errors import FRAMES_A_SECOND, bits_a_second
 from occ_model.scene.scene import Scene
@@ -52,8 +51,6 @@ class ReadInterval:
 
     lowest: RangeEnd
     highest: RangeEnd
-    # Whether it is one of several and has only one or two values of the search
-    is_island: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,21 +73,26 @@ class WorkingRange:
     faults: str = ""
 
     @property
+    def widest(self) -> ReadInterval | None:
+        """The interval of the largest ratio of its ends; None if it reads nowhere."""
+        return max(
+            self.intervals, key=lambda each: each.highest.value / each.lowest.value, default=None
+        )
+
+    @property
     def lowest(self) -> RangeEnd | None:
-        """The lowest end; None if it reads nowhere."""
-        return self.intervals[0].lowest if self.intervals else None
+        """The value down to which it reads without a gap; None if it reads nowhere."""
+        return self.widest.lowest if self.widest else None
 
     @property
     def highest(self) -> RangeEnd | None:
-        """The highest end, beyond any gaps; None if it reads nowhere."""
-        return self.intervals[-1].highest if self.intervals else None
+        """The value up to which it reads without a gap; None if it reads nowhere."""
+        return self.widest.highest if self.widest else None
 
     @property
-    def gaps(self) -> tuple[tuple[RangeEnd, RangeEnd], ...]:
-        """For each gap, the end before it and the end after it."""
-        return tuple(
-            (interval.highest, following.lowest) for interval, following in pairwise(self.intervals)
-        )
+    def others(self) -> tuple[ReadInterval, ...]:
+        """The intervals that gaps separate from the widest one."""
+        return tuple(each for each in self.intervals if each is not self.widest)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,17 +129,17 @@ class Limits:
 
     @property
     def highest_frequency(self) -> float | None:
-        """The highest switching frequency in Hz that is read, None if none is."""
+        """The switching frequency in Hz up to which it reads without a gap, None if none is."""
         return self.frequency.highest.value if self.frequency.highest else None
 
     @property
     def shortest_exposure(self) -> float | None:
-        """The shortest exposure time in seconds that is read, None if none is."""
+        """The exposure time in seconds down to which it reads without a gap, None if none is."""
         return self.exposure.lowest.value if self.exposure.lowest else None
 
     @property
     def longest_exposure(self) -> float | None:
-        """The longest exposure time in seconds that is read, None if none is."""
+        """The exposure time in seconds up to which it reads without a gap, None if none is."""
         return self.exposure.highest.value if self.exposure.highest else None
 
 

@@ -4,7 +4,7 @@ Only this parameter is varied, over the range of its slider, which is widened to
 own value and shortened where a decoder would take too long. A scan tries values that differ by a
 factor ``STEP``. The success rate need not fall monotonically: at low frequencies too few packets
 fit into the picture, and beyond a null the stripes come back. The answer is therefore a list of
-intervals. The outermost ends, and those of the interval that contains the scene's own value or is
+intervals. The ends of the widest one, and of the one that contains the scene's own value or is
 nearest to it, have 95 % intervals, see :mod:`occ_model.study.range_end`; the others are known to a
 step of the scan.
 
@@ -227,16 +227,20 @@ class _RangeSearch:
         place = runs.index(run)
         before = runs[place - 1][1] if place else -1
         after = runs[place + 1][0] if place + 1 < len(runs) else len(self._values)
-        is_nearest = run == min(runs, key=self._distance_from_scene)
+        nearest, widest = min(runs, key=self._distance_from_scene), max(runs, key=self._width)
         first, last = run
-        lowest = self._find_end(first, last, before, is_nearest or run == runs[0])
-        highest = self._find_end(last, first, after, is_nearest or run == runs[-1])
+        is_sought = run in (nearest, widest)
+        lowest = self._find_end(first, last, before, is_sought)
+        highest = self._find_end(last, first, after, is_sought)
         if lowest is None or highest is None:
             return None
         if lowest.value > highest.value:
             self._refuted |= {first, last}
             return None
-        return ReadInterval(lowest, highest, is_island=last - first < _NARROW and len(runs) > 1)
+        return ReadInterval(lowest, highest)
+
+    def _width(self, run: tuple[int, int]) -> float:
+        return self._values[run[1]] / self._values[run[0]]
 
     def _distance_from_scene(self, run: tuple[int, int]) -> float:
         """Return an interval's distance from the scene's own value, as a logarithm."""

@@ -31,7 +31,7 @@ from occ_model.study.limits import SEARCHED_PARAMETERS, limits_of
 from occ_model.study.working_range import working_range
 
 COLUMNS = (
-    "preset", "decoder", "lowest", "highest", "gaps", "shortest", "longest", "gaps",
+    "preset", "decoder", "lowest", "highest", "again", "shortest", "longest", "again",
     "bits a second", "time", "images",
 )  # fmt: skip
 

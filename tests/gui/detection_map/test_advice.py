@@ -107,15 +107,17 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     lines = [
         f"{each.text} {each.detail}".strip() for each in make_advice_lines(advice_on(small_scene))
     ]
-    assert lines[1].startswith("The lowest frequency that it reads is at most about 14.7 kHz; ")
+    assert lines[1].startswith(
+        "It reads frequencies down to about 14.7 kHz (not searched beyond); "
+    )
     assert lines[2] == (
-        "The highest frequency that it reads is 14.55 kHz. The end is between 14.55 kHz and "
+        "It reads frequencies up to 14.55 kHz. The end is between 14.55 kHz and "
         "14.72 kHz (95 %): there it read every bit of 100 images, at 14.73 kHz 0 % in 20 images "
         "(0.0 to 16.1 %)."
     )
-    assert lines[5].startswith("The shortest exposure that it reads is at most 10 µs. ")
-    assert "values beyond were not tried" in lines[5]
-    assert lines[6].startswith("The longest exposure that it reads is 194 µs. ")
+    assert lines[5].startswith("It reads exposures down to 10 µs (not searched beyond). ")
+    assert "it was not searched beyond" in lines[5]
+    assert lines[6].startswith("It reads exposures up to 194 µs. ")
     assert lines[8] == (
         f"At 10 kHz it read 20 of 20 pictures of code {small_scene.transmitter.code}, 100 % of the "
         f"bits (83.9 to 100.0 %): 300 bits a second, if other codes are read as well."
@@ -124,6 +126,26 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
     assert "above 1.17 ms, completely lit columns are saturated" in lines[7]
+
+
+def test_the_limit_is_read_without_a_gap_and_what_lies_beyond_is_named_behind_it(
+    small_scene: Scene,
+) -> None:
+    limits = advice_on(small_scene).limits
+    (wide,) = limits.exposure.intervals
+    trials = [replace(LONG, value=value) for value in (3e-6, 5e-6, 233e-6, 233.01e-6)]
+    fast, slow, low, high = (RangeEnd(trial.value, trial, TOO_LONG) for trial in trials)
+    intervals = (ReadInterval(fast, slow), wide, ReadInterval(low, high))
+    exposure = replace(limits.exposure, intervals=intervals)
+    found = replace(limits, exposure=exposure)
+    assert (found.shortest_exposure, found.longest_exposure) == (10e-6, 194e-6)
+    texts = [line.text for line in make_advice_lines(advice_of(found))]
+    place = texts.index("It reads exposures up to 194 µs.")
+    assert texts[place + 1] == "With gaps between, it also reads from 3 µs to 5 µs; at 233 µs."
+    row, lines = format_row(found), sentences([found])
+    assert "10 µs (not searched beyond)      194 µs  " in row
+    assert "from 3 µs to 5 µs and 1 more" in row
+    assert lines.count("  beyond a gap:") == 2
 
 
 def test_an_end_without_a_sure_value_has_no_destination(small_scene: Scene) -> None:

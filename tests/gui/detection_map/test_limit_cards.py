@@ -11,7 +11,7 @@ from occ_gui.detection_map import limit_cards
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_model.results.limit_text import format_value
-from occ_model.results.limits import Advice, RangeEnd
+from occ_model.results.limits import Advice, RangeEnd, ReadInterval
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of
 
@@ -40,7 +40,7 @@ def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene:
     assert card.value.text() == "14.55 kHz"
     assert "99 %" in card.name.toolTip()
     texts = list_texts(view)
-    place = next(i for i, text in enumerate(texts) if text.startswith("The highest frequency"))
+    place = next(i for i, text in enumerate(texts) if text.startswith("It reads frequencies up"))
     sentence = " ".join(texts[place : place + 2])  # and how that is known
     assert card.value.toolTip() == sentence
     assert any("120 bits a second" in text for text in texts)
@@ -72,7 +72,9 @@ def test_the_answer_states_what_the_cards_state_as_soon_as_it_is_known(
     assert answer.note.text() == note
     cards.show_advice(of_matched(with_end(small_scene, RangeEnd(INSIDE.value, INSIDE, None))))
     matched = cards.cards["matched"].value.text()
-    sentence = f"{exposure} {known}; the matched decoder up to {matched}."
+    assert matched == "14.55 kHz"
+    beyond = f"{matched} (not searched beyond)"
+    sentence = f"{exposure} {known}; the matched decoder up to {beyond}."
     assert (answer.line.text(), answer.note.text()) == (sentence, note)
     cards.show_begun()
     cards.show_advice(of_matched(with_end(small_scene, None)))
@@ -102,20 +104,27 @@ def test_a_limit_without_an_end_is_marked_and_without_a_destination_the_button_i
     cards: LimitCards, small_scene: Scene
 ) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(INSIDE.value, INSIDE, None)))
-    assert cards.cards["threshold"].value.text() == "at least 14.55 kHz"
     card = cards.cards["threshold"]
+    assert card.value.text() == "14.55 kHz"
+    assert card.range.toolTip() == "not searched beyond; from 14.7 kHz"
+    assert "14.55 kHz (not searched beyond)" in card.value.toolTip()
+    assert "14.55 kHz (not searched beyond)" in cards.answer.line.text()
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD.value, GOOD, BAD)))
     assert not card.go.isEnabled()
     assert card.value.text() == "about 14.7 kHz"
 
 
-def test_gaps_are_counted_beside_the_first(cards: LimitCards, small_scene: Scene) -> None:
+def test_what_is_read_beyond_gaps_is_named_behind_the_limit(
+    cards: LimitCards, small_scene: Scene
+) -> None:
     frequencies = advice_on(small_scene).limits.frequency
-    for gaps, end in ((1, "14.7 kHz"), (2, "and 1 gap more"), (3, "and 2 gaps more")):
-        several = replace(frequencies, intervals=(gaps + 1) * frequencies.intervals)
+    low, high, far = (RangeEnd(value, GOOD, BAD) for value in (2e3, 14.55e3, 46.42e3))
+    for others, end in ((1, "46.42 kHz"), (2, "and 1 more"), (3, "and 2 more")):
+        beyond = [ReadInterval(far, far) for _ in range(others)]
+        several = replace(frequencies, intervals=(ReadInterval(low, high), *beyond))
         cards.cards["threshold"].show_range(several)
         text = cards.cards["threshold"].range.toolTip()
-        assert text.startswith("from 14.7 kHz; gap 14.55 kHz to 14.7 kHz")
+        assert text.startswith("from 2 kHz; again at 46.42 kHz")
         assert text.endswith(end)
 
 

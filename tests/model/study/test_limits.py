@@ -5,6 +5,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from statistics import NormalDist
 from typing import Any
 
@@ -113,24 +114,25 @@ def test_both_ends_of_an_interval_are_found(
 
 
 @pytest.mark.parametrize("own", [700.0, 5e3, 40e3])
-def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_one_are_exact(
+def test_both_ends_of_the_widest_interval_and_of_the_scenes_own_one_are_exact(
     decoding: Decoding, own: float
 ) -> None:
     truth = [(600.0, 1e3), (2e3, 8e3), (25e3, 60e3)]
+    widest = truth[1]
     decoding(correct_within(*truth))
     found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
     assert len(found.intervals) == len(truth)
-    assert len(found.gaps) == 2
     for interval, (low, high) in zip(found.intervals, truth, strict=True):
         assert interval.lowest.value <= interval.highest.value
-        is_exact = low <= own <= high
+        is_exact = low <= own <= high or (low, high) == widest
         for range_end, wanted in ((interval.lowest, low), (interval.highest, high)):
             works, fails = ends(range_end)
             assert min(works, fails) <= wanted <= max(works, fails)
-            is_outermost = wanted in (truth[0][0], truth[-1][1])
-            assert (range_end.interval is not None) == (is_exact or is_outermost)
+            assert (range_end.interval is not None) == is_exact
     assert found.own.rate == 100.0
-    assert found.highest is found.intervals[-1].highest
+    # No gap lies between the ends that are stated first.
+    assert widest[0] <= found.lowest.value < found.highest.value <= widest[1]
+    assert found.others == (found.intervals[0], found.intervals[2])
 
 
 def test_an_end_is_found_with_images_that_were_not_used_to_choose_it(decoding: Decoding) -> None:
@@ -412,9 +414,9 @@ def test_the_command_answers_with_one_table_of_all_decoders(
     rows = [[cell for cell in line.split("  ") if cell] for line in lines[2:6]]
     assert [cells[0].strip() for cells in rows] == ["threshold", "matched", "equalizer", "sequence"]
     for cells in rows:
-        assert cells[1].strip() == "500 Hz (searched to)"
-        assert re.fullmatch(r" ?1[34][.\d]* kHz", cells[2])
-        assert " kHz to " in cells[3]
+        assert cells[1].strip() == "500 Hz (not searched beyond)"
+        assert re.fullmatch(r" ?(1\.9\d*|2) kHz", cells[2])
+        assert re.fullmatch(r" ?from 4[.\d]* kHz to 1[34][.\d]* kHz", cells[3].rstrip())
     place = lines.index(
         "  Below 3.468 kHz a picture does not contain two packets, and not always the two "
         "headers that this decoder needs."
@@ -497,7 +499,10 @@ def searches_with_a_gap(
         decoding(fraction)
         settings = RateSettings(20, ("threshold",), 100 + trial)
         found = module.working_range(SCENE, "switching_frequency", 99.0, settings)
-        gaps = [(end.works.value, following.works.value) for end, following in found.gaps]
+        gaps = [
+            (before.highest.works.value, after.lowest.works.value)
+            for before, after in pairwise(found.intervals)
+        ]
         yield any(low < 1.04 * first and high > first for low, high in gaps)
 
 

@@ -13,7 +13,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.detection_map.advice_sentences import AdviceLine, describe_outdated, make_advice_lines
+from occ_gui.detection_map.advice_sentences import (
+    AdviceLine,
+    describe_outdated,
+    make_advice_lines,
+    make_rough_sentence,
+)
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.answer import MoreButton
 from occ_gui.widgets.building import (
@@ -25,7 +30,7 @@ from occ_gui.widgets.building import (
     push_button,
 )
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import Advice
+from occ_model.results.limits import Advice, WorkingRange
 
 _LEAST = QSize(200, 60)
 
@@ -46,6 +51,8 @@ class AdviceView(QWidget):
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._frames_a_second = FRAMES_A_SECOND
         self.lines: list[QWidget] = []
+        self.rough: dict[str, QWidget] = {}
+        """By decoder, the line that its advice replaces."""
         self.destinations: dict[QPushButton, tuple[str, QLabel, QLabel]] = {}
         """The parameter that each button changes, and the sentences beside it."""
         self._common_texts: list[str] = []
@@ -89,10 +96,10 @@ class AdviceView(QWidget):
 
     def show_advice_begun(self, omitted_effects: tuple[str, ...]) -> None:
         """Remove the previous advice, and show that a search is running and what it leaves out."""
-        for line in self.lines:
-            self._column.removeWidget(line)
-            line.deleteLater()
+        for line in [*self.lines]:
+            self._remove(line)
         self.lines, self.destinations, self._common_texts, self._more = [], {}, [], {}
+        self.rough = {}
         self.progress.setValue(0)
         self._show_running(True)
         self.cards.show_begun()
@@ -106,8 +113,18 @@ class AdviceView(QWidget):
         self.progress.setValue(round(100 * fraction))
         self.cards.show_progress(pictures)
 
+    def show_rough(self, decoder: str, frequencies: WorkingRange) -> None:
+        """Show what one picture at each frequency says, until the advice of a decoder is found."""
+        self.cards.show_rough(decoder, frequencies)
+        if decoder not in self.rough:
+            self._add(AdviceLine(make_rough_sentence(decoder, frequencies)))
+            self.rough[decoder] = self.lines[-1]
+
     def show_advice(self, advice: Advice) -> None:
         self.cards.show_advice(advice)
+        rough = self.rough.pop(advice.limits.decoder, None)
+        if rough is not None:
+            self._remove(rough)
         for line in make_advice_lines(advice, self._frames_a_second):
             if not line.is_common:
                 self._add(line, advice.limits.decoder)
@@ -135,6 +152,11 @@ class AdviceView(QWidget):
         for button, (parameter, *labels) in self.destinations.items():
             for widget in (button, *labels):
                 widget.setEnabled(not outdated or parameter in valid_parameters)
+
+    def _remove(self, line: QWidget) -> None:
+        self.lines.remove(line)
+        self._column.removeWidget(line)
+        line.deleteLater()
 
     def _add_common(self, line: AdviceLine) -> None:
         self._common_texts.append(line.text)

@@ -126,7 +126,8 @@ class MapView(QWidget):
 
     def _show_advice(self) -> None:
         self._pages.setCurrentWidget(self.advice)
-        self.advice.search_requested.emit()
+        if not self.cards.is_up_to_date:
+            self.advice.search_requested.emit()
 
     def show_axes(self, x: str, y: str) -> None:
         self._axes = (x, y)

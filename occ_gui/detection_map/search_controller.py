@@ -1,6 +1,6 @@
 """Controllers of searches that the user starts: the limits of a scene, and the most bits."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -143,10 +143,12 @@ class AdviceRequest:
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
 
-    def jobs(self, rank: int) -> Iterator[Job]:
-        """Yield rough searches of all decoders, and then the thorough ones."""
+    def jobs(self, rank: int, found: Set[str] = frozenset()) -> Iterator[Job]:
+        """Yield rough searches of all decoders but those found, and then the thorough ones."""
         for function in (advise_roughly, advise):
             for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
+                if decoder in found:
+                    continue
                 settings = make_rate_settings(
                     self.settings, IMAGES, (decoder,), self.with_image_effects
                 )
@@ -163,12 +165,15 @@ class AdvisorController(SearchController):
         super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *callbacks)
         self._pane = pane
         self._with_image_effects = True
+        # Of the last search: its priority, and the decoders whose limits it has found
+        self._rank, self._found = FIRST_RANK, set[str]()
         scenes.settings.changed.connect(self._follow_change)
 
     def _show_answer(self, answer: Advice | RoughAnswer) -> None:
         if isinstance(answer, RoughAnswer):
-            self._pane.cards.show_rough(answer.decoder, answer.frequencies)
+            self._pane.show_rough(answer.decoder, answer.frequencies)
         else:
+            self._found.add(answer.limits.decoder)
             self._pane.show_advice(answer)
 
     def use_image_effects(self, used: bool) -> None:
@@ -181,8 +186,15 @@ class AdvisorController(SearchController):
         return AdviceRequest(self._scenes.seen, settings, self._with_image_effects)
 
     def start(self, rank: int = FIRST_RANK) -> None:
-        """Search for the limits of the present scene."""
+        """Search for the limits of the present scene; what is found of them stays."""
         request = self._request()
+        if request == self._last_request and not self.channel.is_idle:
+            if rank < self._rank:
+                self.channel.cancel()
+                self._rank = rank
+                self._begin(request, request.jobs(rank, frozenset(self._found)))
+            return
+        self._rank, self._found = rank, set()
         omitted_effects = (
             ()
             if self._with_image_effects

@@ -216,6 +216,49 @@ def test_every_decoder_is_searched_and_each_end_has_a_button(advice_bench: MapBe
     assert advice.search_again.isVisible()
 
 
+def test_the_page_opens_with_what_is_known_and_does_not_search_for_it_again(
+    advice_bench: MapBench,
+) -> None:
+    view, texts = advice_bench.view, list_texts(advice_bench.view.advice)
+    view.advice.back.click()
+    view.advise.click()
+    assert advice_bench.pane.advisor.channel.is_idle
+    assert list_texts(view.advice) == texts
+    advice_bench.scenes.change(iso=200.0)
+    view.advice.back.click()
+    view.advise.click()
+    assert not advice_bench.pane.advisor.channel.is_idle
+
+
+def test_a_running_search_that_the_user_asks_for_keeps_what_it_has_found(
+    qtbot: QtBot, map_bench: MapBench
+) -> None:
+    map_bench.workers = workers = EndlessWorkers()
+    view, advisor = map_bench.view, map_bench.pane.advisor
+    view.cards.search_requested.emit()
+    qtbot.waitUntil(lambda: bool(workers.jobs))
+    scene = map_bench.scenes.scene
+    for decoder in [*DECODERS][:2]:
+        rough = advice_worker.RoughAnswer(decoder, find_limits(scene).frequency)
+        advisor._show_answer(rough)
+    advisor._show_answer(advice_on(scene))
+    first, *others = (
+        text for text in list_texts(view.advice) if text.startswith("The ") and "rough" in text
+    )
+    assert first.startswith(
+        f"The {[*DECODERS][1]} decoder reads frequencies up to roughly 14.55 kHz"
+    )
+    assert not others
+    texts, count = list_texts(view.advice), len(workers.jobs)
+    view.advise.click()
+    qtbot.waitUntil(lambda: len(workers.jobs) > count)
+    assert list_texts(view.advice) == texts
+    assert "threshold" not in {job.arguments[2] for job in workers.jobs[count:]}
+    count = len(workers.jobs)
+    view.advise.click()
+    assert len(workers.jobs) == count
+
+
 def test_a_destination_button_changes_the_scene_in_one_step(advice_bench: MapBench) -> None:
     before = advice_bench.scenes.scene
     for place, text, name, value in (

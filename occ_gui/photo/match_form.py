@@ -246,10 +246,15 @@ class MatchForm(QWidget):
         if name == "switching_frequency":
             lamp = None if self._scene is None else blinking_lamp(self._scene.transmitter)
             lines.append("chips or levels per second" if lamp is None else f"a {lamp.words}")
-        if not self.certain.isChecked() and is_certain(name, known, self._certain_before):
+        if self.certain.isChecked():
+            pass
+        elif is_certain(name, known, self._certain_before):
             lines.append(
                 "Only assumed here: it was certain for another photo. Tick “certain” if it "
                 "also holds for this one."
             )
+        elif is_stated:
+            assumed = self.lamp.text()
+            lines.append(f"{assumed} is only assumed: enter the frequency of your lamp.")
         self.hint.setText("\n".join(lines))
         self.hint.setVisible(bool(lines))

@@ -86,7 +86,10 @@ class PhotoVerdictBar(StateBar):
     def __init__(self) -> None:
         super().__init__()
         self.setAccessibleName("Verdict on the photo")
-        self.step.setToolTip("Match the photo as one of a lamp, lit once in each period.")
+        self.step.setToolTip(
+            "Match the photo as one of a lamp, lit once in each period; its frequency is assumed "
+            "until you enter it."
+        )
         self._photo: Photo | None = None
         self._match: Match | None = None
         self._row: PhotoRow | None = None

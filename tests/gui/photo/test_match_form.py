@@ -61,9 +61,11 @@ def test_choosing_a_lamp_confirms_its_frequency_until_another_choice(
     assert view.choice.certain == {"lamp_frequency": 1e3}
     view.form.certain.click()
     assert not view.form.certain.isChecked()
+    assert view.form.hint.text() == "1 kHz is only assumed: enter the frequency of your lamp."
     view.form.lamp.selectAll()
     qtbot.keyClicks(view.form.lamp, "1.5 kHz\r")
     assert view.form.certain.isChecked()
+    assert not view.form.hint.isVisible()
     assert view.choice.certain == {"lamp_frequency": 1.5e3}
     choose(qtbot, view.form.sent, "auto")
     assert view.choice.certain == {}
@@ -182,6 +184,7 @@ def test_a_value_certain_for_one_photo_is_only_assumed_for_the_next(
     choose(qtbot, view.form.sent, "lamp")
     assert view.form.certain.isChecked()
     view.form.certain.click()
+    assert "only assumed: enter" in view.form.hint.text()  # it was certain for this one
     view.form.certain.click()
     assert "assumed" not in view.form.hint.text()
     view.open(replace(photo, path=others[1]))  # of one table the same is certain

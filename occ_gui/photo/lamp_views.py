@@ -113,18 +113,23 @@ class PartForm(QWidget):
         chip = NONE.format_estimate(1.0 / product, error)
         return str(row + 1), columns, f"chip {chip}", f"code{doubt}"
 
-    def show_region(self, region: Region | None, lamp: int | None = None) -> None:
-        """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
+    def show_region(
+        self, region: Region | None, lamp: int | None = None, found: Region | None = None
+    ) -> None:
+        """Show what is matched: a rectangle, a lamp of this index, or the whole photo.
+
+        ``found``: where the search of the whole photo has found stripes.
+        """
         self.whole_photo.setEnabled(region is not None)
-        if region is None:
-            self.target.setText("The whole photo will be searched for stripes.")
-            return
-        subject = "A drawn region" if lamp is None else f"Lamp {lamp + 1}"
-        hint = " Drag on the photo to draw another one." if lamp is None else ""
-        self.target.setText(
-            f"{subject} will be matched: columns {region.first_column} to "
-            f"{region.last_column - 1}, rows {region.first_row} to {region.last_row - 1}.{hint}"
-        )
+        if region is not None:
+            subject = "A drawn region" if lamp is None else f"Lamp {lamp + 1}"
+            hint = " Drag on the photo to draw another one." if lamp is None else ""
+            text = f"{subject} will be matched: {_describe_place(region)}.{hint}"
+        elif found is not None:
+            text = f"The stripes found in the whole photo: {_describe_place(found)}."
+        else:
+            text = "The whole photo will be searched for stripes."
+        self.target.setText(text)
 
     def show_by_hand(self, by_hand: bool) -> None:
         with QSignalBlocker(self.by_hand):
@@ -140,6 +145,13 @@ class PartForm(QWidget):
         rows = {item.row() for item in self.table.selectedItems()}
         if len(rows) == 1:
             self.chosen.emit(rows.pop())
+
+
+def _describe_place(region: Region) -> str:
+    return (
+        f"columns {region.first_column} to {region.last_column - 1}, "
+        f"rows {region.first_row} to {region.last_row - 1}"
+    )
 
 
 class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types

@@ -199,7 +199,8 @@ class PhotoPane(Pane[ShownPhoto]):
         for view in (self.view.lamps, self.outlines):
             view.show_lamps(lamps, chosen)
         region = rectangle if chosen is None else lamps[chosen].region
-        self.view.lamps.show_region(region, chosen)
+        stripes = self._shown.stripes
+        self.view.lamps.show_region(region, chosen, None if stripes is None else stripes.region)
         self.view.lamps.show_by_hand(rectangle is not None)
         self.view.lamps.show_search(*self._shown.search[1:])
         self.outlines.show_rectangle(rectangle)

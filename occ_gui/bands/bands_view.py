@@ -19,7 +19,7 @@ from occ_gui.bands.lamp_question import LampBars
 from occ_gui.widgets.answer import Answer
 from occ_gui.widgets.building import embolden, fill, make_read_only, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
-from occ_model.results.bands import SpeedDepth, format_depth
+from occ_model.results.bands import SpeedDepth, depth_text, format_depth
 from occ_model.scene.light_words import describe_light
 from occ_model.scene.units import SECOND
 
@@ -131,7 +131,7 @@ class BandsView(QWidget):
         exposure = SECOND.format(bars.scene.camera.exposure_time, _DIGITS)
         if depth < bars.advice.limit:
             return f"No bars at {exposure}: {format_depth(depth)}"
-        headline = f"Bars of {format_depth(depth)} of the mean light at {exposure}"
+        headline = f"Bars of {depth_text(depth)} at {exposure}"
         hidden = bars.depth.hidden
         return f"{headline}, not visible: {hidden}" if hidden else headline
 

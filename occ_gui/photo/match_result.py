@@ -18,7 +18,7 @@ from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State
 from occ_model.photo.many.other_programs import lines_of_match
-from occ_model.results.bands import Cure
+from occ_model.results.bands import OF_MEAN_LIGHT, Cure
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 from occ_model.scene.scene import Scene
@@ -136,7 +136,7 @@ class MatchResult(QWidget):
             return ""  # the depth of the bars depends on the exposure time
         depths = dict.fromkeys(f"{100.0 * depth:.3g}" for depth in cure.depth)
         exposure = SECOND.format(match.exposure_time, 3)
-        return f"bars of {' to '.join(depths)} % of its light at {exposure}, "
+        return f"bars of {' to '.join(depths)} % {OF_MEAN_LIGHT} at {exposure}, "
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         self._certain = certain

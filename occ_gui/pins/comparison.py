@@ -12,7 +12,7 @@ from occ_gui.simulation.verdict import cause_in, is_right, reason_in
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import one_line
-from occ_model.results.bands import format_depth
+from occ_model.results.bands import depth_text
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.scene.light_words import has_chips
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, format_distinctly
@@ -179,8 +179,8 @@ def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
             [
                 (
                     "Bars",
-                    f"{format_depth(snapshot.bars.peak_to_peak)} of the mean light",
-                    "Depth of the bars, peak to peak.",
+                    depth_text(snapshot.bars.peak_to_peak),
+                    "The brightest column less the darkest.",
                 )
             ]
             if snapshot.bars is not None

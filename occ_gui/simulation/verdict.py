@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
-from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, format_depth
+from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, depth_text, format_depth
 from occ_model.results.decoding import Cause, DecodeResult, symptom
 from occ_model.scene.light_words import describe_light
 
@@ -103,13 +103,13 @@ def describe_bars(reading: ColumnView) -> tuple[str, str]:
     title = f"{light[:1].upper()}{light[1:]}"
     if bars is None:
         return title, ""
-    depth = format_depth(bars.peak_to_peak)
+    depth = depth_text(bars.peak_to_peak)
     if bars.peak_to_peak <= ROUNDING_DEPTH:
         return f"{title}: no bars", "Every column gathers the same light."
     if bars.peak_to_peak < NO_BARS_DEPTH:
         limit = format_depth(NO_BARS_DEPTH)
-        return f"{title}: no bars", f"They are {depth} of the mean light, and count from {limit}."
-    sentence = f"Peak to peak, the bars are {depth} of the mean light. {bars.visibility}"
+        return f"{title}: no bars", f"They are {depth}, and count from {limit}."
+    sentence = f"The bars are {depth}. {bars.visibility}"
     if math.isinf(bars.period):
         return f"{title}: bars, but not in these columns", sentence
     return f"{title}: {bars.period:.4g} columns from bar to bar", sentence

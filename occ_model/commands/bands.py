@@ -6,7 +6,14 @@ import re
 
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import ParameterError, quote
-from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, format_depth
+from occ_model.results.bands import (
+    NO_BARS_DEPTH,
+    OF_MEAN_LIGHT,
+    BandAdvice,
+    BandDepth,
+    depth_text,
+    format_depth,
+)
 from occ_model.results.bars_answer import ROWS
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
@@ -90,8 +97,7 @@ def _depth_lines(scene: Scene, depth: BandDepth) -> list[str]:
     if scene.camera.columns < depth.period < math.inf:
         columns = f"more than the picture's {scene.camera.columns} columns"
     return [
-        f"Bars at {exposure}: {format_depth(depth.peak_to_peak)} of the mean light peak to peak, "
-        f"{format_depth(depth.rms)} RMS;",
+        f"Bars at {exposure}: {depth_text(depth.peak_to_peak)}, {format_depth(depth.rms)} RMS;",
         f"  in the picture's columns {format_depth(depth.columns.peak_to_peak)} and "
         f"{format_depth(depth.columns.rms)}, in pixel values "
         f"{format_depth(depth.pixel.peak_to_peak)} and "
@@ -116,7 +122,7 @@ def _advice_lines(scene: Scene, advice: BandAdvice) -> list[str]:
     if scene.transmitter.edge_time:
         lines.append("  Both are for sharp edges; with the LED's edges the ranges are wider.")
     lines += [
-        "Bars peak to peak, of the mean light:",
+        f"Depth of the bars, {OF_MEAN_LIGHT}:",
         "shutter speed  nominal   at the power of two nearby",
     ]
     for speed in advice.speeds:

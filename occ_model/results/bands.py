@@ -16,6 +16,14 @@ def format_depth(fraction: float) -> str:
     return PERCENT.format(fraction, 3) if fraction > ROUNDING_DEPTH else "0 %"
 
 
+OF_MEAN_LIGHT = "of the mean light from dark to bright"  # what a depth is, which may exceed 100 %
+
+
+def depth_text(fraction: float) -> str:
+    """State the difference of the brightest and the darkest column."""
+    return f"{format_depth(fraction)} {OF_MEAN_LIGHT}"
+
+
 @dataclass(frozen=True, slots=True)
 class Depth:
     """Modulation depth, relative to the mean over all starts of an exposure."""
@@ -88,7 +96,7 @@ class BandDepth:
             return self.visibility
         return (
             f"{self.visibility.removesuffix('.')}: "
-            f"{format_depth(self.contrast)} of the mean light there, peak to peak, and visible "
+            f"{depth_text(self.contrast)} there, and visible "
             f"from {format_depth(self.threshold)}."
         )
 

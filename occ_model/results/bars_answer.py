@@ -4,7 +4,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, SpeedDepth, format_depth
+from occ_model.results.bands import (
+    NO_BARS_DEPTH,
+    ROUNDING_DEPTH,
+    SpeedDepth,
+    depth_text,
+    format_depth,
+)
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.units import SECOND
 
@@ -114,14 +120,12 @@ class BarsAnswer:
         if not self.valley:
             return "This light is steady: no shutter time shows bars."
         if not self.shows_bars:
-            remainder = (
-                f": {format_depth(self.depth)} of the light" if self.depth > ROUNDING_DEPTH else ""
-            )
+            remainder = f": {depth_text(self.depth)}" if self.depth > ROUNDING_DEPTH else ""
             return f"No bars at {time}{remainder}."
         distance = ""
         if self.columns is not None and self.columns < math.inf:
             distance = f", {self.columns:.3g} lines from bar to bar"
-        return f"{self._advice} At {time} they are {format_depth(self.depth)} deep{distance}."
+        return f"{self._advice} At {time} they are {depth_text(self.depth)}{distance}."
 
     @property
     def _advice(self) -> str:

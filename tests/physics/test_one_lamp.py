@@ -31,7 +31,7 @@ def test_every_door_gives_the_closed_form_s_depth(capsys: pytest.CaptureFixture[
     profile = occ.column_profile(_LAMP)
     bars = occ.band_depth(_LAMP)
     main(["bands", "--lamp", "239Hz 30%", "--shutter", "1/100"])
-    assert "At 1/100 s they are 41.8 % deep." in capsys.readouterr().out
+    assert "At 1/100 s they are 41.8 % of the mean light" in capsys.readouterr().out
     level = 1.0 / float(picture.mean())  # which rounding to whole levels can change each end by
     for door, depth, error in (
         ("closed form of a pulse", occ.pulse_depth(0.3, 2.39).peak_to_peak, 1e-12),

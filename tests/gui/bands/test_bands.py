@@ -150,7 +150,10 @@ def test_my_lamp_s_bars_are_answered_in_one_line_and_shown_in_the_scene_if_wante
     view, scenes, before = bench.add(bands(bench.scenes)).view, bench.scenes, bench.scenes.scene
     form, answer = view.lamp.form, view.lamp.answer
     bench.wait_until_idle()
-    assert answer.line.text() == "Use 1/50 or 1/100 s: no bars. At 1/125 s they are 14 % deep."
+    assert answer.line.text() == (
+        "Use 1/50 or 1/100 s: no bars. At 1/125 s they are 14 % of the mean light from "
+        "dark to bright."
+    )
     assert not form.fields["lamp_frequency"].isVisible()
     form.lamp.show_key("dimmed")
     form.lamp.chosen.emit("dimmed")
@@ -160,7 +163,8 @@ def test_my_lamp_s_bars_are_answered_in_one_line_and_shown_in_the_scene_if_wante
     form.knows_readout.click()
     bench.wait_until_idle()
     assert answer.line.text() == (
-        "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % deep, 347 lines from bar to bar."
+        "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % of the mean light from "
+        "dark to bright, 347 lines from bar to bar."
     )
     assert scenes.scene == before
     assert not answer.details.isVisible()

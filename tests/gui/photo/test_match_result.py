@@ -89,13 +89,14 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: M
         "else 1/240 s or 1/120 s."
     )
     # Such a short exposure is all lit or all dark: twice the mean of a lamp lit half the time.
-    depth = f"bars of 200 % of its light at {SECOND.format(match.exposure_time, 3)}, "
+    exposure = SECOND.format(match.exposure_time, 3)
+    depth = f"bars of 200 % of the mean light from dark to bright at {exposure}, "
     lamp = "This lamp repeats at 1.92 kHz and is lit for 50 % of the time: "
     assert view.result.cure.text() == lamp + depth + rest
     # Half a period is left of 1.5: (1/2) / (1.5 / 2), and less with 0.05 more or fewer.
     longer = scene.replace(exposure_time=1.5 / 1920.0)
     view.show_matched(found, cure_of(longer, exposure_error=0.025 / 1920.0))
-    assert "bars of 58.1 to 66.7 % of its light" in view.result.cure.text()
+    assert "bars of 58.1 to 66.7 % of the mean light from dark to bright" in view.result.cure.text()
     view.show_matched(replace(found, exposure_reasons=("Two exposures fit.",)), cure_of(scene))
     assert view.result.cure.text() == lamp + rest
     view.result.show_certain({})

@@ -215,7 +215,7 @@ def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(
     assert main(_LAMP) == 0
     lines = capsys.readouterr().out.splitlines()
     # 0.96 of a period at 480 Hz: 0.04 of one is missing, of 0.72 that are lit.
-    assert lines[0].startswith("Use 1/120 or 1/240 s: no bars. At 1/500 s they are 5.56 % deep")
+    assert lines[0].startswith("Use 1/120 or 1/240 s: no bars. At 1/500 s they are 5.56 % of ")
     assert any(line.startswith("Bars at 2 ms: 5.56 % of the mean light") for line in lines)
     assert "The lamp's bars vanish at whole multiples of 2.083 ms." in lines
     rows = {line.split(" s ")[0]: line for line in lines if line.startswith("1/")}
@@ -227,18 +227,18 @@ def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(
 
 @pytest.mark.parametrize(
     ("lamp", "shutter", "sentence"),
-    [("240Hz 30%", "1/100", "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % deep."),
+    [("240Hz 30%", "1/100", "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 {OF}."),
      ("240 Hz 30 %", "1/120", "No bars at 1/120 s."),
-     ("mains 50Hz", "1/125", "Use 1/50 or 1/100 s: no bars. At 1/125 s they are 14 % deep."),
+     ("mains 50Hz", "1/125", "Use 1/50 or 1/100 s: no bars. At 1/125 s they are 14 {OF}."),
      ("60Hz 1/16 rows", "1/1000", "Use 1/60 s, if kept exactly: no bars. At 1/1000 s they are "
-      "1600 % deep.")],
+      "1600 {OF}.")],
 )  # fmt: skip
 def test_bands_answers_for_a_lamp_in_its_own_words(
     capsys: pytest.CaptureFixture[str], lamp: str, shutter: str, sentence: str
 ) -> None:
     assert main(("bands", "--lamp", lamp, "--shutter", shutter)) == 0
     first, *details = capsys.readouterr().out.splitlines()
-    assert first == sentence
+    assert first == sentence.replace("{OF}", "% of the mean light from dark to bright")
     assert details[0].startswith("  Lamp o")
     assert ("rows of this panel" in details[-1]) == ("rows" in lamp)
     assert main(("bands", "--lamp", lamp, "--shutter", shutter, "--readout", "12us")) == 0
@@ -265,7 +265,7 @@ def test_what_hides_the_bars_of_a_picture_is_named(capsys: pytest.CaptureFixture
         lines = capsys.readouterr().out.splitlines()
         place = next(at for at, line in enumerate(lines) if line.startswith("Bars at"))
         first, second, third = lines[place : place + 3]
-        assert f"{bars} of the mean light peak to peak" in first
+        assert f"{bars} of the mean light from dark to bright" in first
         assert "in pixel values 0 % and 0 %" in second
         assert third.startswith("  Not visible, since ")
         assert what in third

@@ -28,7 +28,8 @@ def test_a_lamp_dimmed_at_240_hz_is_answered_in_one_line() -> None:
     # 2.4 periods: 0.3 of one at most and nothing at least, of 0.72 that are lit.
     assert answer.depth == pytest.approx(0.3 / 0.72)
     assert answer.sentence == (
-        "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % deep, 347 lines from bar to bar."
+        "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % of the mean light from "
+        "dark to bright, 347 lines from bar to bar."
     )
     assert "vanish at whole multiples of 4.167 ms" in answer.details[0]
     unknown = bars_answer(_lamp(240.0, 0.3, 1 / 100), knows_readout=False)

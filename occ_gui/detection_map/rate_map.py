@@ -93,6 +93,10 @@ class RateMap:
     images: IndexArray = field(init=False)  # images measured; 0 where nothing is known
     notes: dict[int, str] = field(init=False, default_factory=dict)  # by the index of the point
     theory: TheoryFields | None = field(init=False, default=None)
+    # By the index of the point and the first image
+    _waiting: dict[tuple[int, int], tuple[SweepPoint, int]] = field(
+        init=False, default_factory=dict, repr=False
+    )
 
     def __post_init__(self) -> None:
         shape = (len(self.x_values), len(self.y_values))
@@ -106,17 +110,24 @@ class RateMap:
         return len(self.x_values), len(self.y_values)
 
     def enter(self, points: Iterable[SweepPoint], images: int, first: int = 0) -> None:
-        """Add the counts of the images from ``first`` on, up to so many, unless they are known."""
+        """Add the counts of the images from ``first`` on, up to so many, unless they are known.
+
+        Those that come before the images ahead of them wait for them.
+        """
         for point in points:
             place = divmod(point.index, len(self.y_values))
-            if self.images[place] != first:
-                continue
-            self.sent[place] += point.sent
-            self.right[place] += point.right
-            self.whole[place] += point.whole
-            self.images[place] = images
-            if point.note and point.note not in (note := self.notes.get(point.index, "")):
-                self.notes[point.index] = f"{note} {point.note}".strip()
+            if first >= self.images[place]:
+                self._waiting[point.index, first] = point, images
+            while next_one := self._waiting.pop((point.index, int(self.images[place])), None):
+                self._add(place, *next_one)
+
+    def _add(self, place: tuple[int, int], point: SweepPoint, images: int) -> None:
+        self.sent[place] += point.sent
+        self.right[place] += point.right
+        self.whole[place] += point.whole
+        self.images[place] = images
+        if point.note and point.note not in (note := self.notes.get(point.index, "")):
+            self.notes[point.index] = f"{note} {point.note}".strip()
 
     def point(self, index: int) -> SweepPoint:
         """Return what is known of a point."""

@@ -19,6 +19,7 @@ from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decode import QUICK_DECODERS
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
 
@@ -270,3 +271,16 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
     controller.set_visible(False)
     assert not waits()
     assert controller.complete is None, "the map is of another scene"
+
+
+def test_counts_that_arrive_before_those_ahead_of_them_are_kept() -> None:
+    rates = RateMap("distance", "iso", (1.0, 2.0), (1.0,), ("threshold",))
+    first, rest = (SweepPoint(1, 10 * n, (9 * n,), "", (n - 1,)) for n in (5, 15))
+    rates.enter([rest], 20, first=5)
+    assert rates.known_count == 0
+    rates.enter([first], 5)
+    for _ in range(2):  # what is known does not count again
+        rates.enter([first], 5)
+        rates.enter([rest], 20, first=5)
+    assert (rates.images[1, 0], rates.sent[1, 0], rates.right[1, 0, 0]) == (20, 200, 180)
+    assert rates.whole[1, 0, 0] == 18

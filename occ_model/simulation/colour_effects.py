@@ -68,7 +68,8 @@ def plan_with_colour(
 def _changes_by_processing(scene: Scene, profiles: FloatArray) -> Iterator[_Change]:
     """Yield the change of some rows by demosaicing, and by the file."""
     colours, quality = scene.colours, scene.camera.jpeg_quality
-    if colours.demosaicing == "none":
+    if colours.demosaicing == "none":  # a raw picture, which no file compresses
+        yield Jpeg.name, Jpeg.label, "processing", None
         return
     tile = np.empty((_ROWS, profiles.shape[1]), dtype=np.uint8)
     for channel, own in colours.filters:

@@ -100,6 +100,7 @@ def test_the_plan_names_the_effects_of_colour_in_the_order_of_light() -> None:
     assert set(order[1:]) <= set(frame.plan.included)
     raw = occ.render_colour(small(jpeg_quality=90, **RAW))
     assert "jpeg" not in raw.plan
+    assert [d.why for d in raw.plan.decisions if d.effect == "jpeg"] == ["none in this scene"]
     assert raw.image.ndim == 2
 
 

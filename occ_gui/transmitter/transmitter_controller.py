@@ -15,7 +15,6 @@ from occ_model.boards.chip_table import frequency_lines
 from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named, write_sketch
 from occ_model.boards.transmission import Transmission, prepare_transmission
 from occ_model.errors import OccError, OutputError, one_line
-from occ_model.files.writing import make_folder
 from occ_model.scene.scene import Scene
 
 # Importing Matplotlib takes half a second, so functions that need it import it when called.
@@ -60,17 +59,16 @@ class SaveJob:
 def save_files(job: SaveJob) -> SavedFiles:
     from occ_model.figures.transmitter_files import write_transmitter_files
 
-    folder = new_folder(job.parent, f"blink-{job.transmission.board.name}")
+    folder = free_folder(job.parent, f"blink-{job.transmission.board.name}")
     paths, why_no_wav = write_transmitter_files(folder, job.transmission)
     return SavedFiles(folder, len(paths), why_no_wav)
 
 
-def new_folder(parent: Path, name: str) -> Path:
-    """Make a folder, with a number after its name if the name is taken."""
+def free_folder(parent: Path, name: str) -> Path:
+    """Return the path of a new folder, with a number after its name if the name is taken."""
     for number in range(1, MOST_FOLDERS):
         folder = parent / (name if number == 1 else f"{name}-{number}")
         if not folder.exists():
-            make_folder(folder)
             return folder
     raise OutputError(
         f"{one_line(str(parent))} already has {MOST_FOLDERS - 1:,} folders {name}; choose another "

@@ -22,7 +22,7 @@ from occ_model.boards.transmission import EYES, LampTransmission, Transmission, 
 from occ_model.boards.waveform_files import COLUMNS, edge_rows, vcd_text, wav_bytes
 from occ_model.errors import OutputError
 from occ_model.figures.drawing import figure_bytes, house_style, table_text
-from occ_model.files.writing import make_folder, write_whole
+from occ_model.files.writing import write_folder
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.units import SECOND
 
@@ -33,9 +33,7 @@ def write_transmitter_files(folder: Path, transmission: Transmission) -> tuple[l
     Return their paths and a sentence why there is no WAV file, empty if there is one.
     """
     contents, no_wav_reason = _contents(folder, transmission)
-    make_folder(folder)
-    for name, content in contents.items():
-        write_whole(folder / name, content)
+    write_folder(folder, contents)
     return [folder / name for name in contents], no_wav_reason
 
 

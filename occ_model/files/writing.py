@@ -1,14 +1,17 @@
 """Write files completely or not at all, lock them, and encode images by the file's ending."""
 
 import os
+import re
 import stat
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from errno import EACCES, EAGAIN
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
+from shutil import rmtree
 from typing import Any, BinaryIO
 
 from occ_model.arrays import ByteArray
@@ -143,7 +146,7 @@ def write_atomically(path: Path, *, is_private: bool = False) -> Iterator[Path]:
     """
     permissions = check_replaceable(path)
     target = path.resolve()
-    temporary = target.with_name(f".occ-{token_hex(8)}{path.suffix}")
+    temporary = _temporary_beside(target, path.suffix)
     try:
         temporary.touch(exist_ok=False)
         try:
@@ -161,6 +164,41 @@ def write_atomically(path: Path, *, is_private: bool = False) -> Iterator[Path]:
             raise
     except OSError as error:
         raise _refuse(path, error) from None
+
+
+_TEMPORARY = re.compile(r"\.occ-[0-9a-f]{16}(\..*)?")
+_ABANDONED = 86_400.0  # seconds after which a temporary file is of a program that was killed
+
+
+def _temporary_beside(target: Path, suffix: str) -> Path:
+    """Return a new name in the folder of a path, and remove what killed programs left there."""
+    for path in target.parent.glob(".occ-*"):
+        with suppress(OSError):
+            age = time.time() - path.lstat().st_mtime
+            if _TEMPORARY.fullmatch(path.name) and age > _ABANDONED:
+                if path.is_dir():
+                    rmtree(path)
+                else:
+                    path.unlink()
+    return target.with_name(f".occ-{token_hex(8)}{suffix}")
+
+
+def write_folder(folder: Path, contents: Mapping[str, bytes]) -> None:
+    """Write files into a folder; one that is new appears only with all of them."""
+    is_new = not folder.exists()
+    make_folder(folder.parent if is_new else folder)
+    target = _temporary_beside(folder.resolve(), "") if is_new else folder
+    try:
+        target.mkdir(exist_ok=not is_new)
+        for name, content in contents.items():
+            write_whole(target / name, content)
+        if is_new:
+            target.replace(folder)
+    except OSError as error:
+        raise OutputError(f"{one_line(str(folder))} cannot be made: {reason_of(error)}.") from None
+    finally:
+        if is_new:
+            rmtree(target, ignore_errors=True)
 
 
 def _encode(path: Path, image: ByteArray, description: str) -> bytes:

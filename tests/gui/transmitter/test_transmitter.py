@@ -22,7 +22,7 @@ from occ_gui.transmitter import transmitter_controller
 from occ_gui.transmitter.transmitter_controller import (
     TransmitterController,
     WiringDrawing,
-    new_folder,
+    free_folder,
 )
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_model.boards.transmission import Transmission
@@ -228,11 +228,12 @@ def test_folders_of_one_name_are_numbered_up_to_a_limit(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(transmitter_controller, "MOST_FOLDERS", 4)
-    made = [new_folder(tmp_path, "uno") for _ in range(3)]
-    assert made == [tmp_path / name for name in ("uno", "uno-2", "uno-3")]
-    assert all(folder.is_dir() for folder in made)
+    for name in ("uno", "uno-2", "uno-3"):
+        folder = free_folder(tmp_path, "uno")
+        assert folder == tmp_path / name
+        folder.mkdir()
     with pytest.raises(OutputError, match="already has 3 folders uno; choose another"):
-        new_folder(tmp_path, "uno")
+        free_folder(tmp_path, "uno")
 
 
 def test_a_lamp_is_shown_with_its_true_values_which_the_scene_can_take(

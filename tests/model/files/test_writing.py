@@ -3,6 +3,7 @@
 import errno
 import os
 import stat
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NoReturn
@@ -12,9 +13,11 @@ import pytest
 from model.files.test_reading import make_link_to_device, make_pipe, make_socket
 
 from occ_model.errors import OutputError, one_line
+from occ_model.files import writing
 from occ_model.files.writing import (
     check_replaceable,
     make_folder,
+    write_folder,
     write_image,
     write_whole,
 )
@@ -235,3 +238,38 @@ def test_an_impossible_path_is_refused_in_a_sentence(tmp_path: Path) -> None:
         write_whole(tmp_path / "a\0b", b"x")
     with pytest.raises(OutputError, match=r"a\\x00b cannot be made: no file can have this name\."):
         make_folder(tmp_path / "a\0b")
+
+
+def test_a_new_folder_appears_only_with_all_of_its_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "parent" / "new"
+
+    def write_one_only(path: Path, content: bytes) -> None:
+        assert not folder.exists()
+        if path.name == "b":
+            raise KeyboardInterrupt
+        path.write_bytes(content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(writing, "write_whole", write_one_only)
+        with pytest.raises(KeyboardInterrupt):
+            write_folder(folder, {"a": b"1", "b": b"2"})
+    assert [*folder.parent.iterdir()] == []
+    write_folder(folder, {"a": b"1", "b": b"2"})
+    write_folder(folder, {"b": b"3"})
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"1", "b": b"3"}
+    assert [*folder.parent.iterdir()] == [folder]
+
+
+def test_what_killed_programs_left_is_removed_once_it_is_old(tmp_path: Path) -> None:
+    names = (".occ-0123456789abcdef.png", ".occ-0123456789abcdef", ".occ-notes", "old.png")
+    for name in names:
+        (tmp_path / name).touch()
+    write_whole(tmp_path / "a.txt", b"")
+    assert len([*tmp_path.iterdir()]) == len(names) + 1
+    two_days_ago = time.time() - 2 * 86_400
+    for name in names:
+        os.utime(tmp_path / name, (two_days_ago, two_days_ago))
+    write_whole(tmp_path / "a.txt", b"")
+    assert {path.name for path in tmp_path.iterdir()} == {".occ-notes", "old.png", "a.txt"}

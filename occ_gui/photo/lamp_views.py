@@ -114,19 +114,19 @@ class PartForm(QWidget):
         return str(row + 1), columns, f"chip {chip}", f"code{doubt}"
 
     def show_region(
-        self, region: Region | None, lamp: int | None = None, found: Region | None = None
+        self, region: Region | None, lamp: int | None = None, fitted: Region | None = None
     ) -> None:
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo.
 
-        ``found``: where the search of the whole photo has found stripes.
+        ``fitted``: where a match of the whole photo has found the stripes.
         """
         self.whole_photo.setEnabled(region is not None)
         if region is not None:
             subject = "A drawn region" if lamp is None else f"Lamp {lamp + 1}"
             hint = " Drag on the photo to draw another one." if lamp is None else ""
             text = f"{subject} will be matched: {_describe_place(region)}.{hint}"
-        elif found is not None:
-            text = f"The stripes found in the whole photo: {_describe_place(found)}."
+        elif fitted is not None:
+            text = f"Found in the whole photo: {_describe_place(fitted)}."
         else:
             text = "The whole photo will be searched for stripes."
         self.target.setText(text)

@@ -154,7 +154,8 @@ class PhotoPane(Pane[ShownPhoto]):
         if part.choice != last.choice:
             view.show_choice(part.choice)
         self._show_match(part, last)
-        if is_new or (part.search, part.part) != (last.search, last.part):
+        has_other_fit = part.match is not last.match or part.validity != last.validity
+        if is_new or has_other_fit or (part.search, part.part) != (last.search, last.part):
             self._show_part_of_photo()
         placement = (part.placement, part.is_placed_by_hand)
         if placement != (last.placement, last.is_placed_by_hand):
@@ -199,8 +200,9 @@ class PhotoPane(Pane[ShownPhoto]):
         for view in (self.view.lamps, self.outlines):
             view.show_lamps(lamps, chosen)
         region = rectangle if chosen is None else lamps[chosen].region
-        stripes = self._shown.stripes
-        self.view.lamps.show_region(region, chosen, None if stripes is None else stripes.region)
+        match, (why_outdated, _) = self._shown.match, self._shown.validity
+        fitted = None if match is None or why_outdated else match.region
+        self.view.lamps.show_region(region, chosen, fitted)
         self.view.lamps.show_by_hand(rectangle is not None)
         self.view.lamps.show_search(*self._shown.search[1:])
         self.outlines.show_rectangle(rectangle)

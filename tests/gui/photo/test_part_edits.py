@@ -195,6 +195,20 @@ def test_a_region_stays_with_another_channel_and_comes_back_with_its_photo(
     assert bench.parts.part is None
 
 
+def test_what_was_found_in_the_whole_photo_is_stated_while_its_match_is_shown(
+    bench: Bench, photo: Photo
+) -> None:
+    target, to_come = bench.form.target, "The whole photo will be searched for stripes."
+    assert target.text() == to_come
+    bench.change(outcome=MatchOutcome(None, match_with(), ("switching_frequency", 1e4)))
+    assert target.text() == "Found in the whole photo: columns 0 to 2, rows 0 to 8."
+    bench.parts.draw(Region(5, 25, 10, 40))
+    assert target.text().startswith("A drawn region will be matched")
+    bench.parts.match_whole()
+    bench.show_photo(replace(photo, path=Path("other.png")))
+    assert target.text() == to_come
+
+
 def photo_in(record: Mapping[str, object]) -> PhotoChoice:
     """Read the settings of photos from a session with a scene."""
     kept = read_session({"scene": Scene().to_toml()} | dict(record))

@@ -136,7 +136,7 @@ class LimitCard(QFrame):
         self._destination: float | None = None
         self._is_outdated = self._is_searching = False
         self._rough = ""
-        self.name = paragraph(f"{decoder.capitalize()}: up to")
+        self.name = paragraph()
         self.value = QLabel()
         self.range = ElidedLabel(separator="; ")
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
@@ -163,9 +163,10 @@ class LimitCard(QFrame):
         if self._destination is not None:
             self.chosen.emit(_PARAMETER, self._destination, self._decoder)
 
-    def _show(self, text: str, tip: str, destination: float | None) -> None:
+    def _show(self, text: str, tip: str, destination: float | None, bound: str = "up to") -> None:
         self._destination = destination
         self.range.set_full_text("")
+        self.name.setText(f"{self._decoder.capitalize()}: {bound}")
         self.value.setText(text)
         self.value.setToolTip(tip)
         self._update_button()
@@ -212,7 +213,8 @@ class LimitCard(QFrame):
         if end is None:
             self._show("none", tip, None)
             return
-        self._show(value_text(_PARAMETER, end), tip, end.value if end.is_sure else None)
+        bound = "at least" if end.fails is None else "up to"
+        self._show(value_text(_PARAMETER, end), tip, end.value if end.is_sure else None, bound)
 
     def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""

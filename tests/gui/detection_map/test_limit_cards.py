@@ -105,13 +105,13 @@ def test_a_limit_without_an_end_is_marked_and_without_a_destination_the_button_i
 ) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(INSIDE.value, INSIDE, None)))
     card = cards.cards["threshold"]
-    assert card.value.text() == "14.55 kHz"
+    assert (card.name.text(), card.value.text()) == ("Threshold: at least", "14.55 kHz")
     assert card.range.toolTip() == "not searched beyond; from 14.7 kHz"
     assert "14.55 kHz (not searched beyond)" in card.value.toolTip()
     assert "14.55 kHz (not searched beyond)" in cards.answer.line.text()
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD.value, GOOD, BAD)))
     assert not card.go.isEnabled()
-    assert card.value.text() == "about 14.7 kHz"
+    assert (card.name.text(), card.value.text()) == ("Threshold: up to", "about 14.7 kHz")
 
 
 def test_what_is_read_beyond_gaps_is_named_behind_the_limit(

@@ -3,8 +3,6 @@
 import math
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt
-
 from occ_gui.widgets.columns import round_step
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -53,15 +51,3 @@ def _choose_linear_numbers(low: float, high: float, most: int) -> list[float]:
     step = round_step((high - low) / most)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     return [float(f"{number * step:.12g}") for number in range(first, last + 1)]
-
-
-_END_TOLERANCE = 1e-6
-"""A line that ends within this distance of an axis's end, in axis lengths, was cut off there."""
-
-
-_STEPS = {
-    Qt.Key.Key_Left: (-1, 0),
-    Qt.Key.Key_Right: (1, 0),
-    Qt.Key.Key_Down: (0, -1),
-    Qt.Key.Key_Up: (0, 1),
-}

@@ -17,7 +17,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.detection_map.axis_ticks import _END_TOLERANCE, _STEPS, make_ticks, write_axis_title
+from occ_gui.detection_map.axis_ticks import make_ticks, write_axis_title
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.scene.parameter_kinds import Quantity
@@ -34,9 +34,17 @@ Point = tuple[float, float]  # positions along both axes, from 0 to 1
 
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
+_END_TOLERANCE = 1e-6
+"""A line that ends within this distance of an axis's end, in axis lengths, was cut off there."""
 
 _TICK = 4
 _GAP = 3
+_STEPS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Down: (0, -1),
+    Qt.Key.Key_Up: (0, 1),
+}
 
 
 class MapPlot(QWidget):

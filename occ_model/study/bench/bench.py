@@ -32,9 +32,6 @@ from occ_model.study.bit_error_rate import MOST_BITS, bit_errors_of, with_payloa
 from occ_model.study.theory import gaussian_rate_bound
 from occ_model.transmitter.scheme import scheme_of
 
-"""The columns of the table that are used; it may have more."""
-
-
 _DARK, _SWING = 40.0, 160.0  # grey levels: lamp off, and its swing; leaves room for noise of 10 dB
 _ROWS_A_SYMBOL = (1.0, 100.0)
 _LONGEST_EXPOSURE = 100.0

@@ -119,6 +119,23 @@ def test_a_click_or_arrow_keys_and_enter_choose_a_cell(qtbot: QtBot, view: MapVi
     assert picks[3:] == [places[-1]]
 
 
+def test_refused_points_are_hatched_and_look_like_no_rate(
+    view: MapView, grey_picture: Picture
+) -> None:
+    view.show_map(whole((10, 10), refused=(45,)))
+    plot = view.plots.plots[0]
+    plot.setting = None
+    plot.update()
+    picture = grey_picture(plot).astype(int)
+
+    def cell(x: int, y: int) -> Any:
+        at = plot.place_of((x / 12, y / 6)).toPoint()
+        return picture[at.y() - 8 : at.y() + 8, at.x() - 6 : at.x() + 6]
+
+    assert np.ptp(cell(*divmod(45, 7))) > 40  # stripes
+    assert np.ptp(cell(2, 2)) == 0
+
+
 def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
     view.show_map(whole((2, 10)))
     for what, titles in (

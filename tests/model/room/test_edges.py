@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from amount import amount
 from small_rooms import small_room
 
 import occ_model as occ
@@ -14,7 +15,7 @@ from occ_model.camera.photometry import (
     panel_values,
     saturate,
 )
-from occ_model.room.edge_lines import _BLOCK, Course, Line
+from occ_model.room.edge_lines import _BLOCK, Course, Line, estimate_variance_ratio
 from occ_model.room.edges import find_edges
 from occ_model.room.render import RoomFrame
 from occ_model.room.room import Place, Room
@@ -42,6 +43,22 @@ def cut(reach: int) -> float:
     apart = np.arange(1 - reach, reach)
     alike = 1.0 - np.abs(apart) / reach
     return float(alike.sum() / (alike * np.maximum(1.0 - np.abs(apart) / _BLOCK, 0.0)).sum())
+
+
+@pytest.mark.parametrize("reach", [1, 8])
+def test_the_error_of_a_line_follows_from_the_scatter_within_blocks(reach: int) -> None:
+    random = np.random.default_rng(9107 + reach)
+    squares, rooms = [], amount(30, 150)
+    for _ in range(rooms):
+        lines = [line(random, reach) for _ in range(4)]
+        alike = estimate_variance_ratio(lines)
+        for each in lines:
+            edge = each.make_edge(alike)
+            off = (edge.points - _ENDS) @ edge.normal
+            squares.append(off @ np.linalg.solve(edge.covariance, off) / 2.0)
+    # The mean square of 1,200 numbers scatters by 4 %.
+    assert np.mean(squares) == pytest.approx(cut(reach), rel=0.12 * np.sqrt(150 / rooms))
+    assert cut(reach) < 1.5
 
 
 WHITE = {"iso": 1600.0, "exposure_time": 100e-6}

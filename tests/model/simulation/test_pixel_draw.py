@@ -97,6 +97,13 @@ def test_the_pattern_shows_in_the_mean_of_pictures_alone(scene: Scene) -> None:
     assert other.std() == pytest.approx(gains.std(), rel=0.03)
 
 
+def test_a_pixel_far_above_white_is_white_whatever_its_gain(scene: Scene) -> None:
+    bright = scene.replace(gain_variation=0.1, pattern="1", luminance=1e5)
+    for force in (ON, {**OFF, "fixed-pattern": True}):
+        frame = occ.render(bright, tolerance=math.inf, force=force)
+        assert (frame.profile.max(), frame.camera_image.max()) == (255.0, 255)
+
+
 @pytest.mark.parametrize("effect", ["vignetting", "defocus", "distortion", "emission"])
 def test_pixels_are_drawn_alike_whichever_absent_effects_are_on(scene: Scene, effect: str) -> None:
     """Other effects draw the picture by other blocks of rows."""

@@ -184,6 +184,27 @@ def test_an_estimate_for_a_real_scene_is_within_half_of_the_truth(
         assert abs(math.log(max(decision.estimate, 0.3) / max(change, 0.3))) < 0.7, decision
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"radial_k1": 0.1, "roll": 0.35},
+        {"radial_k1": 0.15, "roll": 0.8, "panel_width": 0.5, "panel_height": 0.01},
+        {"point_spread": 8.0},
+        {"point_spread": 20.0},
+    ],
+)
+def test_slanted_rims_and_wide_blurs_of_small_pictures_are_estimated_to_a_seventh(
+    changes: dict[str, float],
+) -> None:
+    scene = Scene().replace(
+        rows=80, columns=120, distance=1.0, panel_width=0.3, panel_height=0.2,
+        equivalent_focal_length=0.04,
+    )  # fmt: skip
+    for decision, change in measured_changes(scene.replace(**changes), "image", 1)[0]:
+        if decision.effect in ("distortion", "defocus"):
+            assert decision.estimate == pytest.approx(change, rel=1 / 7, abs=SMALL)
+
+
 def shrink_scene(scene: Scene) -> Scene:
     """Take a quarter of the sensor, read out in the same time, with the same angle of view."""
     return scene.replace(

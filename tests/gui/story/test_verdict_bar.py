@@ -339,3 +339,15 @@ def test_the_reason_is_divided_between_heading_and_explanation(
     assert verdict.heading == heading
     if explanation is not None:
         assert verdict.explanation == explanation
+
+
+def test_the_verdict_on_one_of_three_colours_names_it_and_leads_to_all(
+    bar: VerdictBar, snapshot_of: SnapshotOf, qtbot: QtBot
+) -> None:
+    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
+    bar.name_colour("green")
+    assert bar.heading == "Green: code 718 read, all bits right"
+    with qtbot.waitSignal(bar.colours_wanted):
+        bar.step.click()
+    bar.name_colour("")
+    assert bar.heading == "Code 718 read, all bits right"

@@ -1,6 +1,7 @@
-"""A draft has every k-th row of the picture, and column means within the stated error."""
+"""A draft has every k-th row of the picture, and the rows of the panel may come first."""
 
 import math
+from time import perf_counter, sleep
 
 import numpy as np
 import pytest
@@ -81,6 +82,23 @@ def test_rows_of_the_panel_that_are_made_first_are_the_pictures(
         of_part = of_whole[part.rows] if of_whole.ndim == 2 else of_whole
         np.testing.assert_array_equal(getattr(part, name), of_part)
         np.testing.assert_array_equal(getattr(plain, name), of_whole)
+
+
+def test_the_time_of_showing_rows_counts_for_no_stage(scene: Scene) -> None:
+    shown = 0.3
+    start = perf_counter()
+    frame = render_with(
+        scene.replace(rows=1200), SimulationSettings(), show_panel=lambda _part: sleep(shown)
+    )
+    assert sum(frame.timings.values()) <= perf_counter() - start - shown
+
+
+def test_drafts_of_two_seeds_have_noise_of_their_own(scene: Scene) -> None:
+    first, second, again = (
+        occ.render(scene, rows_step=3, seed=seed).camera_image for seed in (1, 2, 1)
+    )
+    np.testing.assert_array_equal(first, again)
+    assert (first != second).mean() > 0.5
 
 
 @pytest.mark.parametrize("place", [{"distance": 0.5}, {"offset_y": 5.0}])

@@ -184,6 +184,21 @@ def test_points_that_the_model_refuses_are_grey_in_a_map(tmp_path: Path) -> None
     assert 0.05 < grey.mean() < 0.3
 
 
+@pytest.mark.parametrize(
+    "words", [("sweep", "--vary", "distance=1", "--images"), ("match", "a.png", "b.png", "--jobs")]
+)
+def test_a_number_of_too_many_digits_is_refused_in_short(
+    words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([*words, "9" * 5000])
+    assert ended.value.code == 2
+    *_, last = capsys.readouterr().err.splitlines()
+    assert last.startswith(f"occ-model {words[0]}: error: argument {words[-1]}: '999")
+    assert last.endswith(" is not a whole number")
+    assert len(last) < 1100
+
+
 def test_both_are_the_quick_decoders_and_all_every_one() -> None:
     assert decoders_of(["both"]) == ("threshold", "matched")
     assert decoders_of(["sequence", "all"]) == tuple(DECODERS)

@@ -191,7 +191,10 @@ def write_folder(folder: Path, contents: Mapping[str, bytes]) -> None:
     try:
         target.mkdir(exist_ok=not is_new)
         for name, content in contents.items():
-            write_whole(target / name, content)
+            if is_new:
+                (target / name).write_bytes(content)
+            else:
+                write_whole(target / name, content)
         if is_new:
             target.replace(folder)
     except OSError as error:

@@ -13,7 +13,6 @@ import pytest
 from model.files.test_reading import make_link_to_device, make_pipe, make_socket
 
 from occ_model.errors import OutputError, one_line
-from occ_model.files import writing
 from occ_model.files.writing import (
     check_replaceable,
     make_folder,
@@ -245,15 +244,17 @@ def test_a_new_folder_appears_only_with_all_of_its_files(
 ) -> None:
     folder = tmp_path / "parent" / "new"
 
-    def write_one_only(path: Path, content: bytes) -> None:
+    write_bytes = Path.write_bytes
+
+    def write_one_only(path: Path, content: bytes) -> int:
         assert not folder.exists()
         if path.name == "b":
-            raise KeyboardInterrupt
-        path.write_bytes(content)
+            raise_disk_full()
+        return write_bytes(path, content)
 
     with monkeypatch.context() as patch:
-        patch.setattr(writing, "write_whole", write_one_only)
-        with pytest.raises(KeyboardInterrupt):
+        patch.setattr(Path, "write_bytes", write_one_only)
+        with pytest.raises(OutputError, match="new cannot be made: No space left on device"):
             write_folder(folder, {"a": b"1", "b": b"2"})
     assert [*folder.parent.iterdir()] == []
     write_folder(folder, {"a": b"1", "b": b"2"})

@@ -164,7 +164,7 @@ def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
     seconds, unit, name = snapshot.light_period, "period", "The light's period"
     if has_chips(sent):
         seconds, unit, name = sent.switching_period, "chip", "Switching period"
-    return [
+    rows = [
         (
             f"Columns per {unit}",
             f"{seconds / camera.readout_time:.2f} columns",
@@ -175,15 +175,8 @@ def _measure_periods(snapshot: Snapshot) -> list[tuple[str, str, str]]:
             f"{camera.exposure_time / seconds:.3f} {unit}s",
             f"Exposure time divided by {name[:1].lower()}{name[1:]}.",
         ),
-        *(
-            [
-                (
-                    "Bars",
-                    depth_text(snapshot.bars.peak_to_peak),
-                    "The brightest column less the darkest.",
-                )
-            ]
-            if snapshot.bars is not None
-            else []
-        ),
     ]
+    if snapshot.bars is not None:
+        depth = depth_text(snapshot.bars.peak_to_peak)
+        rows.append(("Bars", depth, "The brightest column less the darkest."))
+    return rows

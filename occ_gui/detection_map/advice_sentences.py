@@ -72,7 +72,7 @@ def make_rough_sentence(decoder: str, frequencies: WorkingRange) -> str:
     """State what one picture at each frequency says."""
     highest = frequencies.highest
     found = f"up to roughly {format_end(_FREQUENCY, highest)}" if highest else "roughly none"
-    return f"The {decoder} decoder reads frequencies {found}; its limits are still searched for."
+    return f"The {decoder} decoder reads frequencies {found}, by one picture at each."
 
 
 def make_frequency_line(advice: Advice) -> AdviceLine:

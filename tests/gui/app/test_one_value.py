@@ -61,7 +61,7 @@ STATEMENTS: dict[str, tuple[Unit, tuple[str, ...]]] = {
     "depth of the bars": (
         PERCENT,
         (
-            rf"(?:the bars|They) are {_N}(%) of the mean",
+            rf"(?:[Tt]he bars|They) are {_N}(%) of the mean",
             rf"(?:Bars of {_N}(%) of the mean|No bars at [^:]*: {_N}(%))",
         ),
     ),

@@ -124,7 +124,8 @@ def test_at_a_tolerance_of_9_levels_the_named_effects_are_out() -> None:
     assert {"sensor-noise", "fixed-pattern", "vignetting", "flicker", "led-edges"} == set(
         plan.included
     )
-    assert round(sizes["sensor-noise"]) == 12
+    # 11.9 are measured.
+    assert sizes["sensor-noise"] == pytest.approx(11.9, rel=0.1)
     first = occ.plan(asked.scene, tolerance=0.5, observable="image")
     assert set(first.included) == set(sizes) - {"defocus"}  # less than half a level
 

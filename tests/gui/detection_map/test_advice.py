@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from gui.conftest import InlineWorkers
 from gui.detection_map.conftest import MapBench
-from gui.kinds import show_widget
+from gui.kinds import add_widget, show_widget
 from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
@@ -83,7 +83,9 @@ def advice_on(scene: Scene) -> Advice:
 
 @pytest.fixture
 def view(qtbot: QtBot) -> AdviceView:
-    return show_widget(qtbot, AdviceView())
+    view = show_widget(qtbot, AdviceView())
+    add_widget(qtbot, view.cards)  # which stand elsewhere
+    return view
 
 
 @pytest.fixture

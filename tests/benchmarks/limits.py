@@ -10,12 +10,17 @@ some noise, the highest frequency at which 99 % of the bits are read by the pape
 """
 
 import argparse
+import sys
 import time
 from collections.abc import Sequence
 from functools import partial
 from itertools import count
+from pathlib import Path
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
 from scene_values import presets_of_codes
 
 import occ_model as occ

@@ -110,4 +110,4 @@ def test_the_code_of_the_guide_runs() -> None:
     names: dict[str, object] = {}
     for code in blocks(text_of(FOLDER / "guide.md"), "python"):
         exec(compile(code, "guide.md", "exec"), names)
-    assert "real" in names
+    assert "read" in names

@@ -108,7 +108,8 @@ def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
         if not columns[0] <= edge <= columns[-1]:
             continue
         force = float((weight * steep**2)[near].sum())
-        if force > 0.0:
+        # An edge that may be anywhere within a period is none that is seen.
+        if force * (_CHANCE_SCATTER * wave.period) ** 2 > 1.0:
             shifts.append(float((weight * steep * residual)[near].sum()) / force)
             noises.append(1.0 / math.sqrt(force))
     return np.array(shifts), np.array(noises)

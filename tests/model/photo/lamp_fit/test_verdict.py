@@ -2,9 +2,12 @@
 
 from dataclasses import fields
 
+import numpy as np
 import pytest
 
-from occ_model.photo.lamp_fit.cues import Cues
+from occ_model.photo.lamp_fit.cues import Cues, cues_of
+from occ_model.photo.lamp_fit.fit import fit_lamp
+from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.verdict import doubts
 
 
@@ -32,3 +35,12 @@ def test_a_blur_as_of_things_is_doubted_unless_a_note_or_a_duty_confirms_the_lam
     cues = Cues(**{each.name: known.get(each.name, 0) for each in fields(Cues)})  # type: ignore[arg-type]
     assert not doubts(cues, 99.0, None, is_confirmed=True)
     assert "1.50 columns, as lenses blur" in " ".join(doubts(cues, 99.0, None, is_confirmed=False))
+
+
+def test_edges_in_the_dark_are_no_evidence_of_a_period() -> None:
+    columns = np.arange(70.0)
+    lit = sum(np.clip(4.0 - np.abs(columns - at), 0.0, 1.0) for at in (4.0, 66.0))
+    profile = LampProfile(0.01 + 0.8 * lit, np.full(70, 1e-6), np.zeros(70, dtype=bool))
+    fit = fit_lamp(profile, [15.0])[0]
+    assert fit.wave.period < 20.0  # with stripes in the dark between the two
+    assert cues_of(fit, profile.values[None]).edges <= 6

@@ -82,8 +82,7 @@ def segments_of(
         ):
             begin, end, chip = coded
             part = edges.part(begin, end)
-            cycle = _repeated(part, chip)
-            found.append(Segment(strip, part, cycle, 0.5 * cycle if cycle else chip))
+            found.append(_segment(strip, part, chip))
         elif period:
             found.append(Segment(strip, edges.part(begin, end), period, 0.5 * period))
         else:
@@ -94,11 +93,17 @@ def segments_of(
     return found
 
 
-def _repeated(edges: Edges, chip: float) -> float | None:
-    """Return the period where all edges of a kind are as many chips apart: a pulse that repeats."""
+def _segment(strip: int, edges: Edges, chip: float) -> Segment:
+    """Describe edges on a lattice: a chip is the longest that all distances are multiples of.
+
+    Where all edges of a kind are as many chips apart, a pulse repeats.
+    """
     apart = [np.diff(edges.place[edges.rises == kind]) / chip for kind in (True, False)]
-    turns = np.rint(np.concatenate(apart))
-    return float(turns[0]) * chip if (turns == turns[0]).all() and turns[0] > 0 else None
+    turns = np.rint(np.concatenate(apart)).astype(np.int64)
+    longest = max(int(np.gcd.reduce(turns)), 1) * chip
+    if (turns * chip == longest).all():
+        return Segment(strip, edges, longest, 0.5 * longest)
+    return Segment(strip, edges, None, longest)
 
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:

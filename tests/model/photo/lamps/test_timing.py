@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from occ_model.photo.lamps.edges import Edges, edges_of
-from occ_model.photo.lamps.segments import LEAST_EDGES, clipped_to, progressions_of
+from occ_model.photo.lamps.segments import LEAST_EDGES, clipped_to, progressions_of, segments_of
 from occ_model.photo.lamps.shape import rectangles
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 
@@ -105,6 +105,17 @@ def test_a_part_of_a_code_that_alternates_is_that_codes() -> None:
     pulses = timing_of([100.0, 110.0, 120.0, 130.0, 140.0, 150.0], spacing=20.0)
     assert code.agrees(pulses)
     assert not pulses.agrees(code)
+
+
+@pytest.mark.parametrize("shift", [-0.4, 0.0, 0.5])
+def test_a_chip_is_the_longest_that_all_distances_are_multiples_of(shift: float) -> None:
+    chips = np.tile([int(one) for one in "1110010110100101"], 4)
+    steps = np.diff(chips)
+    at = np.flatnonzero(steps)
+    rises = steps[at] > 0
+    place = 12.0 * (at + np.where(rises, 0.0, shift))
+    (one,) = segments_of(Edges(place, rises, np.zeros(len(at)), np.ones(len(at))), 0)
+    assert (one.period, one.chip) == (None, pytest.approx(12.0, rel=0.01))
 
 
 def test_parts_of_progressions_are_kept_that_have_edges_enough() -> None:

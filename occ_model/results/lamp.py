@@ -43,6 +43,9 @@ class Lamp:
     is_blurred
         Whether its stripes have little contrast, for example because the exposure is longer than a
         chip; edges may be missing and the frequency wrong.
+    is_joined
+        Whether it was found in parts that look like pulses, and by what is lit between them sends a
+        code: of that, pulses can have another chip.
     reflections
         Fainter regions that blink in phase with the lamp.
     """
@@ -58,6 +61,7 @@ class Lamp:
     periods: float | None = None
     is_faint: bool = False
     is_blurred: bool = False
+    is_joined: bool = False
     reflections: tuple[Region, ...] = ()
 
     @property
@@ -72,6 +76,8 @@ class Lamp:
             doubts.append("it is much fainter than the brightest lamp and may be a reflection")
         if self.is_blurred:
             doubts.append("its stripes have so little contrast that some may be missing")
+        if self.is_joined:
+            doubts.append("its parts look like pulses, which can have another chip than their code")
         product, error = self.switching_frequency_times_readout, self.product_uncertainty
         if product is not None and error is not None and error > _MAX_RELATIVE_ERROR * product:
             doubts.append(f"its frequency is known only to {PERCENT.format(error / product, 2)}")

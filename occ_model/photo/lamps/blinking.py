@@ -115,7 +115,8 @@ def _joined(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
         [[p[0, 0], p[:, 1].max(), p[:, 2].min(), p[:, 3].max()] for p in of_start], dtype=np.int64
     )
     region = around(whole)
-    is_code |= left.timing.is_code or right.timing.is_code
+    seems_code = left.timing.is_code or right.timing.is_code
+    is_guess, is_code = is_code and not seems_code, is_code or seems_code
     lamp = replace(
         more.lamp,
         region=region,
@@ -126,6 +127,7 @@ def _joined(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
         switching_frequency_times_readout=1.0 / timing.chip,
         product_uncertainty=timing.uncertainty / timing.spacing / timing.chip,
         periods=None if is_code else region.columns / timing.spacing,
+        is_joined=is_guess,
     )
     light = max(left, right, key=lambda one: one.light)
     return Blinking(lamp, timing, light.light, light.dark)

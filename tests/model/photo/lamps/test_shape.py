@@ -43,6 +43,7 @@ def test_parts_between_which_the_lamp_is_lit_are_one_lamp_without_a_period() -> 
     assert (one.lamp.region.first_row, one.lamp.region.last_row) == (20, 80)
     assert (one.lamp.period, one.lamp.periods) == (None, None)
     assert one.lamp.switching_frequency_times_readout == pytest.approx(2.0 / _PERIOD)
+    assert "can have another chip than their code" in " ".join(one.lamp.doubts)
 
 
 @pytest.mark.parametrize(

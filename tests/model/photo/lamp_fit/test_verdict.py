@@ -40,7 +40,7 @@ def test_a_blur_as_of_things_is_doubted_unless_a_note_or_a_duty_confirms_the_lam
 def test_edges_in_the_dark_are_no_evidence_of_a_period() -> None:
     columns = np.arange(70.0)
     lit = sum(np.clip(4.0 - np.abs(columns - at), 0.0, 1.0) for at in (4.0, 66.0))
-    profile = LampProfile(0.01 + 0.8 * lit, np.full(70, 1e-6), np.zeros(70, dtype=bool))
+    profile = LampProfile(np.asarray(0.01 + 0.8 * lit), np.full(70, 1e-6), np.zeros(70, dtype=bool))
     fit = fit_lamp(profile, [15.0])[0]
     assert fit.wave.period < 20.0  # with stripes in the dark between the two
     assert cues_of(fit, profile.values[None]).edges <= 6

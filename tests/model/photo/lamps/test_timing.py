@@ -113,7 +113,7 @@ def test_a_chip_is_the_longest_that_all_distances_are_multiples_of(shift: float)
     steps = np.diff(chips)
     at = np.flatnonzero(steps)
     rises = steps[at] > 0
-    place = 12.0 * (at + np.where(rises, 0.0, shift))
+    place = np.asarray(12.0 * (at + np.where(rises, 0.0, shift)), dtype=np.float64)
     (one,) = segments_of(Edges(place, rises, np.zeros(len(at)), np.ones(len(at))), 0)
     assert (one.period, one.chip) == (None, pytest.approx(12.0, rel=0.01))
 

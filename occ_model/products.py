@@ -1,8 +1,8 @@
 """Inner products of long vectors on the calling thread alone.
 
-BLAS starts threads for products that take less time than the threads; what they cost is seen in
-processor time, and in wall time where other processes want the cores. Products in parts stay below
-the size at which it does, whatever the settings of the process.
+BLAS starts threads even for products that take less time than starting them. Their cost shows in
+processor time, and in wall time where other processes want the cores. These functions multiply in
+parts that are too small for threads, whatever the settings of the process.
 """
 
 import math
@@ -12,12 +12,12 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 MOST_MULTIPLIED = 2**18
-"""Multiplications of a product of matrices up to which OpenBLAS takes one thread."""
+"""Most multiplications in a product of matrices for which OpenBLAS takes one thread."""
 
-_MOST_TERMS = MOST_MULTIPLIED // 2  # of a product here
-_DEPENDENT = 1e-13  # squared distance of a unit row from the others' combinations that is none
-_SQUARINGS = 20  # of a matrix, after which eigenvalues a millionth smaller than the first are gone
-_LONGEST_DOT = 2**13  # of two vectors; OpenBLAS takes one thread up to 10,000
+_MOST_TERMS = MOST_MULTIPLIED // 2  # multiplications in one part of a product
+_DEPENDENT = 1e-13  # squared distance of a unit row from the span of the others that counts as 0
+_SQUARINGS = 20  # after which an eigenvalue 1e-5 below the largest has 3e-5 of its weight
+_LONGEST_DOT = 2**13  # elements of the vectors; OpenBLAS takes one thread up to 10,000
 
 
 def dot(first: FloatArray, second: FloatArray) -> float:
@@ -40,7 +40,7 @@ def row_products(values: FloatArray, rows: FloatArray) -> FloatArray:
     return product
 
 
-def combined(weights: FloatArray, rows: FloatArray) -> FloatArray:
+def combine(weights: FloatArray, rows: FloatArray) -> FloatArray:
     """Return sums of weighted rows, for weights of shape (rows,) or several, (any, rows)."""
     step = max(1, _MOST_TERMS // max(1, weights.size))
     if rows.shape[1] <= step:
@@ -49,17 +49,17 @@ def combined(weights: FloatArray, rows: FloatArray) -> FloatArray:
     return np.concatenate([weights @ rows[:, i : i + step] for i in starts], axis=-1)
 
 
-def orthonormal(rows: FloatArray) -> FloatArray:
-    """Return orthonormal rows of which the same combinations can be made.
+def orthonormalize(rows: FloatArray) -> FloatArray:
+    """Return orthonormal rows with the same span.
 
-    In place of a row that is a combination of others, one of nearly 0 is returned.
+    A row that is a combination of others is replaced by one of nearly 0.
     """
     norms = np.sqrt(np.einsum("ij,ij->i", rows, rows))
     rows = rows / np.maximum(norms, np.finfo(float).tiny)[:, None]
     products = row_products(rows, rows) + _DEPENDENT * np.eye(len(rows))
-    # Not by the decompositions of LAPACK that are more exact, since their threads cost a hundred
-    # times as much as they do.
-    return combined(np.linalg.inv(np.linalg.cholesky(products)), rows)
+    # LAPACK has decompositions that are more exact, but their threads cost a hundred times as much
+    # as the decomposition.
+    return combine(np.linalg.inv(np.linalg.cholesky(products)), rows)
 
 
 def leading_direction(products: FloatArray) -> FloatArray:
@@ -73,14 +73,14 @@ def leading_direction(products: FloatArray) -> FloatArray:
 
 
 def quadratic_forms(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Return v' M v of each of some vectors, which are rows, and a symmetric matrix M."""
+    """Return v' M v for each row v of ``vectors`` and a symmetric matrix M."""
     step = max(1, MOST_MULTIPLIED // matrix.size)
     parts = (vectors[i : i + step] for i in range(0, len(vectors), step))
     return np.concatenate([np.einsum("ij,ij->i", part @ matrix, part) for part in parts])
 
 
-def solved_positive(matrix: FloatArray, sums: FloatArray) -> FloatArray:
-    """Solve the equations of a positive definite matrix; LAPACK starts threads for a hundred."""
+def solve_positive_definite(matrix: FloatArray, sums: FloatArray) -> FloatArray:
+    """Solve a positive definite system; LAPACK would start threads for a hundred equations."""
     both = np.column_stack([matrix, sums])
     for place, row in enumerate(both):
         row /= row[place]
@@ -91,22 +91,23 @@ def solved_positive(matrix: FloatArray, sums: FloatArray) -> FloatArray:
 
 
 def least_squares(parts: FloatArray, values: FloatArray) -> FloatArray:
-    """Return the factors of columns whose sum is nearest to some values, by normal equations."""
+    """Fit a sum of weighted columns to some values by normal equations; return the weights."""
     products = row_products(parts.T, parts.T)
     products.flat[:: len(products) + 1] *= 1.0 + 1e-9
     return np.asarray(np.linalg.solve(products, parts.T @ values), dtype=np.float64)
 
 
 def two_factors(parts: FloatArray, values: FloatArray) -> FloatArray:
-    """Return the factors of two columns, none below 0, whose sum is nearest to some values.
+    """Fit a sum of two weighted columns to some values; return the weights, none below 0.
 
-    No number in ``parts`` is below 0. SciPy's takes 0.2 s to import.
+    No number in ``parts`` is below 0. ``scipy.optimize.nnls`` does this too, but takes 0.2 s to
+    import.
     """
     products, towards = parts.T @ parts, parts.T @ values
     both = np.linalg.lstsq(products, towards, rcond=None)[0]
     if both.min() >= 0.0:
         return np.asarray(both, dtype=np.float64)
-    # Of the two factors one is 0; the other one explains more.
+    # One weight is 0: that of the column that alone explains less.
     alone = np.maximum(towards, 0.0) / np.maximum(np.diag(products), 1e-300)
     is_better = np.arange(2) == np.argmax(alone * towards)
     return np.where(is_better, alone, 0.0)

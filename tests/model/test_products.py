@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from occ_model.products import (
-    combined,
+    combine,
     dot,
     leading_direction,
-    orthonormal,
+    orthonormalize,
     quadratic_forms,
     row_products,
-    solved_positive,
+    solve_positive_definite,
 )
 
 
@@ -25,16 +25,16 @@ def test_products_in_parts_are_those_of_whole_vectors(length: int) -> None:
     assert dot(first[0], second[0]) == pytest.approx(whole[0, 0], abs=off)
     np.testing.assert_allclose(row_products(first, second), whole, rtol=0.0, atol=off)
     np.testing.assert_allclose(row_products(first[2], second), whole[2], rtol=0.0, atol=off)
-    np.testing.assert_allclose(combined(weights, first), mixed, rtol=0.0, atol=off)
-    np.testing.assert_allclose(combined(weights[1], first), mixed[1], rtol=0.0, atol=off)
+    np.testing.assert_allclose(combine(weights, first), mixed, rtol=0.0, atol=off)
+    np.testing.assert_allclose(combine(weights[1], first), mixed[1], rtol=0.0, atol=off)
 
 
 def test_orthonormal_rows_span_what_the_rows_span_also_where_one_is_superfluous() -> None:
     rows = np.random.default_rng(3).normal(size=(5, 40)) * [[1.0], [1e-3], [1e3], [1.0], [1.0]]
-    basis = orthonormal(rows)
+    basis = orthonormalize(rows)
     np.testing.assert_allclose(basis @ basis.T, np.eye(5), atol=1e-6)
     np.testing.assert_allclose((rows @ basis.T) @ basis, rows, atol=1e-9 * np.abs(rows).max())
-    again = orthonormal(np.vstack([rows[2:], rows[2] - rows[3]]))
+    again = orthonormalize(np.vstack([rows[2:], rows[2] - rows[3]]))
     np.testing.assert_allclose((rows[3] @ again.T) @ again, rows[3], atol=1e-6)
     assert np.linalg.norm(again, axis=1).max() < 1.0 + 1e-6
 
@@ -52,6 +52,6 @@ def test_a_positive_matrix_is_solved_and_gives_its_quadratic_forms() -> None:
     random = np.random.default_rng(5)
     rows, vectors = random.normal(size=(150, 160)), random.normal(size=(40, 150))
     matrix, wanted = rows @ rows.T, random.normal(size=150)
-    assert solved_positive(matrix, matrix @ wanted) == pytest.approx(wanted, abs=1e-6)
+    assert solve_positive_definite(matrix, matrix @ wanted) == pytest.approx(wanted, abs=1e-6)
     lengths = ((vectors @ rows) ** 2).sum(axis=1)
     assert quadratic_forms(vectors, matrix) == pytest.approx(lengths)

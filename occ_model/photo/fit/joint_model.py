@@ -21,7 +21,7 @@ from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, BlurShape, SeenStr
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
-from occ_model.products import combined, dot, row_products
+from occ_model.products import combine, dot, row_products
 from occ_model.scene.parameters import quantity
 
 PRIORS = {
@@ -217,7 +217,7 @@ class JointModel:
         for number, part in enumerate(self._parts):
             residual = part.residual(seen)
             slow = part.slow(np.ones(part.data.size))
-            residual -= combined(row_products(residual, slow), slow)
+            residual -= combine(row_products(residual, slow), slow)
             deviation = deviation_of(residual, part.slope, part.freedom + len(slow) / 2.0)
             whole = np.zeros(self._columns)
             whole[part.kept] = residual / deviation
@@ -267,7 +267,7 @@ class JointModel:
         found = []
         for values, noise, slow in zip(parts, self._noise, self._slow, strict=True):
             white = values / noise
-            found.append(white - combined(row_products(white, slow), slow))
+            found.append(white - combine(row_products(white, slow), slow))
         return found
 
 

@@ -21,7 +21,7 @@ from occ_model.photo.fit.levels import LevelShapes, LitColumns
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
-from occ_model.products import combined, dot, row_products
+from occ_model.products import combine, dot, row_products
 from occ_model.scene.parameters import quantity
 
 
@@ -123,7 +123,7 @@ class StripeModel:
         lit = self._light.exposed(timing).lit
         tone = self._tone(lit, timing.gamma)
         levels = self._explained(tone, self._kept_profile)
-        low, swing = combined(levels.reshape(2, -1), self._shapes.all)
+        low, swing = combine(levels.reshape(2, -1), self._shapes.all)
         return lit, tone, low, swing
 
     def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:

@@ -11,7 +11,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.photo.stripes.envelope import smooth_shapes
-from occ_model.products import combined, row_products
+from occ_model.products import combine, row_products
 
 _LEAST_FRACTION = 1e-9  # of the trace of a matrix, added to its diagonal
 
@@ -23,12 +23,12 @@ class LitColumns:
 
     def light(self, levels: FloatArray) -> FloatArray:
         """Return the light of levels, shape (2 shapes,), or of several, (any, 2 shapes)."""
-        dark = combined(levels[..., : len(self.shapes)], self.shapes)
+        dark = combine(levels[..., : len(self.shapes)], self.shapes)
         return np.asarray(dark + self.lit * self.swing(levels))
 
     def swing(self, levels: FloatArray) -> FloatArray:
         """Return the additional light of lit columns."""
-        return combined(levels[..., len(self.shapes) :], self.shapes)
+        return combine(levels[..., len(self.shapes) :], self.shapes)
 
 
 class LevelShapes:

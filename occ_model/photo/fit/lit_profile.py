@@ -16,7 +16,7 @@ from occ_model.photo.fit.levels import LevelShapes, LitColumns
 from occ_model.photo.fit.seen_stripes import BLUR, BLUR_REACH, Seen, SeenSlopes, blurred
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
-from occ_model.products import combined, orthonormal
+from occ_model.products import combine, orthonormalize
 
 _LEAST_DEVIATION = 0.02  # minimum standard deviation of a column mean in grey levels
 _MOST_CORRECTIONS = 4  # steps by which levels are corrected for the blur of grey levels
@@ -90,7 +90,7 @@ class LitProfile:
 
     def relative_slope(self, seen: Seen) -> FloatArray:
         """Return the slope of the swing's logarithm over columns, shape (kept,)."""
-        swing = combined(self._fitted(seen).levels[self.freedom :], self._shapes.all)
+        swing = combine(self._fitted(seen).levels[self.freedom :], self._shapes.all)
         swing = np.maximum(swing, LEAST_SWING * float(swing.max()))
         slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
         return np.asarray(slope[self.kept])
@@ -100,7 +100,7 @@ class LitProfile:
 
         Shape (changes, kept).
         """
-        return orthonormal(self._slow / noise)
+        return orthonormalize(self._slow / noise)
 
     def _fitted_to(self, seen: Seen) -> _Fitted:
         kept = LitColumns(self._shapes.kept, seen.lit[self.kept])

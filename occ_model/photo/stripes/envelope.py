@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.products import combined, orthonormal, row_products
+from occ_model.products import combine, orthonormalize, row_products
 
 MEAN_SHAPES = 6
 """Number of polynomials for the trend of a profile's mean; its swing has two thirds of them."""
@@ -72,11 +72,11 @@ def weighted_correlation(first: FloatArray, second: FloatArray, weights: FloatAr
 
 def _smooth(values: FloatArray, freedom: int) -> FloatArray:
     shapes = _orthonormal_shapes(len(values), freedom)
-    return combined(row_products(values, shapes), shapes)
+    return combine(row_products(values, shapes), shapes)
 
 
 @lru_cache(maxsize=8)
 def _orthonormal_shapes(columns: int, freedom: int) -> FloatArray:
-    shapes = orthonormal(np.ascontiguousarray(smooth_shapes(columns, freedom).T))
+    shapes = orthonormalize(np.ascontiguousarray(smooth_shapes(columns, freedom).T))
     shapes.flags.writeable = False
     return shapes

@@ -15,7 +15,7 @@ from occ_model.errors import MatchError, ParameterError, distinct_texts, inflect
 from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.period import repeat_period
-from occ_model.products import combined, leading_direction, row_products
+from occ_model.products import combine, leading_direction, row_products
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Stripes
@@ -187,7 +187,7 @@ def _find_striped_rows(photo: Photo) -> tuple[int, int]:
 def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the slopes that the bands share, of norm one, and their strength in each band."""
     # The leading pair of singular vectors, from the small matrix of the bands' products.
-    common = combined(leading_direction(row_products(slopes, slopes)), slopes)
+    common = combine(leading_direction(row_products(slopes, slopes)), slopes)
     common /= np.linalg.norm(common)
     strengths = row_products(common, slopes)
     return (-common, -strengths) if strengths.sum() < 0.0 else (common, strengths)

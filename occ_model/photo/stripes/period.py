@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
-from occ_model.products import combined, row_products, solved_positive
+from occ_model.products import combine, row_products, solve_positive_definite
 
 _SHORTEST_PERIOD = 3  # shortest period in columns
 LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
@@ -143,8 +143,8 @@ def repeated_wave(
         products[:harmonics, :harmonics] = 0.5 * (apart + factor * together)
         # At half the column rate a sine has no energy of its own.
         products[np.diag_indices_from(products)] += _REGULARIZATION * count
-        weights = solved_positive(products, row_products(values, parts))
-        left = left - combined(weights, parts)
+        weights = solve_positive_definite(products, row_products(values, parts))
+        left = left - combine(weights, parts)
         strengths += 0.5 * weights[:harmonics] * (1.0 if first == 0 else -1j)
     return strengths * np.exp(0.5j * rate * (1 - count) * order), left
 

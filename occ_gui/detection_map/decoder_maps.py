@@ -149,12 +149,12 @@ class MapPlots(QWidget):
         rates = self._rates
         if rates is None:
             return
-        owners = rates.find_owners()
-        is_unknown = owners[0] < 0
-        is_doubtful = rates.find_doubtful()[owners]
-        refused = np.where(is_unknown, 0, rates.find_refused()[owners])
+        sources = rates.find_rate_sources()
+        is_unknown = sources[0] < 0
+        is_doubtful = rates.find_doubtful()[sources]
+        refused = np.where(is_unknown, 0, rates.find_refused()[sources])
         for plot, name in zip(self.plots, self._list_names(), strict=False):
-            values = np.where(is_unknown, np.nan, self._find_values(rates, name)[owners])
+            values = np.where(is_unknown, np.nan, self._find_values(rates, name)[sources])
             image = make_image(to_colours(values, low, high, scheme, is_doubtful))
             plot.show_picture(image, rates.shape, refused)
         self._show_lines()
@@ -178,7 +178,8 @@ class MapPlots(QWidget):
         return rates.bits_a_second(decoder, self._frames_a_second)
 
     def _show_lines(self) -> None:
-        lines = {k: lines for k, lines in self._lines.items() if k not in self._hidden_limits}
+        hidden = self._hidden_limits
+        lines = {limit: curves for limit, curves in self._lines.items() if limit not in hidden}
         for plot in self.plots:
             plot.lines = lines
             plot.update()

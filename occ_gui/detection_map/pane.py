@@ -161,7 +161,7 @@ class DetectionMapController(QObject):
         rates = self.map
         x, y = -1, -1
         if place is not None and rates is not None:
-            x, y = (int(owner[place]) for owner in rates.find_owners())
+            x, y = (int(source[place]) for source in rates.find_rate_sources())
         if rates is None or x < 0:
             self._view.show_facts(None)
             return

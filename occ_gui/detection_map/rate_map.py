@@ -182,7 +182,7 @@ class RateMap:
         has_rate = np.any(sent > 0)
         return next((note for i, note in self.notes.items() if sent[i] or not has_rate), "")
 
-    def find_owners(self) -> tuple[IndexArray, IndexArray]:
+    def find_rate_sources(self) -> tuple[IndexArray, IndexArray]:
         """Return, for each point, the indices along x and y of the known point whose rate it shows.
 
         Points that are not measured yet show the rate of a measured point nearby; -1 if there is

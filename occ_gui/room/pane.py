@@ -24,7 +24,7 @@ _LEAST = QSize(360, 180)
 
 
 class RoomPane(Pane[RoomChoice]):
-    """Shows a room from a place that the user drags; one drag is one step."""
+    """Shows a room from a place that the user drags; a drag is one step to undo."""
 
     def __init__(self, store: Store) -> None:
         self.view = RoomView(rooms())

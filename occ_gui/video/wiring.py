@@ -179,7 +179,7 @@ class VideoWiring(Pane[FilmChoice]):
         if film.frame_rate:
             try:
                 form.show_recording(form.recording.replace(frame_rate=film.frame_rate))
-            except OccError:  # a film that is out of range
+            except OccError:  # a rate that is out of range
                 return
             self._keep_recording()
         form.show_scene(self._scenes.seen)

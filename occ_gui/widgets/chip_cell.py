@@ -11,7 +11,7 @@ from occ_gui.widgets.colours import lighten_for
 _LEAST_DIGIT_WIDTH = 7.5
 
 _MIN_FITTING_FRACTION = 0.6  # least fraction of cells with room for a digit
-_LEAST_CONDENSED = 0.5  # of its width that a digit in a narrow cell has at least
+_LEAST_CONDENSED = 0.5  # least width of a digit in a narrow cell, as a fraction of its usual width
 
 _FADED_OPACITY = 0.45
 

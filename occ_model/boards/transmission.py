@@ -32,9 +32,9 @@ class Transmission:
     chips: ByteArray  # Shape (chips,): one period in the order sent; 1 is lit
     timing: BoardTiming
 
-    unit: ClassVar = "chip"  # Names of the timing's period and of its frequency
-    frequency: ClassVar = "switching frequency"
-    repeats: ClassVar = "packet"
+    unit: ClassVar = "chip"  # Name of the timing's period
+    frequency: ClassVar = "switching frequency"  # Name of the timing's frequency
+    repeats: ClassVar = "packet"  # Name of what is sent again and again
     part: ClassVar = "chip"  # Name of a part that is lit or dark
 
     @property
@@ -53,7 +53,7 @@ class Transmission:
         return self.sent_scene == self.scene
 
     def start_of(self, chip: int) -> int:
-        """Return the clock cycles before a chip, or before the end, whose index is the next."""
+        """Return the clock cycles before a chip; the index after the last chip gives all."""
         return chip * self.timing.cycles
 
     def samples(self, count: int) -> ByteArray:

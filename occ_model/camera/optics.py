@@ -27,7 +27,7 @@ class Gain:
         return cls(stage, recall_factors)
 
 
-STAGE = "optics"  # the stage to which time counts that belongs to no effect
+STAGE = "optics"  # the stage for computing time that belongs to no effect
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -37,8 +37,7 @@ class Optics:
     blur: float = 0.0  # Standard deviation of the lens's blur in pixels
     emission: tuple[Gain, ...] = field(default=())
     transmission: tuple[Gain, ...] = field(default=())
-    # The stage to which the time to compute the panel's coverage counts
-    cover_stage: str = STAGE
+    cover_stage: str = STAGE  # The stage for the computing time of the panel's coverage
 
     @property
     def is_plain(self) -> bool:

@@ -18,7 +18,7 @@ GREYS = 256
 
 _MOST_SUMMED = 100.0  # mean electrons up to which the sum over their number is computed
 _FINE_LATTICE = 0.7  # read noise in electrons below which single electrons show
-_TAIL = 6.5  # standard deviations beyond which there is hardly one of 1e10 pixels
+_TAIL = 6.5  # standard deviations, which hardly one of 1e10 pixels exceeds
 _SMALLEST_DEVIATION = 1e-9  # electrons, in place of none
 
 
@@ -54,7 +54,7 @@ class PixelNoise:
 
     @property
     def is_drawn(self) -> bool:
-        """Whether pictures differ, not the pixels' gains only."""
+        """Whether two pictures of the same light differ; the pixels' gains are the same in both."""
         return self.is_counted or self.read_noise > 0.0
 
     def deviation(self, electrons: FloatArray) -> FloatArray:
@@ -121,7 +121,7 @@ class PixelNoise:
         return np.asarray(numbers @ normal_fraction((limits - count[:, None]) / deviation))
 
     def _expand(self, means: FloatArray, limits: FloatArray) -> FloatArray:
-        """Compute the fractions by a series for many electrons, near each mean only."""
+        """Compute the fractions for many electrons near each mean; elsewhere they are 0 or 1."""
         reach = _TAIL * self.deviation(means) + self._is_lattice * 5.0
         first = np.searchsorted(limits, means - reach)
         width = int((np.searchsorted(limits, means + reach) - first).max(initial=0))
@@ -182,7 +182,7 @@ class PixelNoise:
 
 
 def _gain_nodes(variation: float, most: float) -> tuple[FloatArray, FloatArray]:
-    """Return gains and their weights, close enough to sum over Poisson numbers of a mean."""
+    """Return gains and their weights for averaging Poisson numbers of means up to ``most``."""
     if variation == 0.0:
         return np.ones(1), np.ones(1)
     spacing = 1.0 / max(variation * np.sqrt(most), 1e-9)

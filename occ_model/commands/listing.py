@@ -107,7 +107,7 @@ def line_code_table() -> str:
     """Write the declared properties of the built-in line codes as a Markdown table."""
     lines = [
         "| line code | chips a bit | without a bit | longest run, chips | ones and zeros "
-        "| slowest wave | its runs unseen from | one wrong chip |",
+        "| slowest wave | its flicker unseen from | one wrong chip |",
         "|---|---|---|---|---|---|---|---|",
     ]
     lines += [

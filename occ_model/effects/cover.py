@@ -35,12 +35,10 @@ def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
     along = np.roll(outline[:, axis], -int(np.argmin(outline[:, axis])))
     across = np.roll(outline[:, 1 - axis], -int(np.argmin(outline[:, axis])))
     turn = int(np.argmax(along))
-    first_chain = np.maximum.accumulate(along[: turn + 1]), across[: turn + 1]
-    last_along, last_chain = (
-        np.append(along[turn:], along[0])[::-1],
-        np.append(across[turn:], across[0]),
-    )
-    chains = (first_chain, (np.maximum.accumulate(last_along), last_chain[::-1]))
+    # The outline's two sides between its ends, each in rising order, as interpolation needs it.
+    there = along[: turn + 1], across[: turn + 1]
+    back = np.append(along[turn:], along[0])[::-1], np.append(across[turn:], across[0])[::-1]
+    chains = [(np.maximum.accumulate(rising), places) for rising, places in (there, back)]
     ends = [[np.interp(lines + step, *chain) for step in (0.0, -0.5, 0.5)] for chain in chains]
     if ends[0][0].sum() > ends[1][0].sum():
         ends.reverse()

@@ -29,7 +29,7 @@ class SimulatedColumns:
         noises: Sequence[NoiseEffect],
         law: Callable[[Names], GreyLaw | None],
     ) -> None:
-        """Prepare the columns; ``law`` is that of grey levels with some effects."""
+        """Prepare the columns; ``law`` returns the law of grey levels with some effects."""
         self._view, self._law = view, law
         self._lights, self._limits = lights, limits
         self._of_light = frozenset(effect.name for effect in lights)

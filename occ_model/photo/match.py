@@ -66,8 +66,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         for a lamp's frequency, too.
     sent
         ``"scene"``: the scene's light was sent. ``"read"``: the shortest pattern that explains the
-        stripes is read from them. ``"auto"``: whichever of them is more likely. Of a lamp the duty
-        is read but with ``"scene"``.
+        stripes is read from them. ``"auto"``: whichever of them is more likely. A lamp's duty is
+        read unless this is ``"scene"``.
     averaging
         ``"pixel-value"`` or ``"light"``, as the scene's parameter, or ``"auto"``: the better match.
         A lamp's light is averaged.
@@ -77,7 +77,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         First row, row after the last, first column and column after the last of the rectangle in
         which stripes are searched; or a lamp; None for the whole photo.
     progress
-        Called with the fraction of the work that is done. What it raises ends the match.
+        Called with the fraction of the work that is done. An exception from it ends the match.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def _is_lamp(scene: Scene, sent: str) -> bool:
 
 
 def _in_chips(scene: Scene, *, is_read: bool) -> Scene:
-    """Return a scene that sends chips; any may, if what is sent is read from the photo."""
+    """Return a scene that sends chips; refuse another light unless the chips are to be read."""
     if is_read or scene.transmitter.light == "code":
         return scene.replace(light="code")
     raise ParameterError.of(
@@ -164,8 +164,8 @@ def _match_chips(photo: Photo, scene: Scene, how: _Settings, report: "_Progress"
         raise MatchError(*unread, *error.reasons) from None
     found, beside = candidates.corrected(chosen)
     others = [*(one for one in hypotheses if one is not chosen), *beside]
-    apart = [one for one in others if not is_turned(one, found)]
-    verdict = judge.verdict(found, apart, is_given=how.sent == "scene")
+    different = [one for one in others if not is_turned(one, found)]
+    verdict = judge.verdict(found, different, is_given=how.sent == "scene")
     report(0.9)
     match = make_match(
         photo, scene, how.estimate, stripes, found.explanation, report.again,
@@ -224,7 +224,7 @@ def _hypotheses(
     is_unread = candidates.stripes.period is None or explained < EXPLAINED_CORRELATION
     unread = [why_unread(candidates.stripes)] if is_unread and not found and sent != "scene" else []
     if as_sent is not None:
-        # Where both ways lead to the scene's chips, then perhaps to different timings.
+        # Both ways can lead to the scene's chips, with different timings; the better one is kept.
         agreed = [
             replace(one, sent=as_sent.sent, bits=0.0, was_read=False)
             for one in found

@@ -44,10 +44,10 @@ class VideoFrame:
         When the exposure of its first column started, in seconds by the camera's own clock, from
         the film's first frame; for a file, the time that the container states.
     image : ndarray of uint8, shape (rows, columns) or (rows, columns, 3)
-        The camera's picture in grey levels, not enhanced, with columns as the scan axis; of a
-        colour camera, or of a film read in colours, red, green and blue. A reader
-        of films also takes the other types of pixels that :func:`occ_model.decode` takes; the value
-        of white is that of the first frame.
+        The camera's picture, not enhanced, with columns as the scan axis: in grey levels, or in
+        red, green and blue for a colour camera or a film read in colours. A reader of films also
+        takes the other types of pixels of :func:`occ_model.decode`; the first frame's type sets the
+        value of white.
     exposure_time
         Exposure time in seconds by the camera's own clock; None if the film does not state it.
     scene

@@ -114,7 +114,7 @@ def most_bits(
 
 
 def reset_varied(scene: Scene) -> Scene:
-    """Return a scene with the varied parameters reset: all on which the search's result depends."""
+    """Return a scene with the parameters reset that do not affect the result of the search."""
     frequency = quantity("switching_frequency").default
     return _send_zeros(scene, _TRIED_LINE_CODES[0], 1, frequency).replace(code=0, start_time=0.0)
 

@@ -84,11 +84,11 @@ _MAX_NAMED = 2
 
 
 def explanation(step: LessonStep, scene: Scene) -> str:
-    """Return a step's explanation, which names the scene of its numbers if it is another one."""
+    """Return a step's explanation, with the scene that its numbers are for unless it is shown."""
     question = step.question_scene
     if step.own_photo or scene == question:
         return step.answer
-    names = (name for names in GROUPS.values() for name in names)
+    names = (name for group in GROUPS.values() for name in group)
     differing = [name for name in names if scene.value(name) != question.value(name)]
     values = ", ".join(
         f"{PARAMETERS[name].label}: {PARAMETERS[name].format(question.value(name)) or 'empty'}"  # type: ignore[arg-type]

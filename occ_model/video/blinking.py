@@ -1,6 +1,6 @@
 """The frequency of light that is bright in some frames and dark in others.
 
-A rise of the light is seen to a frame period: its time is rounded to that.
+The time of a rise of the light is known only to the frame, so it is rounded to a frame period.
 """
 
 import numpy as np

@@ -17,7 +17,7 @@ from occ_model.scene.parameters.colour import COLOURS, CSK_ORDERS
 from occ_model.scene.scene import Scene
 from occ_model.video.decode_film import reader_of
 
-_ROWS = 16  # of a picture of one colour, which state its means to 1/16 of a grey level
+_ROWS = 16  # of an LED's picture; rounded differently, they keep means to 1/16 of a grey level
 
 
 def decode_colour_video(
@@ -78,15 +78,16 @@ def decode_colour_video(
 
 
 def _pictures_of(image: ByteArray, scene: Scene) -> Iterator[ByteArray]:
-    """Yield the picture of each LED, dark beside the panel: its light, unmixed, in each column."""
+    """Yield a picture for each LED: its own light in the panel's columns, and black elsewhere."""
     signals = colour_signals(image, scene)
-    parts = np.arange(0.5, _ROWS)[:, None] / _ROWS
+    rounding_offsets = np.arange(0.5, _ROWS)[:, None] / _ROWS
     for place, colour in enumerate(COLOURS):
-        every = 1 if colour == "green" else 2
-        first = scene.colours.first_pixel(colour)[1] % every
-        picture = np.zeros((_ROWS, len(range(first, image.shape[1], every))), np.uint8)
+        step = 1 if colour == "green" else 2  # columns from one pixel of the colour to the next
+        first = scene.colours.first_pixel(colour)[1] % step
+        picture = np.zeros((_ROWS, len(range(first, image.shape[1], step))), np.uint8)
         if signals is not None:
             own = signals.own()[place]
-            start = signals.region.first_column // every
-            picture[:, start : start + len(own)] = np.clip(np.floor(own + parts), 0, WHITE)
+            start = signals.region.first_column // step
+            values = np.clip(np.floor(own + rounding_offsets), 0, WHITE)
+            picture[:, start : start + len(own)] = values
         yield picture

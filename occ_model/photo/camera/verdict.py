@@ -11,23 +11,23 @@ from occ_model.photo.camera.quotient import LineValues, quotient_of_lines
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.units import PERCENT
 
-# Limits in natural logarithms of likelihoods, and others, set on simulated pairs of the seeds
-# below 100 and half of the real pictures.
-_LEAST_SEEN = 0.15  # fraction of the lines of tiles that have usable pixels
-LEAST_FOR_ANY = 60.0  # bars over no bars, for a doubtful answer
-_LEAST_FOR_SURE = 300.0  # the same for a sure one
-_LEAST_GAP = 40.0  # over other numbers of bars
+# Limits set on simulated pairs of the seeds below 100 and half of the real pictures. Evidence is a
+# natural logarithm of a ratio of likelihoods.
+_LEAST_SEEN = 0.15  # fraction of the tiles' lines that have usable pixels
+LEAST_FOR_ANY = 60.0  # evidence for bars, for a doubtful answer
+_LEAST_FOR_SURE = 300.0  # evidence for bars, for a sure answer
+_LEAST_GAP = 40.0  # evidence for a number of bars over all others
 _FEWEST_SURE_BARS = 1.9  # fewer do not show that they repeat
-_LARGEST_ERROR = 0.015  # relative
-_SAME = 0.03  # relative difference of two numbers of bars that are one
-_BENT, _PERHAPS_BENT = 15.0, 6.0  # a lens correction over none
+_LARGEST_ERROR = 0.015  # relative error of a sure answer
+_SAME = 0.03  # relative difference up to which two numbers of bars count as equal
+_BENT, _PERHAPS_BENT = 15.0, 6.0  # evidence for a lens correction: refused, doubtful
 _MOST_MODULATION = 0.5
 # Relative deviations of answers that are doubtful for these reasons, from the same simulated pairs.
 _ERROR_OF_FEW, _ERROR_OF_CHANGING = 0.12, 0.08
 
-# Of one picture, in which the room's own pattern does not cancel, slopes in radians:
-_MOST_TILT = 5e-4  # of bars over lines: what people hang is level to about 1e-2
-_SLANTED = 0.08  # above which lamps on other phases do not explain it
+# Slopes of the bars in radians in a single picture, where no other one cancels the room's pattern:
+_MOST_TILT = 5e-4  # for bars of light; what people hang up is level to about 1e-2 only
+_SLANTED = 0.08  # more than lamps on different phases of the mains can cause
 
 _ANOTHER = "Take a second picture a moment later, and give both."
 _ONE_PICTURE = (
@@ -90,18 +90,18 @@ def _why_none(photos: list[Photo], axes: list[str]) -> list[str]:
         "lamps on the mains without daylight."
     )
     for axis in axes:
-        stand = [bars for photo in photos if (bars := _alone(photo, axis)) is not None]
-        if len(stand) < len(photos) or abs(stand[0] / stand[1] - 1.0) > _SAME:
+        counts = [bars for photo in photos if (bars := _count_alone(photo, axis)) is not None]
+        if len(counts) < len(photos) or abs(counts[0] / counts[1] - 1.0) > _SAME:
             continue
         return [
-            f"Each picture shows {stand[0]:.1f} bars, at the same place in both: bars that stand "
+            f"Each picture shows {counts[0]:.1f} bars, at the same place in both: bars that stand "
             "still between two pictures cannot be told from the room. Take the second picture at "
             "another moment, not in a film or burst."
         ]
     return [reason]
 
 
-def _alone(photo: Photo, axis: str) -> float | None:
+def _count_alone(photo: Photo, axis: str) -> float | None:
     """Return the number of bars in one picture by itself, None if they may be the room's."""
     lines = quotient_of_lines([photo], axis)
     fit = fit_bars(search_bars(lines))
@@ -152,7 +152,7 @@ def tilt_of(lines: LineValues, fit: BarsFit) -> _Tilt:
     waves = (fit.waves * turn).sum(axis=1)
     middle = np.sum(waves)
     phases = np.angle(waves / middle) if middle else np.zeros(len(waves))
-    # A cycle is as long as a bar; lines of a bar over the columns between tiles give an angle.
+    # A cycle of the phase is one bar; lines over columns of shift from tile to tile are the slope.
     heights = phases / (2.0 * math.pi) * lines.lines / fit.bars
     across = lines.places * lines.columns
     strength = np.abs(waves) ** 2

@@ -14,36 +14,39 @@ from occ_model.photo.lamp_fit.model import BLUR, COUNT, FAR, NEAR
 from occ_model.photo.lamp_fit.readings import readings_of
 from occ_model.products import row_products
 
-_LEAST_BLUR = 0.3  # columns, of which the error is told
+_LEAST_BLUR = 0.3  # columns; the error of a smaller blur is stated as if it were this one
 _CHANCE_SCATTER = 0.3 / 4.13  # of edges at random places, as a fraction of the period
 
 
 @dataclass(frozen=True, slots=True)
 class Cues:
-    """Measures of how well stripes are a lamp's; lengths are in columns."""
+    """Measures of how much stripes look like a lamp's.
 
-    floor: float  # Light between the stripes that no reading explains, of their height
-    floor_expected: float  # Light between the stripes by the nearest reading, of their height
-    blur: float  # Standard deviation
-    blur_error: float  # of it
+    Lengths are in columns, light and residuals are fractions of the stripes' height.
+    """
+
+    floor: float  # Light between the stripes that no reading explains
+    floor_expected: float  # Light between the stripes by the nearest reading
+    blur: float  # Standard deviation of all blur
+    blur_error: float  # Standard deviation of ``blur``
     ramp: float
     period: float
-    edges: int  # in view
+    edges: int  # Number of edges in view
     scatter: float  # Deviation of the edges from even spacing
-    scatter_noise: float  # what of it the noise makes
+    scatter_noise: float  # The scatter that noise alone would cause
     drift: float  # Shift of the stripes from the first row to the last
-    drift_error: float  # Its standard deviation
-    rows_scatter: float  # Deviation of the stripes between bands of rows from a straight shift
-    misfit: float  # Root mean square of the residual that repeats with the period, of their height
-    unexplained: float  # Root mean square of all of the residual, of their height
+    drift_error: float  # Standard deviation of ``drift``
+    rows_scatter: float  # Deviation of the stripes in bands of rows from a straight shift
+    misfit: float  # Root mean square of the part of the residual that repeats with the period
+    unexplained: float  # Root mean square of the whole residual
     dips: int  # Times that the envelope falls and rises again
-    tension: float  # Of the tone curve: how far it is from usual ones, in deviations
+    tension: float  # Distance of the tone curve from usual ones, in standard deviations
     narrowest: float  # The shorter of a stripe and the gap between two
     white: float  # Fraction of the columns in which pixels are clipped
 
     @property
     def bits(self) -> float:
-        """Evidence of the even spacing, in bits: of three edges it is none."""
+        """Evidence that the spacing is even, in bits; three edges give none."""
         limit = max(self.scatter, 1e-3)
         gain = math.log2(_CHANCE_SCATTER * self.period / limit)
         return (self.edges - 3) * max(gain, 0.0)
@@ -81,7 +84,7 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
 
 
 def _blur(fit: LampFit) -> tuple[float, float]:
-    """Return the deviation of all blur, in columns, 0 where more is sharpened, and its error."""
+    """Return the deviation of all blur, 0 if sharpening outweighs it, and its error."""
     own = math.exp(2.0 * fit.values[BLUR])
     moment = own + 2.0 * fit.values[NEAR] + 8.0 * fit.values[FAR]
     slopes = np.zeros(len(fit.values))
@@ -94,7 +97,7 @@ def _blur(fit: LampFit) -> tuple[float, float]:
 def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
     """Return how far each edge is from its place in the model, and the deviation, in columns."""
     wave, columns = fit.wave, fit.profile.columns
-    steep = fit.model.slopes(fit.values)[1][:, 1]  # over the place
+    by_place = fit.model.slopes(fit.values)[1][:, 1]
     half = 0.5 * wave.width * wave.period
     first = math.ceil((columns[0] - wave.place) / wave.period - 0.5)
     last = math.floor((columns[-1] - wave.place) / wave.period + 0.5)
@@ -107,11 +110,11 @@ def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
         near = np.abs(columns - edge) <= max(reach, 1.0)
         if not columns[0] <= edge <= columns[-1]:
             continue
-        force = float((weight * steep**2)[near].sum())
-        # An edge that may be anywhere within a period is none that is seen.
-        if force * (_CHANCE_SCATTER * wave.period) ** 2 > 1.0:
-            shifts.append(float((weight * steep * residual)[near].sum()) / force)
-            noises.append(1.0 / math.sqrt(force))
+        information = float((weight * by_place**2)[near].sum())
+        # An edge that may be anywhere within a period is not seen.
+        if information * (_CHANCE_SCATTER * wave.period) ** 2 > 1.0:
+            shifts.append(float((weight * by_place * residual)[near].sum()) / information)
+            noises.append(1.0 / math.sqrt(information))
     return np.array(shifts), np.array(noises)
 
 
@@ -139,10 +142,10 @@ def _rows_shift(fit: LampFit, rows: FloatArray) -> tuple[float, float, float]:
     products = row_products(system.T, system.T)
     products[np.diag_indices_from(products)] *= 1.0 + 1e-6
     products[np.diag_indices_from(products)] += 1e-12
-    off = np.linalg.solve(products, system.T @ ((rows - levels) * weight).T)[0]
+    shifts = np.linalg.solve(products, system.T @ ((rows - levels) * weight).T)[0]
     place = np.linspace(-0.5, 0.5, bands)
-    slope = float(place @ off) / float(place @ place)
-    rest = off - off.mean() - slope * place
+    slope = float(place @ shifts) / float(place @ place)
+    rest = shifts - shifts.mean() - slope * place
     scatter = math.sqrt(float(rest @ rest) / max(bands - 2, 1))
     return slope, scatter / math.sqrt(float(place @ place)), scatter
 
@@ -153,7 +156,7 @@ def _periodic_misfit(fit: LampFit) -> float:
     bins = np.floor((columns - wave.place) / wave.period % 1.0 * count).astype(int)
     counts = np.maximum(np.bincount(bins, minlength=count), 1)
     means = np.bincount(bins, weights=fit.residual, minlength=count) / counts
-    # What noise alone leaves in such a mean is taken off.
+    # Subtract the square that noise alone leaves in such a mean.
     left = float(np.mean(means**2)) - float(np.mean(fit.noise**2)) * count / len(columns)
     return math.sqrt(max(left, 0.0)) / fit.height
 

@@ -1,4 +1,4 @@
-"""Convert parts of a decoded picture to samples of 8 or 16 bits on black."""
+"""Convert parts of a decoded picture to samples of 8 or 16 bits, without transparency."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ _WHITE = 65535
 
 
 def palette_of(picture: "PillowImage") -> Samples:
-    """Return the colours of a picture's numbers, shape (256, 3) or (256,)."""
+    """Return the colours that a picture's numbers stand for, shape (256, 3) or (256,)."""
     swatch = picture.crop((0, 0, 256, 1))
     swatch.frombytes(bytes(range(256)))
     colours: Samples = colours_of(swatch)[0]

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 _PHOTOMETRIC, _WHITE_IS_ZERO = 262, 0  # a tag of TIFF, and its value if white is stored as 0
 
-START_OF_JPEG_2000 = b"\xff\x4f\xff\x51"  # the markers of its code stream and of its size
-_COMPONENTS = 42  # bytes from there to the first component's description, of three bytes
+START_OF_JPEG_2000 = b"\xff\x4f\xff\x51"  # the markers of its start and of its size
+_COMPONENTS = 42  # bytes from there to the descriptions of the components, three bytes each
 
 _DEEP_COLOURS = re.compile("(LA|RGB|RGBA|RGBa|RGBX);16")  # raw modes
 
@@ -41,9 +41,9 @@ def limited_range(bits: int) -> Levels:
 
 
 def bits_of(picture: "ImageFile", content: bytes | bytearray) -> int:
-    """Return the bits of a sample of JPEG 2000, AVIF or HEIC, or of colours of 16 bits; else 8.
+    """Return how many bits the samples of a picture's file have.
 
-    ``content``: that of a JPEG 2000 or AVIF.
+    ``content``: the bytes of the file, used only for JPEG 2000 and AVIF.
     """
     if picture.format == "HEIF":
         return int(picture.info["bit_depth"])
@@ -101,8 +101,8 @@ def grey_levels(
 ) -> Levels | None:
     """Return the levels of a HEIC without colours, which libheif decodes as they are stored.
 
-    libheif itself writes the full range and calls it limited if asked to; such a file is known by
-    its pixels.
+    A file that libheif was asked to write in the limited range states it, but has the full range;
+    its pixels show that.
     """
     limited = limited_range(bits)
     stated = picture.info.get("nclx_profile") or {}

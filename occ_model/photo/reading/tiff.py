@@ -17,8 +17,7 @@ _OFFSETS = {4: "L", 13: "L", 16: "Q", 18: "Q"}  # layouts of the value types tha
 
 _BYTE_TYPES = (1, 2, 6, 7)  # value types that decoders keep as bytes
 MOST_NUMBERS = 4_000_000
-"""Numbers in a tag: the offsets of strips of one line, in four planes, of the longest picture."""
-
+"""Most numbers in a tag, as many as the highest picture has strips of one line in four planes."""
 
 _NUMBERS = {1: "B", 3: "H", 4: "L", 5: "2L", 8: "h", 9: "l", 10: "2l", 11: "f", 12: "d", 16: "Q"}
 """Layouts of the value types that are numbers."""
@@ -58,10 +57,10 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
 
     def directory(place: int) -> list[Entry]:
         count = sum(numbers(counter, 1, place))
-        content = file.read(layout.size * min(count, _MOST_ENTRIES))
-        complete = len(content) // layout.size * layout.size
-        entries = layout.iter_unpack(content[:complete])
-        return [Entry(tag, kind, number, start, order) for tag, kind, number, start in entries]
+        packed = file.read(layout.size * min(count, _MOST_ENTRIES))
+        complete = len(packed) // layout.size * layout.size
+        entries = layout.iter_unpack(packed[:complete])
+        return [Entry(tag, kind, number, content, order) for tag, kind, number, content in entries]
 
     offsets = [*numbers(offset, 1, 8 if is_big else 4)]
     first = directory(*offsets) if offsets else []
@@ -80,7 +79,7 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
 
 
 def numbers_of(file: IO[bytes], entry: Entry) -> list[float]:
-    """Read the numbers of an entry; none of another type.
+    """Read the numbers of an entry, an empty list if its values are of another type.
 
     ValueError is raised if they are beyond the end of the file.
     """

@@ -10,10 +10,10 @@ from occ_model.arrays import FloatArray
 from occ_model.products import combine, orthonormalize, row_products
 
 MEAN_SHAPES = 6
-"""Number of polynomials for the trend of a profile's mean; its swing has two thirds of them."""
+"""Number of polynomials for the trend of a profile's mean; two thirds as many are for its swing."""
 
 LEAST_SWING = 0.05
-"""Minimum ratio of a local swing to the largest one, or of a power to its mean, as it divides."""
+"""Least ratio of a local swing to the largest one, or of a power to its mean, in a division."""
 
 _LEAST_VARIANCE = 1e-18  # variance below which a profile is constant except for rounding
 
@@ -53,7 +53,7 @@ def remove_trend(profile: FloatArray) -> FloatArray:
 
 
 def trend_of(profile: FloatArray, polynomials: int) -> tuple[FloatArray, FloatArray]:
-    """Return a profile's local mean, by ``of_mean`` polynomials, and its local deviation."""
+    """Return a profile's local mean, a sum of so many polynomials, and its local deviation."""
     mean = _smooth(profile, polynomials)
     square = (profile - mean) ** 2
     power = np.maximum(

@@ -121,32 +121,33 @@ def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArra
 def repeated_wave(
     values: FloatArray, period: float, harmonics: int, slow: int
 ) -> tuple[Harmonics, FloatArray]:
-    """Fit the harmonics of a period, together with some slow polynomials.
+    """Fit the harmonics of a period, together with ``slow`` polynomials.
 
     Returned are the strength of each harmonic, from the first, and the residual.
 
-    About the middle column cosines and even polynomials are orthogonal to sines and odd ones; the
-    products of two cosines, or sines, follow from the sums of others.
+    With columns counted from the middle, cosines and even polynomials are orthogonal to sines and
+    odd ones, so that each group is fitted alone. Inner products of two cosines, or of two sines,
+    follow from the sums of the cosines whose orders are their sum and their difference.
     """
     count = len(values)
-    about, rate = np.arange(count) - 0.5 * (count - 1), 2.0 * np.pi / period
+    column, rate = np.arange(count) - 0.5 * (count - 1), 2.0 * np.pi / period
     order = np.arange(1, harmonics + 1)
-    sums = np.cos(rate * np.outer(np.arange(2 * harmonics + 1), about)).sum(axis=1)
-    apart, together = sums[np.abs(order[:, None] - order)], sums[order[:, None] + order]
-    shapes, turn = smooth_shapes(count, slow).T, rate * np.outer(order, about)
-    left, strengths = values, np.zeros(harmonics, dtype=np.complex128)
+    sums = np.cos(rate * np.outer(np.arange(2 * harmonics + 1), column)).sum(axis=1)
+    of_difference, of_sum = sums[np.abs(order[:, None] - order)], sums[order[:, None] + order]
+    shapes, phases = smooth_shapes(count, slow).T, rate * np.outer(order, column)
+    residual, strengths = values, np.zeros(harmonics, dtype=np.complex128)
     for wave, first, factor in ((np.cos, 0, 1.0), (np.sin, 1, -1.0)):
-        parts = np.vstack([wave(turn), shapes[first::2]])
+        parts = np.vstack([wave(phases), shapes[first::2]])
         products = row_products(parts, parts[harmonics:])
         products = np.hstack([np.zeros((len(parts), harmonics)), products])
         products[harmonics:, :harmonics] = products[:harmonics, harmonics:].T
-        products[:harmonics, :harmonics] = 0.5 * (apart + factor * together)
+        products[:harmonics, :harmonics] = 0.5 * (of_difference + factor * of_sum)
         # At half the column rate a sine has no energy of its own.
         products[np.diag_indices_from(products)] += _REGULARIZATION * count
         weights = solve_positive_definite(products, row_products(values, parts))
-        left = left - combine(weights, parts)
+        residual = residual - combine(weights, parts)
         strengths += 0.5 * weights[:harmonics] * (1.0 if first == 0 else -1j)
-    return strengths * np.exp(0.5j * rate * (1 - count) * order), left
+    return strengths * np.exp(0.5j * rate * (1 - count) * order), residual
 
 
 def correlated_columns(residual: FloatArray) -> float:

@@ -9,11 +9,11 @@ from occ_model.arrays import Samples
 
 @dataclass(frozen=True, slots=True)
 class Orientation:
-    """What makes a stored picture upright: the axes exchanged first, then each turned round."""
+    """How to make a stored picture upright: swap its axes first, then reverse columns and lines."""
 
-    exchanged: bool = False
-    from_right: bool = False
-    from_below: bool = False
+    are_axes_swapped: bool = False
+    are_columns_reversed: bool = False
+    are_lines_reversed: bool = False
 
     @classmethod
     def of_matrix(cls, content: bytes) -> "Orientation":
@@ -25,16 +25,16 @@ class Orientation:
 
     def turn(self, pixels: Samples) -> Samples:
         """Return a picture, shape (lines, columns) or (lines, columns, 3), upright."""
-        pixels = pixels.swapaxes(0, 1) if self.exchanged else pixels
-        pixels = pixels[:, ::-1] if self.from_right else pixels
-        return np.ascontiguousarray(pixels[::-1] if self.from_below else pixels)
+        pixels = pixels.swapaxes(0, 1) if self.are_axes_swapped else pixels
+        pixels = pixels[:, ::-1] if self.are_columns_reversed else pixels
+        return np.ascontiguousarray(pixels[::-1] if self.are_lines_reversed else pixels)
 
     @property
     def line_axis(self) -> int:
         """The axis of an upright picture along which the stored lines follow each other."""
-        return int(self.exchanged)
+        return int(self.are_axes_swapped)
 
     @property
     def is_last_line_first(self) -> bool:
         """Whether the stored picture's last line is the upright picture's first."""
-        return self.from_right if self.exchanged else self.from_below
+        return self.are_columns_reversed if self.are_axes_swapped else self.are_lines_reversed

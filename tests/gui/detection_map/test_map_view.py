@@ -92,11 +92,11 @@ def view(qtbot: QtBot, small_scene: Scene) -> MapView:
 
 def test_a_known_point_fills_cells_until_finer_ones_come() -> None:
     rates = rates_of({0: (10, 10)})
-    x, _ = rates.find_owners()
+    x, _ = rates.find_rate_sources()
     assert (x[:3, :3] == 0).all()
     assert (x[4:] == -1).all()
     rates.enter([SweepPoint(SHAPE[1] + 1, 10, (0, 0), "", (0, 0))], 1)
-    x, y = rates.find_owners()
+    x, y = rates.find_rate_sources()
     assert (x[1, 1], y[1, 1]) == (1, 1)
     assert (x[2, 2], y[2, 2]) == (0, 0)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.seen_stripes import BLUR_REACH, BlurShape, blur_kernel, blurred
+from occ_model.photo.fit.seen_stripes import BLUR_REACH, BlurShape, blur_kernel, blur_rows
 from occ_model.photo.fit.timing import ChipLight, Timing
 
 _SIDE = 9
@@ -32,4 +32,4 @@ def blurred_light(
 ) -> FloatArray:  # fmt: skip
     """Return the lit fractions as the program blurs them, each time on being longer by chips."""
     light = ChipLight(chips, columns, BLUR_REACH).exposed(timing, longer).lit
-    return blurred(light, blur_kernel(blur, shape))
+    return blur_rows(light, blur_kernel(blur, shape))

@@ -9,7 +9,7 @@ import numpy as np
 from occ_model.errors import MatchError, distinct_texts
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import runs_of
-from occ_model.photo.fit.joint_estimate import refined
+from occ_model.photo.fit.joint_estimate import refine_fits
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.photo_scene import fit_to_photo, with_chips, with_explanation, with_levels
 from occ_model.photo.reading.load import Photo
@@ -68,7 +68,7 @@ def make_match(
     second, and may raise an exception to end the work.
     """
     region = stripes.region
-    better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
+    better = refine_fits(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
     explanation = replace(explanation, fits=better.fits)
     best = explanation.nearest(
         lambda candidate: exposure_time(candidate, scene, estimate), photo.exposure_time

@@ -13,16 +13,16 @@ from occ_model.photo.camera.quotient import LineValues
 FEWEST_BARS, MOST_BARS = 1.0, 16.0
 _STEPS_A_BAR = 8  # steps of the search in which the phase at the frame's end changes by a cycle
 _LEAST_LINES = 5.0  # lines a bar
-_LEAST_DEVIATION = 2e-3  # of a line's value: 8 bits quantize light by 2 %, over several cells
+_LEAST_DEVIATION = 2e-3  # least error of a line: 8 bits quantize light by 2 %, over several cells
 _CANDIDATES = 4
 _LARGEST = 0.999  # value of a quotient whose second picture is dark
-_DEGREES = 4.0  # of freedom of Student's t, by which lines of a moved edge lose their weight
+_DEGREES = 4.0  # degrees of freedom of Student's t, which gives lines of a moved edge less weight
 _ROUNDS = 4
 _REACH = 20  # part of the lines up to which residuals are taken to correlate (Newey and West, 1987)
-_LEAST_SHARE = 0.2  # of a wave's energy in harmonics that those of twice or thrice the bars lack
-# What is believed of the logarithms of the scales before: deviations, and the farthest.
+_LEAST_SHARE = 0.2  # least energy in the harmonics that waves of twice or thrice the bars lack
+# Prior of the scales' logarithms: standard deviations, and the largest deviations allowed.
 _SPREAD, _FARTHEST = np.array([1.5, 0.4, 0.7, 2.0, 0.5]), np.array([3.0, 0.7, 1.4, 3.0, 1.0])
-_APART = 0.04  # difference of numbers of bars, relative, that makes two of them other answers
+_APART = 0.04  # relative difference from which two numbers of bars are different answers
 _MODULATIONS = (0.06, 0.12, 0.25, 0.5)
 _NO_MODULATION = 1e-3
 _BENDS = np.linspace(-0.06, 0.06, 7)
@@ -237,10 +237,10 @@ def _posterior(search: Search) -> tuple[float, float]:
     weights /= weights.sum()
     mean = float((weights * near).sum())
     variance = float((weights * (near - mean) ** 2).sum())
-    return mean, math.sqrt(_widened(search, mean, variance))
+    return mean, math.sqrt(_widen_variance(search, mean, variance))
 
 
-def _widened(search: Search, bars: float, variance: float) -> float:
+def _widen_variance(search: Search, bars: float, variance: float) -> float:
     """Widen a variance by what tiles have in common, and by how far they disagree.
 
     Modulations are independent in the model's tiles, but the same lamps light all of them: their

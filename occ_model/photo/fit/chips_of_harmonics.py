@@ -82,10 +82,10 @@ def boxes_of(
 
 def rounded_chips(lines: Harmonics, boxes: NDArray[np.complex128], count: int) -> ByteArray:
     """Divide harmonics by each row of boxes, and round the chips' levels, shape (trials, chips)."""
-    return _rounded(_levels(lines, boxes, count))
+    return _round_levels(_levels(lines, boxes, count))
 
 
-def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -> ReadPattern:
+def refine_timing(lines: Harmonics, found: ReadPattern, column: float | None = None) -> ReadPattern:
     """Refine exposure and phase, and let bright runs be longer or shorter than their chips.
 
     ``column``: chips a column, where no pixel is white. The light then passes half its height
@@ -136,13 +136,13 @@ def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> Fl
     (trials, harmonics), what multiplies the chips' own harmonics, for each exposure and phase.
     """
 
-    def folded(values: Harmonics) -> Harmonics:
+    def fold(values: Harmonics) -> Harmonics:
         missing = -(values.shape[1] + 1) % count
         whole = np.pad(values, ((0, 0), (1, missing)))
         return np.asarray(whole.reshape(len(values), -1, count).sum(axis=1))
 
-    power = folded(np.abs(weights) ** 2 + 0j).real
-    sums = folded(lines * np.conj(weights))
+    power = fold(np.abs(weights) ** 2 + 0j).real
+    sums = fold(lines * np.conj(weights))
     spectrum = sums / (power + _LEAST_WEIGHT * power.max(axis=1, keepdims=True))
     # The spectrum of real levels is its own mirror image, conjugated.
     spectrum[:, 0] = 0.0
@@ -152,7 +152,7 @@ def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> Fl
     return np.asarray(np.fft.ifft(np.where(both, own, 0.0), axis=1).real)
 
 
-def _rounded(levels: FloatArray) -> ByteArray:
+def _round_levels(levels: FloatArray) -> ByteArray:
     """Round each row of levels to off and on, half-way between the means of either kind."""
     split = 0.5 * (levels.max(axis=1) + levels.min(axis=1))
     for _ in range(8):
@@ -187,14 +187,14 @@ def chips_by_descent(
         responses = box * of_chips
         parts = np.hstack([responses.real, responses.imag])
         towards = row_products(np.concatenate([lines.real, lines.imag]), parts) / length
-        chips, alike = _ascended(first, towards, row_products(parts, parts))
+        chips, alike = _raise_likeness(first, towards, row_products(parts, parts))
         key = min(np.roll(chips, turn).tobytes() for turn in range(count))
         if chips.min() < chips.max() and (key not in found or found[key].explained < alike):
             found[key] = ReadPattern(chips, alike, exposure, phase)
     return sorted(found.values(), key=lambda one: -one.explained)
 
 
-def _ascended(
+def _raise_likeness(
     first: ByteArray, towards: FloatArray, products: FloatArray
 ) -> tuple[ByteArray, float]:
     """Change one chip, or two neighbours, while the likeness c'a / sqrt(c'Qc) rises.

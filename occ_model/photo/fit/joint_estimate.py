@@ -62,7 +62,7 @@ class Refined:
     exposure_doubts: tuple[str, ...] = ()
 
 
-def refined(
+def refine_fits(
     stripes: Stripes,
     cells: Cells,
     explanation: Explanation,
@@ -99,7 +99,7 @@ def refined(
     seen, unusual = (of(found.values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:
         found = _with_step_of(found, best)
-    fit = _stripe_fit(model, _widened(found, models[0]), gamma, with_gamma=with_gamma)
+    fit = _stripe_fit(model, _widen_covariance(found, models[0]), gamma, with_gamma=with_gamma)
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fit.correlation < explanation.correlation - _MOST_CORRELATION_LOSS:
         doubts = (_CONTRADICTION, *_exposure_doubts(seen))
@@ -116,7 +116,7 @@ def _with_step_of(found: JointFit, best: StripeFit) -> JointFit:
     return replace(found, values=values, covariance=covariance)
 
 
-def _widened(mode: JointFit, model: JointModel) -> JointFit:
+def _widen_covariance(mode: JointFit, model: JointModel) -> JointFit:
     """Widen the covariance of all but the step where the camera's unknowns are not as usual.
 
     By the ratio of what they are off to what six of them are usually off (as Birge, Phys. Rev.
@@ -141,7 +141,7 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
         gamma *= math.exp(float(values[3]))
         covariance[3, :3] = covariance[:3, 3] = gamma * mode.covariance[3, :3]
         covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
-    return _described(model, replace(timing, gamma=gamma), mode, covariance)
+    return _describe_fit(model, replace(timing, gamma=gamma), mode, covariance)
 
 
 def _with_width(timing: Timing, mode: JointFit) -> Timing:
@@ -150,12 +150,12 @@ def _with_width(timing: Timing, mode: JointFit) -> Timing:
     return replace(timing, exposure=timing.step * columns)
 
 
-def _described(
+def _describe_fit(
     model: StripeModel, timing: Timing, mode: JointFit, covariance: FloatArray
 ) -> StripeFit:
     """Return the fit of a timing; its profile is as blurred as the photo's where that is nearer."""
-    sharp = model.described(timing, covariance)
-    wide = model.described(_with_width(timing, mode), covariance)
+    sharp = model.describe(timing, covariance)
+    wide = model.describe(_with_width(timing, mode), covariance)
     if wide.correlation <= sharp.correlation:
         return sharp
     return replace(wide, timing=timing, is_possible=sharp.is_possible)

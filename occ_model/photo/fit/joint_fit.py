@@ -89,7 +89,7 @@ def covariance_of(slopes: FloatArray, residual: FloatArray, block: NDArray[np.in
     return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)))
 
 
-def averaged(fits: Sequence[JointFit]) -> JointFit:
+def average_fits(fits: Sequence[JointFit]) -> JointFit:
     """Average over models, each weighted by the density of its best fit.
 
     The estimate is the fit of the median exposure: where an edge is either blur's or the

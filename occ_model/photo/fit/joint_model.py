@@ -143,7 +143,7 @@ class JointModel:
     ) -> JointFit:
         """Fit from a first guess; end after a step where the misfit is beyond what is hopeless."""
         index = self._free
-        values, residual = self._minimized(first, rounds, shape, hopeless)
+        values, residual = self._minimize(first, rounds, shape, hopeless)
         scale = np.where(np.arange(9) == 1, _EXPOSURE_SCALE * values[1], self._scale)
         # What is at a bound has no slope, and so is not known.
         inside = (values > self._low) & (values < self._high)
@@ -161,7 +161,7 @@ class JointModel:
             shift[index] = scale * _explained(slopes, by_middle * self._displacement(values, shape))
         return JointFit(values, covariance, dot(residual, residual), float(prior @ prior), shift)
 
-    def _minimized(
+    def _minimize(
         self, first: FloatArray, rounds: int, shape: BlurShape, hopeless: float
     ) -> tuple[FloatArray, FloatArray]:
         """Return the best parameters, and the residual.
@@ -249,20 +249,20 @@ class JointModel:
         self._check()
         seen = self._seen.by(values, shape)
         unusual = (values[3:] - self._mean) / self._deviation
-        return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
+        return np.concatenate([*self._whiten([p.residual(seen) for p in self._parts]), unusual])
 
     def _slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         """Return the residual's slopes, shape (9, residuals)."""
         self._check()
         seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape)
-        found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
+        found = np.hstack(self._whiten([part.slopes(seen, rates) for part in self._parts]))
         slopes = np.zeros((9, found.shape[1] + len(PRIORS)))
         slopes[IN_ORDER, : -len(PRIORS)] = found
         slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
         slopes[3:, -len(PRIORS) :] = np.diag(1.0 / self._deviation)
         return slopes
 
-    def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
+    def _whiten(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
         """Divide residuals, or slopes, by the noise, and take out what is slow."""
         found = []
         for values, noise, slow in zip(parts, self._noise, self._slow, strict=True):

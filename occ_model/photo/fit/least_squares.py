@@ -184,9 +184,9 @@ class StripeModel:
         timing = timing_of(found)
         blur = exposure_deviation((_UNKNOWN_BLUR * timing.step) ** 2, timing.exposure)
         covariance[1, 1] += blur**2
-        return self.described(timing, covariance)
+        return self.describe(timing, covariance)
 
-    def described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
+    def describe(self, timing: Timing, covariance: FloatArray) -> StripeFit:
         """Return the fit of a timing with a covariance, shape (4, 4), of its fields."""
         low, swing, profile = self.levels(timing)
         possible = _can_be_levels(low, swing)

@@ -13,7 +13,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.levels import LevelShapes, LitColumns
-from occ_model.photo.fit.seen_stripes import BLUR, BLUR_REACH, Seen, SeenSlopes, blurred
+from occ_model.photo.fit.seen_stripes import BLUR, BLUR_REACH, Seen, SeenSlopes, blur_rows
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.products import combine, orthonormalize
@@ -82,8 +82,8 @@ class LitProfile:
         slopes = -rates.tone.of_values(values, by_light)
         steep, columns = seen.table.slope_of(light), picture
         if seen.sharp is not None:
-            slopes = blurred(slopes, seen.kernel)
-            slopes[BLUR] -= blurred(values, rates.kernel)
+            slopes = blur_rows(slopes, seen.kernel)
+            slopes[BLUR] -= blur_rows(values, rates.kernel)
             slopes = slopes[:, self.kept]
             steep, columns = self._steep(seen, seen.sharp, light)
         return slopes - steep * columns.light(self._shapes.explaining(columns.lit, steep, slopes))
@@ -129,11 +129,11 @@ class LitProfile:
     ) -> tuple[FloatArray, LitColumns]:
         """Return the kept columns' slopes over the levels: a factor of columns."""
         steep = seen.table.slope_of(light)
-        both = blurred(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
+        both = blur_rows(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
         return both[0], LitColumns(self._shapes.kept, both[1] / both[0])
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
-        return self.data - blurred(seen.table.value_of(light), seen.kernel)[self.kept]
+        return self.data - blur_rows(seen.table.value_of(light), seen.kernel)[self.kept]
 
 
 def deviation_of(residual: FloatArray, slope: FloatArray, freedom: float) -> FloatArray:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.joint_fit import JointFit, averaged, distinct
+from occ_model.photo.fit.joint_fit import JointFit, average_fits, distinct
 from occ_model.photo.fit.joint_model import JointModel
 from occ_model.photo.fit.seen_stripes import BlurShape
 from occ_model.photo.fit.timing import Timing
@@ -65,14 +65,14 @@ def mean_fit(models: Sequence[JointModel], timing: Timing) -> JointFit:
         is_likely = free.misfit < least + _MOST_SHAPED_EXCESS
         shaped += _of_each_shape(model, free) if is_likely else [free]
         hopeless = _HOPELESS_RATIO * free.misfit
-        other = model.fit(_mirrored(free.values), _LAST_ROUNDS, hopeless=hopeless)
+        other = model.fit(_mirror_exposure(free.values), _LAST_ROUNDS, hopeless=hopeless)
         is_apart = abs(other.exposure - free.exposure) > free.deviation
         if is_apart and other.misfit < least + _MOST_SHAPED_EXCESS:
             shaped.append(other)
-    return averaged([fit.unbiased for fit in shaped])
+    return average_fits([fit.unbiased for fit in shaped])
 
 
-def _mirrored(values: FloatArray) -> FloatArray:
+def _mirror_exposure(values: FloatArray) -> FloatArray:
     """Return parameters whose exposure is on the other side of the nearest whole chips.
 
     As far from them, both make about the same stripes.
@@ -118,7 +118,7 @@ def _of_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
     found["normal"].append(free)
     if found["box"]:
         box = min(found["box"], key=lambda fit: fit.misfit)
-        found["box"] += fits(_exchanged(box.values), _LAST_ROUNDS, "box")
+        found["box"] += fits(_exchange_blur(box.values), _LAST_ROUNDS, "box")
     best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
     for shape, others in found.items():
         # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
@@ -131,7 +131,7 @@ def _is_short(values: FloatArray) -> bool:
     return bool(values[1] < _MOST_COLUMNS * values[0])
 
 
-def _exchanged(found: FloatArray) -> list[FloatArray]:
+def _exchange_blur(found: FloatArray) -> list[FloatArray]:
     """Exchange exposure and blur: two boxes make the same edge in either order."""
     step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
     starts = []

@@ -23,7 +23,7 @@ from occ_model.photo.fit.chips_of_harmonics import (
     best_chips,
     chips_by_descent,
     harmonics_of,
-    refined,
+    refine_timing,
 )
 from occ_model.photo.stripes.envelope import remove_trend
 from occ_model.photo.stripes.period import Harmonics
@@ -78,7 +78,7 @@ def read_patterns(
         or by_edges.exposure > _LONGEST_FOR_EDGES
     ):
         found.append(_chips_by_lines(lines, most, column, check))
-    read = [_shortened(one) for one in found if one is not None]
+    read = [_join_chips(one) for one in found if one is not None]
     return list({one.chips.tobytes(): one for one in read}.values())
 
 
@@ -102,7 +102,7 @@ def read_otherwise(
         if count < _LEAST_CHIPS:
             continue
         for one in chips_by_descent(lines, count, check)[:_MOST_PER_COUNT]:
-            short = _shortened(one)
+            short = _join_chips(one)
             if one.explained > _LEAST_HARMONIC_CORRELATION and short.chips.tobytes() not in known:
                 found[short.chips.tobytes()] = short
     return list(found.values())
@@ -120,7 +120,7 @@ def _fewest(
         check()
         rough = best_chips(lines, count)
         if rough is not None:
-            read.append(refined(lines, rough, column and count * column))
+            read.append(refine_timing(lines, rough, column and count * column))
             if _unexplained(read[-1]) <= _LEAST_UNEXPLAINED:
                 return read[-1]
     left = [_unexplained(one) for one in read]
@@ -168,7 +168,7 @@ def _chips_by_lines(
             np.median(beside)
         )
         if one is not None and left[count] <= enough and stands_out:
-            return refined(lines, one, column and count * column)
+            return refine_timing(lines, one, column and count * column)
     return None
 
 
@@ -176,7 +176,7 @@ def _unexplained(read: ReadPattern) -> float:
     return 1.0 - max(read.explained, 0.0) ** 2
 
 
-def _shortened(read: ReadPattern) -> ReadPattern:
+def _join_chips(read: ReadPattern) -> ReadPattern:
     """Join chips into longer ones if all runs are multiples of them; return the canonical form."""
     once = canonical(read.chips)
     changes = np.flatnonzero(once != np.roll(once, 1))

@@ -32,7 +32,7 @@ IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
 """Indices of gamma, and of all parameters in the order of slopes: those of the tone curve last."""
 
 
-def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
+def blur_rows(rows: FloatArray, kernel: FloatArray) -> FloatArray:
     """Blur a row, or several, along the columns, and leave out those that only blur reaches."""
     found = cv2.filter2D(np.atleast_2d(rows), -1, kernel[None])[:, BLUR_REACH:-BLUR_REACH]
     return np.asarray(found, dtype=np.float64).reshape(*rows.shape[:-1], -1)
@@ -114,8 +114,8 @@ class SeenStripes:
         # The edges that were passed before are each early by half of what the time on is longer.
         np.multiply(exposed.edges, 0.5 / timing.exposure, out=lit[BLUR + 1])
         if not self._values_blurred:
-            lit = blurred(lit, seen.kernel)
-            lit[BLUR] = blurred(exposed.lit, slope_of_kernel)
+            lit = blur_rows(lit, seen.kernel)
+            lit[BLUR] = blur_rows(exposed.lit, slope_of_kernel)
         return SeenSlopes(lit, curve.slopes(seen.table), slope_of_kernel)
 
     def gamma(self, values: FloatArray | Sequence[float]) -> float:
@@ -126,7 +126,7 @@ class SeenStripes:
         timing, curve, blur, longer = self._parts(values)
         sharp, kernel = self._light.exposed(timing, longer).lit, blur_kernel(blur, shape)
         shown = sharp if self._values_blurred else None
-        return Seen(blurred(sharp, kernel), curve.table(), shown, kernel)
+        return Seen(blur_rows(sharp, kernel), curve.table(), shown, kernel)
 
     def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:
         step, exposure, middle, _, offset, shoulder, contrast, blur, longer = values

@@ -46,18 +46,18 @@ class ToneCurve:
         steep = self.gamma * steady ** (self.gamma - 1.0)
         logarithm = np.log(steady)
         by_gamma = steady**self.gamma * (logarithm + below * (1.0 + self.gamma * logarithm))
-        by_bends = np.stack([1.0 - bent, *(_summed(rises * bend) for bend in _BENDS)])
+        by_bends = np.stack([1.0 - bent, *(_sum_to_white(rises * bend) for bend in _BENDS)])
         return ToneSlopes(table, np.vstack([by_gamma, steep / (1.0 + self.offset) * by_bends]))
 
     def _bent(self) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Return what is raised to the power of gamma, and which of its steps are not the least."""
         steps = _STEP + self.shoulder * _BENDS[0] + self.contrast * _BENDS[1]
         least = _LEAST_SLOPE * _STEP
-        bent = _summed(np.maximum(steps, least))
+        bent = _sum_to_white(np.maximum(steps, least))
         return (bent + 1.0 + self.offset) / (1.0 + self.offset), steps > least
 
 
-def _summed(steps: FloatArray) -> FloatArray:
+def _sum_to_white(steps: FloatArray) -> FloatArray:
     """Sum steps up so that the last sum is 0: white stays white."""
     sums = np.concatenate([[0.0], np.cumsum(steps)])
     return np.asarray(sums - sums[-1])

@@ -172,7 +172,7 @@ def _fit(
         values = _minimize(profile, model, values, noise, most)
         parts = _noise_parts(profile, model.levels(values), noise, len(values))
     noise = _noise(profile, model.levels(values), parts)
-    return _described(LampFit(profile, model, values, np.empty(0), noise))
+    return _with_evidence(LampFit(profile, model, values, np.empty(0), noise))
 
 
 def _start(profile: LampProfile, model: Levels, period: float) -> FloatArray:
@@ -249,7 +249,7 @@ def _weighted(
     return np.concatenate([slopes, model.beliefs(values)[1]])
 
 
-def _described(fit: LampFit) -> LampFit:
+def _with_evidence(fit: LampFit) -> LampFit:
     """Return a fit with its covariance and evidence (Laplace's approximation)."""
     profile, model, values = fit.profile, fit.model, fit.values
     slopes = _weighted(profile, model, values, fit.noise)

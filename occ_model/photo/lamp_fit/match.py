@@ -83,7 +83,7 @@ def match_lamp(
     errors, gamma = found.uncertainties, 1.0 if photo.is_linear else scene.camera.gamma
     if fit_gamma and not photo.is_linear:
         gamma, errors["gamma"] = found.reading.fit.gamma, found.reading.fit.gamma_error
-    return _described(found, photo, _scene_of(found, photo, scene, gamma), errors)
+    return _describe(found, photo, _scene_of(found, photo, scene, gamma), errors)
 
 
 def _scene_of(found: LampEstimates, photo: Photo, scene: Scene, gamma: float) -> Scene:
@@ -98,7 +98,7 @@ def _scene_of(found: LampEstimates, photo: Photo, scene: Scene, gamma: float) ->
     return with_levels(scene, low, high)
 
 
-def _described(found: LampEstimates, photo: Photo, scene: Scene, errors: dict[str, float]) -> Match:
+def _describe(found: LampEstimates, photo: Photo, scene: Scene, errors: dict[str, float]) -> Match:
     """Describe what was found, with its doubts; ``errors`` are standard deviations in SI units."""
     reading, place, name = found.reading, found.reading.place, found.estimate
     unsure = doubts_by_error(name, float(scene.value(name)), errors[name])

@@ -10,15 +10,15 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 
-_DARK = 0.02  # quantile of the darkest pixels
-_BRIGHT = 0.99  # quantile of the lamp's light, closed over its stripes
-_RIM = 0.25  # of that light, from which a pixel is the lamp's
-_CLOSED_PART = 0.4  # of the columns that may lie between two stripes
-_LEAST_PART = 0.3  # of the highest column's pixels, fewer of which are left out
-_SMOOTHING = 0.7  # pixels, below which noise is not the lamp's light
-_RIM_PIXELS = 2  # of the lamp's rim that blur darkens
-_MOST_COLUMNS = 512  # of the picture in which a lamp is searched
-_MARGIN = 0.25  # of a lamp's size, around it, when it is searched more finely
+_DARK = 0.02  # quantile of the pixels that counts as dark
+_BRIGHT = 0.99  # quantile of the light, with stripes closed, that counts as the lamp's light
+_RIM = 0.25  # least light of a lamp's pixel, as a fraction of the lamp's light
+_CLOSED_PART = 0.4  # most columns between two stripes, as a fraction of the picture's
+_LEAST_PART = 0.3  # least pixels of a column of the lamp, as a fraction of the highest column's
+_SMOOTHING = 0.7  # pixels of blur, so that noise does not look like a lamp's light
+_RIM_PIXELS = 2  # width of the rim that blur darkens
+_MOST_COLUMNS = 512  # size to which a picture is reduced for the search
+_MARGIN = 0.25  # margin around a lamp for a finer search, as a fraction of its size
 _LEAST_COLUMNS = 16
 
 
@@ -97,8 +97,8 @@ def _inside(part: FloatArray, mask: BoolArray, region: Region, white: int) -> La
 def _hull(mask: BoolArray) -> ByteArray:
     """Return the convex hull of a mask.
 
-    Where a lamp is faint the mask ends at edges of stripes. Of columns beside such an edge other
-    rows would be averaged, which moves the edge outwards.
+    Where a lamp is faint, the mask ends at edges of stripes. Columns on either side of such an edge
+    would be means over different rows, which moves the edge outwards.
     """
     rows = np.flatnonzero(mask.any(axis=1))
     first = mask[rows].argmax(axis=1)

@@ -8,15 +8,15 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
 
-_CLIPPED = 0.98  # of white, from where samples are clipped
-_CLIPPED_PART = 0.02  # of a column's samples, from which its mean is too dark
+_CLIPPED = 0.98  # least value of a clipped sample, as a fraction of white
+_CLIPPED_PART = 0.02  # fraction of clipped samples above which a column's mean is too dark
 _GROUPS = (8, 4, 3, 2)  # lines that a sensor may read together
-_LEAST_STEP_RATIO = 0.35  # of steps within a group to steps between groups, below which it is one
+_LEAST_STEP_RATIO = 0.35  # steps within a group over steps between groups; below, lines form groups
 _NOTABLE_STEP, _LEAST_RAMPS = 0.1, 4
 """Part of the largest step from which one is notable, and how many must follow another one: edges
 without ramps can be whole groups apart by chance."""
-_MOST_COLUMNS = 640  # of a profile that is fitted
-_ROWS_AT_ONCE = 32  # that are averaged
+_MOST_COLUMNS = 640  # columns of a profile that is fitted
+_ROWS_AT_ONCE = 32  # rows that are averaged at once
 _LEAST_PERIOD = 48.0  # columns that a period keeps
 
 

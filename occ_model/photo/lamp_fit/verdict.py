@@ -11,32 +11,32 @@ from occ_model.errors import distinct_texts
 from occ_model.photo.lamp_fit.cues import Cues
 
 _MOST_FLOOR, _FLOOR_PART, _REFUSED_FLOOR = 0.06, 0.15, 0.25
-"""Of the stripes' height: most light that nothing explains, beside a part of the floor that is
-expected, and light from which a fit is refused. Of lamps 0.05 at most."""
-_MOST_MISFIT, _REFUSED_MISFIT = 0.06, 0.12  # of the swing
-_MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # of the swing; of lamps 0.06 at most
-_MOST_BLUR, _BLUR_PART = 0.85, 0.25  # columns, and of the ramp; of lamps 0.76 and 0.24 at most
+"""Most light between the stripes that nothing explains, relative to their height, what an expected
+floor adds to it, and the light above which a fit is refused. Lamps have up to 0.05."""
+_MOST_MISFIT, _REFUSED_MISFIT = 0.06, 0.12  # relative to the swing
+_MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # relative to the swing; lamps have up to 0.06
+_MOST_BLUR, _BLUR_PART = 0.85, 0.25  # columns, parts of the ramp; lamps have up to 0.76 and 0.24
 _USUAL_BLUR, _USUAL_BLUR_PART, _BLUR_DEVIATIONS = 0.62, 0.07, 2.0
-"""The same, and deviations beside these, up to which it is processing's: lenses blur things, but no
-stripes of a lamp. Only few lamps are slow; of simulated ones 98 % have less than 0.60."""
+"""Blur that processing may cause, in columns, parts of the ramp, and deviations beside these. A
+lens blurs things, but not a lamp's stripes. 98 % of simulated lamps have less than 0.60."""
 _MOST_DRIFT, _DRIFT_DEVIATIONS, _MOST_ROWS_SCATTER = 0.2, 2.5, 0.35  # columns, deviations, columns
 _MOST_SCATTER, _SCATTER_PART, _SCATTER_DEVIATIONS, _REFUSED_SCATTER = 0.12, 0.002, 2.6, 0.1
-"""Of edges off even spacing: columns, parts of the period, what their noise makes; and the part of
-a period from which a fit is refused."""
+"""Most deviation of edges from even spacing: columns, parts of the period, multiples of what noise
+causes; and the part of a period from which a fit is refused."""
 _LEAST_BITS, _REFUSED_BITS = 7.0, 4.0
 _LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap
 _LEAST_PERIOD = 4.0  # columns
 _LEAST_EXPOSURE, _LEAST_TOLD = 0.005, 16.0
-"""Least ramp as a part of the period, and columns of a period from which it is told: exposures make
-ramps, edges of things have none but by blur. Of lamps 0.009 at least."""
+"""Least ramp as a part of the period, and columns of a period from which it counts: exposures make
+ramps, edges of things have only blur. Lamps have at least 0.009."""
 _USUAL_TENSION, _MOST_TENSION = 5.0, 6.0
-"""Deviations of the tone curve from usual ones, up to which it is no doubt, the second one with a
-noted exposure time or a known duty. Of simulated lamps 97 % have less than 5."""
+"""Deviations of the tone curve from usual ones above which it is a doubt; the second limit holds
+with a noted exposure time or a known duty. 97 % of simulated lamps have less than 5."""
 _LEAST_GAP = 6.0  # natural logarithms between the best period and the next
 _FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
 _LIT_GAPS, _FEW_LOW_EDGES, _MOST_WHITE = 0.9, 8, 0.2
-"""Light between the stripes over their height from which they are low; most edges of low stripes
-that the lamp's own shape may pretend, and part of white columns that may hide more of them."""
+"""Light between the stripes, relative to their height, from which stripes count as low; most edges
+of low stripes that a lamp's shape can imitate, and part of white columns that may hide more."""
 
 
 def floor_limit(cues: Cues) -> float:

@@ -28,7 +28,7 @@ from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
-_REFLECTED_BRIGHTNESS = 0.45  # of a lamp's reflection that blinks in time, over the lamp's
+_REFLECTED_BRIGHTNESS = 0.45  # most brightness of a reflection, relative to the lamp's
 _FAINT_BRIGHTNESS = 0.25
 """Brightness relative to the brightest lamp below which a lamp may be a reflection."""
 _FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported
@@ -50,9 +50,9 @@ _BLURRED_RATIO, _HARDLY_STRIPED_RATIO = 0.15, 0.3
 than a chip, and above which it is."""
 
 _PERIOD_TOLERANCE = 0.03  # maximum relative difference of periods by edges and autocorrelation
-_MOST_COMMON_FRACTION = 0.5  # of a lamp inside another one, above which it is a part of that
-_OWN_EDGES = 8  # of a lamp in the light that another one scatters around it
-_GLOW_BRIGHTNESS = 0.5  # of the light that a lamp scatters around it, over the lamp's
+_MOST_COMMON_FRACTION = 0.5  # fraction inside another lamp above which a lamp is a part of it
+_OWN_EDGES = 8  # edges that show a lamp in the light that another one scatters around it
+_GLOW_BRIGHTNESS = 0.5  # most brightness of the light scattered around a lamp, relative to it
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -132,7 +132,7 @@ def _blinking(
             continue
         if _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
-            one = _described(timing, spans, [strips[strip] for strip in shown])
+            one = _describe_blinking(timing, spans, [strips[strip] for strip in shown])
             if counts_some(one, means[shown[0] : shown[-1] + 1]):
                 one = replace(one, lamp=replace(one.lamp, is_blurred=True))
             found.append(one)
@@ -168,7 +168,7 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
     return bool(near > 2 and near >= LEAST_EQUAL_FRACTION * len(segment.edges))
 
 
-def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:
+def _describe_blinking(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:
     region = around(spans)
     own = [one.where(matches(one, timing.edges, timing.chip)) for one in strips]
     low = float(np.median(np.concatenate([one.low for one in own])))

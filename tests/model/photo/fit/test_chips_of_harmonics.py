@@ -12,7 +12,7 @@ from occ_model.photo.fit.chips_of_harmonics import (
     boxes_of,
     chips_by_descent,
     harmonics_of,
-    refined,
+    refine_timing,
     rounded_chips,
 )
 from occ_model.photo.fit.timing import Timing
@@ -87,7 +87,7 @@ def test_levels_are_rounded_between_the_means_of_bright_and_dark(few: bool) -> N
 def test_exposure_and_phase_are_refined_though_bright_runs_are_longer(longer: float) -> None:
     lines = lines_of(0.8, longer)
     rough = ReadPattern(CHIPS, 0.9, 0.9, 0.5)
-    found = refined(lines, rough, STEP)
+    found = refine_timing(lines, rough, STEP)
     assert found.explained > 0.9995
     assert found.exposure == pytest.approx(0.8, abs=0.03)
     # The exposure's middle, where its chip is: the first column's.
@@ -98,8 +98,8 @@ def test_exposure_and_phase_are_refined_though_bright_runs_are_longer(longer: fl
 def test_bright_runs_are_no_longer_than_the_ramps_of_edges() -> None:
     """Without white, light passes half its height within each ramp."""
     lines, rough = lines_of(0.1, 0.39), ReadPattern(CHIPS, 0.9, 0.1, 0.5)
-    assert refined(lines, rough) is not rough
-    assert refined(lines, rough, 0.05) is rough
+    assert refine_timing(lines, rough) is not rough
+    assert refine_timing(lines, rough, 0.05) is rough
 
 
 @pytest.mark.parametrize("exposure", [2.15, 2.7])

@@ -13,8 +13,8 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.joint_estimate import (
     _rounding,
-    _widened,
-    refined,
+    _widen_covariance,
+    refine_fits,
     within_rims,
 )
 from occ_model.photo.fit.joint_fit import JointFit
@@ -32,7 +32,7 @@ def test_an_unusual_camera_widens_all_but_the_step(unusual: float) -> None:
     """By the ratio to what six unknowns are usually off."""
     model: Any = SimpleNamespace(unusual=lambda _: unusual)
     ratio = max(1.0, unusual / math.sqrt(6.0))
-    wide = _widened(FIT, model).covariance
+    wide = _widen_covariance(FIT, model).covariance
     assert wide[0, 0] == FIT.covariance[0, 0]
     assert wide[0, 1:] == pytest.approx(ratio * FIT.covariance[0, 1:])
     assert wide[1:, 1:] == pytest.approx(ratio**2 * FIT.covariance[1:, 1:])
@@ -81,14 +81,14 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(
     profile = 40.0 + 150.0 * light_of(chips, first, COLUMNS)
     tone = CameraTone("light", "none", Tone())
     model = StripeModel(profile, chips, tone.tone, first.step)
-    explanation = Explanation(chips, (model.described(first, np.eye(4) * 1e-8),), tone)
+    explanation = Explanation(chips, (model.describe(first, np.eye(4) * 1e-8),), tone)
     every = np.ones(COLUMNS, dtype=bool)
     cells: Any = SimpleNamespace(profiles=lambda _: [EvenProfile(profile, every, 20.0)])
     values = np.array([first.step, exposure, first.middle, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     mode = JointFit(values, np.eye(9) * 1e-8, 1.0)
     monkeypatch.setattr(joint_estimate, "mean_fit", lambda *_: mode)
     stripes: Any = SimpleNamespace(profile=profile)
-    found = refined(stripes, cells, explanation, 2.2)
+    found = refine_fits(stripes, cells, explanation, 2.2)
     (fit,) = found.fits
     assert fit.timing.exposure == 0.6
     assert any("lit equally give another" in why for why in found.exposure_doubts) == contradicts

@@ -8,7 +8,7 @@ import pytest
 from occ_model.photo.fit.joint_fit import (
     CORRELATED_COLUMNS,
     JointFit,
-    averaged,
+    average_fits,
     covariance_of,
     distinct,
 )
@@ -61,14 +61,14 @@ def fit(exposure: float, misfit: float, prior: float = 0.0, deviation: float = 0
 
 def test_two_models_that_are_as_likely_are_told_by_what_holds_both() -> None:
     """Half of the weight is off by their difference: its variance is half of its square."""
-    mean = averaged([fit(1.0, 10.0), fit(1.4, 10.0)])
+    mean = average_fits([fit(1.0, 10.0), fit(1.4, 10.0)])
     assert mean.deviation == pytest.approx(math.hypot(0.01, 0.4 / math.sqrt(2.0)), rel=1e-6)
 
 
 def test_what_a_model_leaves_unexplained_makes_the_data_tell_less() -> None:
     """The same excess, of a misfit of 20 and of one of 2000, of which 5 % are 100."""
-    few = averaged([fit(1.0, 20.0), fit(1.4, 60.0)])
-    many = averaged([fit(1.0, 2000.0), fit(1.4, 2040.0)])
+    few = average_fits([fit(1.0, 20.0), fit(1.4, 60.0)])
+    many = average_fits([fit(1.0, 2000.0), fit(1.4, 2040.0)])
     weight = 1.0 / (1.0 + math.exp(0.5 * 40.0 / 100.0))
     assert few.deviation == pytest.approx(0.01, rel=1e-3)
     assert many.deviation == pytest.approx(math.hypot(0.01, 0.4 * math.sqrt(weight)), rel=1e-3)
@@ -76,7 +76,7 @@ def test_what_a_model_leaves_unexplained_makes_the_data_tell_less() -> None:
 
 def test_an_unusual_camera_is_no_more_likely_where_the_data_tell_little() -> None:
     """What is usual is known before any photo: what the model lacks does not change it."""
-    unusual = averaged([fit(1.0, 2000.0), fit(1.4, 2040.0, prior=40.0)])
+    unusual = average_fits([fit(1.0, 2000.0), fit(1.4, 2040.0, prior=40.0)])
     assert unusual.deviation == pytest.approx(0.01, rel=1e-3)
 
 
@@ -84,7 +84,7 @@ def test_a_fit_that_hardly_tells_the_step_is_no_fit() -> None:
     """A blur that is held too large leaves no exposure to fit, and a slope of nothing."""
     told, untold = fit(1.0, 10.0), fit(1.1, 10.0)
     told.covariance[0, 0], untold.covariance[0, 0] = 1e-6, 49.0
-    assert averaged([told, untold]).covariance[0, 0] == pytest.approx(1e-6)
+    assert average_fits([told, untold]).covariance[0, 0] == pytest.approx(1e-6)
 
 
 def test_starts_that_end_in_the_same_minimum_count_once() -> None:
@@ -94,7 +94,7 @@ def test_starts_that_end_in_the_same_minimum_count_once() -> None:
 
 def test_explanations_of_pure_noise_are_weighted_by_their_likelihood() -> None:
     """Where the misfit is small, a difference of four is two standard deviations."""
-    both = averaged([fit(0.5, 3.0, deviation=0.0), fit(0.6, 7.0, deviation=0.0)])
+    both = average_fits([fit(0.5, 3.0, deviation=0.0), fit(0.6, 7.0, deviation=0.0)])
     fraction = math.exp(-2.0) / (1.0 + math.exp(-2.0))
     assert both.exposure == 0.5
     assert both.deviation == pytest.approx(0.1 * math.sqrt(fraction), rel=1e-6)
@@ -104,4 +104,4 @@ def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> Non
     """It has no slope there, and its covariance means nothing."""
     at_bound = fit(0.5, 320.0)
     at_bound.covariance[3, 3] = 1e8
-    assert averaged([fit(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0
+    assert average_fits([fit(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0

@@ -9,7 +9,7 @@ from lit_fractions import blurred_light
 
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.joint_model import PRIORS, JointModel
-from occ_model.photo.fit.mean_fit import _mirrored, _with_blur
+from occ_model.photo.fit.mean_fit import _mirror_exposure, _with_blur
 from occ_model.photo.fit.seen_stripes import blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -173,6 +173,6 @@ def test_the_mirrored_exposure_is_as_far_from_the_nearest_whole_chips(
 ) -> None:
     values = TRUE.copy()
     values[1] = exposure
-    found = _mirrored(values)
+    found = _mirror_exposure(values)
     assert found[1] == pytest.approx(other)
     assert np.delete(found, 1).tolist() == np.delete(TRUE, 1).tolist()

@@ -5,7 +5,7 @@ import pytest
 from lit_fractions import blurred_light
 
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
-from occ_model.photo.fit.seen_stripes import BLUR_REACH, Seen, blur_kernel, blurred
+from occ_model.photo.fit.seen_stripes import BLUR_REACH, Seen, blur_kernel, blur_rows
 from occ_model.photo.fit.timing import ChipLight, Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.envelope import smooth_shapes
@@ -53,7 +53,7 @@ def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
     """Their levels are corrected by one step; as if light were blurred some are off."""
     kernel = blur_kernel(1.5)
     dark, swing = (np.pad(levels, BLUR_REACH, mode="edge") for levels in (DARK, SWING))
-    values = blurred(TABLE.value_of(dark + swing * SHARP), kernel)
+    values = blur_rows(TABLE.value_of(dark + swing * SHARP), kernel)
     lit = blurred_light(CHIPS, COLUMNS, TIMING, 1.5, 0.02)
     part = profile_of(values)
     as_values = part.residual(Seen(lit, TABLE, SHARP, kernel))
@@ -67,7 +67,7 @@ def test_dark_columns_beside_bright_ones_are_followed_where_grey_levels_are_blur
     kernel = blur_kernel(1.5)
     dark, swing = np.full(COLUMNS + 2 * BLUR_REACH, 0.001), np.pad(SWING, BLUR_REACH, mode="edge")
     table = ToneCurve(2.2).table()
-    values = blurred(table.value_of(dark + swing * SHARP), kernel)
+    values = blur_rows(table.value_of(dark + swing * SHARP), kernel)
     lit = blurred_light(CHIPS, COLUMNS, TIMING, 1.5, 0.02)
     residual = profile_of(values).residual(Seen(lit, table, SHARP, kernel))
     assert residual == pytest.approx(np.zeros(COLUMNS), abs=0.02)

@@ -60,7 +60,7 @@ def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
 def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
     """Alike where nothing varies but the stripes: Pearson's coefficient."""
     flat = 40.0 + 100.0 * LIT + 12.0 * np.random.default_rng(4).normal(size=COLUMNS)
-    fit = StripeModel(flat, CHIPS, Power(), 0.01).described(TRUE, np.zeros((4, 4)))
+    fit = StripeModel(flat, CHIPS, Power(), 0.01).describe(TRUE, np.zeros((4, 4)))
     expected = np.corrcoef(flat, 40.0 + 100.0 * LIT)[0, 1]
     assert expected < fit.correlation < expected + 1e-3  # levels follow some of the noise
     assert fit.residual == pytest.approx(float(((flat - fit.profile) ** 2).sum()))
@@ -71,12 +71,12 @@ def test_lit_darker_than_dark_or_dark_darker_than_black_is_no_picture(
     sign: float, dark: float
 ) -> None:
     model = model_of(dark + sign * 100.0 * LIT)
-    assert not model.described(TRUE, np.zeros((4, 4))).is_possible
+    assert not model.describe(TRUE, np.zeros((4, 4))).is_possible
 
 
 def test_the_dark_may_be_a_little_below_black_by_noise() -> None:
     possible = [
-        model_of(dark + 100.0 * LIT).described(TRUE, np.zeros((4, 4))).is_possible
+        model_of(dark + 100.0 * LIT).describe(TRUE, np.zeros((4, 4))).is_possible
         for dark in (-5.0, -15.0)
     ]
     assert possible == [True, False]
@@ -117,6 +117,6 @@ def test_stripes_that_vanish_are_taken_for_a_twentieth_of_the_highest_ones() -> 
     """Whoever flattens divides by their height: it is never next to nothing."""
     shapes = smooth_shapes(COLUMNS, 2)
     fading = shapes @ [61.0, 60.0]
-    fit = model_of(30.0 + fading * LIT).described(TRUE, np.zeros((4, 4)))
+    fit = model_of(30.0 + fading * LIT).describe(TRUE, np.zeros((4, 4)))
     assert fit.swing.max() == pytest.approx(121.0, rel=0.02)
     assert fit.swing.min() == pytest.approx(0.05 * fit.swing.max())

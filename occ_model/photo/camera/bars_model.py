@@ -24,13 +24,13 @@ class Scales:
     Parameters
     ----------
     wave
-        Of the first harmonic.
+        For the first harmonic.
     decay
-        Power of 1/h by which those of the h-th harmonic are less: 1 of a wave with steps.
+        Power of 1/h with which they fall for the h-th harmonic; it is 1 for a wave with steps.
     modulation
-        Of the modulation by half a cycle a frame, over the wave; by j half cycles it is 1/j of it.
+        For a modulation of half a cycle a frame, relative to the wave; 1/j of it for j half cycles.
     slow
-        Of the slow change by half a cycle a frame; by j half cycles 1/j^1.5 of it.
+        For a slow change of half a cycle a frame; 1/j^1.5 of it for j half cycles.
     noise
         Factor on the deviations of the lines.
     """

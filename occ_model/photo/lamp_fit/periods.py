@@ -9,13 +9,13 @@ from occ_model.products import least_squares
 
 _LEAST_PERIOD = 3.0  # columns
 _LEAST_PERIODS = 1.3  # in view
-_STEPS = 5.0  # frequencies tried for each that the profile tells apart
-_MOST_TREND = 8  # degree of the polynomial that is taken off first
+_STEPS = 5.0  # frequencies tried within a resolution, which is 1 over the columns
+_MOST_TREND = 8  # highest degree of the polynomial that is subtracted first
 _MOST_ENVELOPE = 4  # polynomials that modulate a harmonic
 _SECOND_FROM = 8.0  # columns of a period from which the second harmonic is tried, too
-_MOST_FREQUENCIES = 300  # that are all tried; of more only those near peaks of the spectrum
+_MOST_FREQUENCIES = 300  # frequencies that are all tried; among more, those near spectral peaks
 _PEAKS, _ORDERS, _PEAK_WIDTH = 6, 3, 1.5
-"""Peaks, of which harmonics, and how near to them, in frequencies that the profile tells apart."""
+"""Number of peaks, the harmonics that they may be, and the distance from them in resolutions."""
 
 
 def likely_periods(values: FloatArray, count: int) -> list[float]:

@@ -18,8 +18,8 @@ from occ_model.photo.lamp_fit.verdict import refusals
 
 _OTHER_PERIOD = 0.03  # relative difference from which a fit has another period
 _LEAST_COLUMNS = 16
-_PERIODS = 2  # of the likely ones, of which multiples are tried, too
-_BANDS = 6  # of rows, whose phases are compared
+_PERIODS = 2  # likely periods whose multiples are tried, too
+_BANDS = 6  # bands of rows whose phases are compared
 
 
 @dataclass(frozen=True, eq=False, slots=True)

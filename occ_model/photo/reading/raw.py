@@ -60,7 +60,7 @@ _NO_COLOUR = 6  # LibRaw's colour number for a sensor without filters
 _ORIENTATIONS = {0: 1, 1: 2, 2: 4, 3: 3, 4: 5, 5: 8, 6: 6, 7: 7}
 """The EXIF orientation for LibRaw's flip: bit 0 mirrors columns, bit 1 rows, bit 2 transposes."""
 
-_LINES_AT_ONCE = 128  # of which the light is computed
+_LINES_AT_ONCE = 128  # lines whose light is computed at once
 
 WHITE_SAMPLE = 65535  # the sample value of the sensor's white level
 

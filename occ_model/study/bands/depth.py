@@ -38,7 +38,7 @@ _WINDOW_BINS = 0.75  # largest distance of a sine from its peak, in bins without
 
 
 def band_depth(scene: Scene) -> BandDepth:
-    """Return the depth of the bars of a scene's light, and what of it the scene's picture shows.
+    """Return the depth of the bars of a scene's light, and of the bars in its picture.
 
     The depth of the light covers all starts of an exposure within the light's period, and all
     phases of the ambient flicker, which is not synchronous with it. Its relative error is

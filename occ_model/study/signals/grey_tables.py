@@ -106,7 +106,7 @@ def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyDistribution:
     levels = np.interp(means, rising, np.arange(len(rising)))
     noise = np.interp(levels, np.arange(len(rising)), law.deviations)
     step = np.frombuffer(steps).reshape(8, 8)
-    # What of the noise of blocks' means differs from pixel to pixel; the rest is in the means.
+    # The part of the noise that differs from pixel to pixel in a block; the rest is in its mean.
     weights = np.ones((len(means), 8, 8))
     weights[:, 0] = dithered_fraction(noise[:, None], step)
     relative = np.maximum(noise, _LEAST_NOISE)[:, None, None] / step

@@ -165,7 +165,7 @@ class AccuracyPlot(QWidget):
             )
             for effect_set, seconds in timed_sets
         ]
-        # By the measured times, a set may be beaten by another one in both.
+        # With measured times, another set may beat a set in both error and time.
         before = accumulate((point.error for point in self._front), min, initial=math.inf)
         pairs_before = zip(self._front, before, strict=False)
         best = [point for point, least in pairs_before if point.error < least]

@@ -165,7 +165,7 @@ class AdvisorController(SearchController):
         super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *callbacks)
         self._pane = pane
         self._with_image_effects = True
-        # Of the last search: its priority, and the decoders whose limits it has found
+        # The priority of the last search, and the decoders whose limits it has found
         self._rank, self._found = FIRST_RANK, set[str]()
         scenes.settings.changed.connect(self._follow_change)
 

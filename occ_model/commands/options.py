@@ -165,7 +165,7 @@ def add_switches(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES
 
 def add_simulation_options(parser: argparse.ArgumentParser, effects: Sequence[str] = NAMES) -> None:
     add_plan_options(parser, effects)
-    # Of former versions, and ignored: noise is always drawn for every pixel.
+    # An option of former versions, now ignored: noise is always drawn for every pixel.
     parser.add_argument("--noise", help=argparse.SUPPRESS)
     add_option(parser, "--seed", SimulationSettings().seed)
 

@@ -27,7 +27,7 @@ class DrawnPixels:
 
     mean: FloatArray
     squared_steps: FloatArray  # Mean sum of the squares of all steps up to a pixel's level
-    step: FloatArray  # By how much pixels move that move, if their mean changes a little
+    step: FloatArray  # Mean change of the pixels that change at all if their mean changes a little
     spread: FloatArray  # Standard deviation beyond that of two levels next to each other
 
     variances: tuple[FloatArray, FloatArray]

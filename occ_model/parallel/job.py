@@ -34,7 +34,7 @@ class Job:
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
     counter: int = 0  # The counter of the job's heartbeats
-    rank: int = 0  # Of all waiting jobs, those of the lowest rank begin first
+    rank: int = 0  # Waiting jobs of the lowest rank begin first
     # Whether the job is completed even if a newer run is requested
     uninterruptible: bool = False
 

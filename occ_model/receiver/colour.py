@@ -111,7 +111,7 @@ def _places_of(image: NDArray[np.uint8], scene: Scene) -> list[ByteArray]:
 
 
 def _locate(places: list[ByteArray], scene: Scene) -> Location | None:
-    # Of one colour alone the mean of four pixels would be as dark as the noise beside the panel.
+    # In one colour alone, the mean of four pixels would be as dark as the noise beside the panel.
     brightest = np.maximum(np.maximum(*places[:2]), np.maximum(*places[2:]))
     return locate(brightest, scene.receiver.bright_fraction)
 

@@ -95,13 +95,13 @@ class TimeFractions:
 
     effects: Mapping[str, float]  # Seconds of each effect that is computed in a step of its own
     stages: Mapping[str, float]  # Seconds of each other stage of the simulation
-    # By effect without a time of its own: the effect whose time includes it
+    # For each effect without a time of its own, the effect whose time includes it
     shared_steps: Mapping[str, str]
     # Whether rows differ; with column effects only, they do not
     rows_differ: bool
     # Seconds by which the median run of each effect was slower than its fastest run
     scatter: Mapping[str, float] = field(default_factory=dict)
-    # Of all runs, of which this is the median one; None for a single run
+    # The times of all runs, if these are the times of the median run
     runs: Times | None = None
 
     @classmethod
@@ -178,7 +178,7 @@ class EffectDifference:
 @dataclass(frozen=True, slots=True)
 class MeasuredCosts:
     picture: TimeFractions
-    # Of the last pictures of this size with other effects, the latest first: they time the omitted
+    # Times of the last pictures with other effects, of this size, the latest first: for the omitted
     # effects, and the other stages if all rows are equal
     others: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)

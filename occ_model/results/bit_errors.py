@@ -204,8 +204,8 @@ class BenchPoint:
 class BenchBounds:
     # Exposures in symbols at which alternating chips leave no stripes
     nulls: tuple[float, ...]
-    # By axis, the exposures or ratios, and the bits a picture that light of Gaussian levels can
-    # carry at each
+    # For each axis, its exposures or ratios, and the most bits in a picture at each of them if the
+    # light has Gaussian levels
     most_bits: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]
 
 

@@ -87,7 +87,7 @@ class CombinedEstimate:
     count: int
     # Sum of the squared differences from the mean, in standard deviations
     chi_square: float
-    # Of at least such a chi-square, if the standard deviations are right
+    # Probability of at least this chi-square if the standard deviations are right
     probability: float
     # At least 1, see `weighted_mean`; above 1 if the estimates scatter more than their standard
     # deviations, or so little that they may share an error

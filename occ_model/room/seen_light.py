@@ -284,7 +284,7 @@ class _Packet:
             np.bincount(step, weights, minlength=size)
             for weights in (known_light, np.ones(len(known_light)))
         )
-        # By start: the sums over columns of the packet's light times theirs, and of its square.
+        # For each start, sums over columns: of the packet's light times theirs, and of its square.
         products, squares = (
             np.fft.irfft(np.fft.rfft(light) * np.conj(np.fft.rfft(column_sums)), size)
             for light, column_sums in ((self.light, sums), (np.square(self.light), counts))

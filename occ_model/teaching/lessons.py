@@ -30,7 +30,7 @@ EQUATIONS = (  # the equations that a step can show
     "frame-time", "null",
 )  # fmt: skip
 
-# Of a step's button: write files, open or match a photo
+# Actions of a step's button: write files, open or match a photo
 ACTIONS = ("transmitter", "photo", "match")
 _FOLDER, _ENDING = "lessons", ".toml"
 _TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson from which a teacher starts

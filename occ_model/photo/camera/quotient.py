@@ -72,7 +72,7 @@ def quotient_of_lines(photos: list[Photo], scan_axis: str) -> LineValues:
         ``"lines"`` or ``"columns"`` of the upright photo: what the camera reads one by one.
     """
     first, *others = [_in_cells(photo, scan_axis) for photo in photos]
-    second = _aligned(first, others[0]) if others else _columns_medians(first)
+    second = _align(first, others[0]) if others else _columns_medians(first)
     return LineValues(*_tiles(*_quotient(first, second)), *_upright(photos[0], scan_axis).shape)
 
 
@@ -106,7 +106,7 @@ def _columns_medians(one: _Light) -> _Light:
     return _Light(np.broadcast_to(medians, one.light.shape), np.ones_like(one.light))
 
 
-def _aligned(first: _Light, second: _Light) -> _Light:
+def _align(first: _Light, second: _Light) -> _Light:
     """Shift the second picture onto the first by their texture, without the lines' means."""
     window = cv2.createHanningWindow(first.light.shape[::-1], cv2.CV_64F)
     (across, down), response = cv2.phaseCorrelate(

@@ -34,7 +34,7 @@ class Bounds:
 _NO_BOUNDS = Bounds(np.array(-math.inf), np.array(math.inf))
 
 
-def minimized(
+def minimize_squares(
     residual: Callable[[FloatArray], FloatArray],
     slopes: Callable[[FloatArray], FloatArray],
     first: FloatArray,

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.photo.fit.damped_least_squares import Bounds, minimized
+from occ_model.photo.fit.damped_least_squares import Bounds, minimize_squares
 from occ_model.photo.fit.joint_fit import CORRELATED_COLUMNS, JointFit, covariance_of
 from occ_model.photo.fit.least_squares import level_freedom
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
@@ -185,7 +185,7 @@ class JointModel:
             slopes[1] *= values[1]
             return slopes[index].T
 
-        place, residual = minimized(
+        place, residual = minimize_squares(
             lambda place: self._residual(values_of(place), shape),
             slopes,
             first[index],

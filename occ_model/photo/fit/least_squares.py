@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.photo.fit.damped_least_squares import Bounds, minimized
+from occ_model.photo.fit.damped_least_squares import Bounds, minimize_squares
 from occ_model.photo.fit.levels import LevelShapes, LitColumns
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, weighted_correlation
@@ -168,7 +168,7 @@ class StripeModel:
         def slopes(place: FloatArray) -> FloatArray:
             return self._slopes(timing_of(place))[:, free]
 
-        found, residual = minimized(
+        found, residual = minimize_squares(
             lambda place: self._profile - self.levels(timing_of(place))[2],
             slopes,
             np.clip(first, low, high)[free],

@@ -47,7 +47,7 @@ def mean_fit(models: Sequence[JointModel], timing: Timing) -> JointFit:
     for model in models[1:]:
         model.take_noise(first)
     fits = [_fit_near(model, model.adapted(usual)) for model in models]
-    # By the model that explains the stripes best: another one may explain none of them.
+    # Use the model that explains the stripes best: another one may explain none of them.
     likely, found = min(zip(models, fits, strict=True), key=lambda pair: pair[1].misfit)
     likely.estimate_noise(found.values)
     for model in models:

@@ -51,7 +51,7 @@ def blur_kernel(blur: float, shape: BlurShape = "normal") -> FloatArray:
         half = math.sqrt(3.0) * blur
         kernel = np.clip(np.minimum(off + 0.5, half) - np.maximum(off - 0.5, -half), 0.0, None)
     elif shape == "exponential":
-        # Of weights r^|i| the variance is 2 r / (1 - r)^2.
+        # Weights r^|i| have the variance 2 r / (1 - r)^2.
         middle = 1.0 + 1.0 / blur**2
         kernel = (middle - math.sqrt(middle**2 - 1.0)) ** off
     else:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.damped_least_squares import Bounds, minimized
+from occ_model.photo.fit.damped_least_squares import Bounds, minimize_squares
 from occ_model.photo.lamp_fit.model import (
     AMBIENT,
     BLUR,
@@ -48,9 +48,9 @@ class LampFit:
     profile: LampProfile
     model: Levels
     values: FloatArray
-    inverse: FloatArray  # Of the products of the slopes and beliefs
+    inverse: FloatArray  # Inverse of the products of the slopes and beliefs
     noise: FloatArray  # Shape (columns,): standard deviation of each value
-    inflation: float = 1.0  # Of variances, as the noise of neighbouring columns is alike
+    inflation: float = 1.0  # Factor on variances, as neighbouring columns have similar noise
     score: float = 0.0  # Logarithm of the evidence, up to a constant
 
     @property
@@ -72,7 +72,7 @@ class LampFit:
     @property
     def slopes(self) -> FloatArray:
         """The slopes of the levels over the parameters, in deviations, shape (columns, n)."""
-        slopes = _weighted(self.profile, self.model, self.values, self.noise)
+        slopes = _weighted_slopes(self.profile, self.model, self.values, self.noise)
         return slopes[: len(self.noise)]
 
     @property
@@ -234,12 +234,12 @@ def _minimize(
         return np.concatenate([_off(profile, model.levels(at)) / noise, model.beliefs(at)[0]])
 
     def slopes(at: FloatArray) -> FloatArray:
-        return _weighted(profile, model, at, noise)
+        return _weighted_slopes(profile, model, at, noise)
 
-    return minimized(residual, slopes, values, steps, bounds=Bounds(low, high, most))[0]
+    return minimize_squares(residual, slopes, values, steps, bounds=Bounds(low, high, most))[0]
 
 
-def _weighted(
+def _weighted_slopes(
     profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
 ) -> FloatArray:
     """Return the slopes of the levels, and then of the beliefs, in deviations."""
@@ -252,7 +252,7 @@ def _weighted(
 def _with_evidence(fit: LampFit) -> LampFit:
     """Return a fit with its covariance and evidence (Laplace's approximation)."""
     profile, model, values = fit.profile, fit.model, fit.values
-    slopes = _weighted(profile, model, values, fit.noise)
+    slopes = _weighted_slopes(profile, model, values, fit.noise)
     products = row_products(slopes.T, slopes.T)
     # Before, the period is known to a factor of e, and the place to a period.
     products[PERIOD, PERIOD] += 1.0

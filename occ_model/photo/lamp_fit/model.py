@@ -105,8 +105,8 @@ class Levels:
             (by_light * by_floor * steep)[None],
             by_light[None],
             by_tone,
-            _mixed(levels, -2.0, 1.0, 0.0)[None],
-            _mixed(levels, -2.0, 0.0, 1.0)[None],
+            _mix(levels, -2.0, 1.0, 0.0)[None],
+            _mix(levels, -2.0, 0.0, 1.0)[None],
             by_envelope * self.envelope.T,
         ])  # fmt: skip
         before = [*range(NEAR), *range(COUNT, len(slopes))]
@@ -115,7 +115,7 @@ class Levels:
 
     def _processed(self, values: FloatArray, levels: FloatArray) -> FloatArray:
         near, far = values[NEAR], values[FAR]
-        return _mixed(levels, 1.0 - 2.0 * (near + far), near, far)
+        return _mix(levels, 1.0 - 2.0 * (near + far), near, far)
 
     def _light(self, values: FloatArray, wave: FloatArray) -> tuple[FloatArray, FloatArray, float]:
         log = np.clip(self.envelope @ values[COUNT:], -_LARGEST_LOG, _LARGEST_LOG)
@@ -139,7 +139,7 @@ class Levels:
         return np.concatenate([means / deviations, np.zeros(bends)]), slopes
 
 
-def _mixed(levels: FloatArray, own: float, near: float, far: float) -> FloatArray:
+def _mix(levels: FloatArray, own: float, near: float, far: float) -> FloatArray:
     """Mix each column with the two on either side; beyond the ends levels go on.
 
     Of shape as ``levels``, whose last axis counts the columns.

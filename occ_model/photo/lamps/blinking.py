@@ -50,7 +50,7 @@ def with_parts_joined(
         if host is None:
             kept.append(one)
         elif _in_line(host, one):
-            kept[number] = _joined(host, one, _is_code(host, one, means, bounds))
+            kept[number] = _join(host, one, _is_code(host, one, means, bounds))
     return kept
 
 
@@ -104,7 +104,7 @@ def _between(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexAr
     return np.asarray(part.mean(axis=0)) if part.size else np.zeros(0)
 
 
-def _joined(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
+def _join(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
     """Join two parts of a lamp; of a code that looked like pulses the chip is known."""
     more = max(left, right, key=lambda one: len(one.timing.edges))
     timing = common_timing(left.timing, right.timing) or more.timing

@@ -230,12 +230,12 @@ def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
             if other.light > _GLOW_BRIGHTNESS * one.light
             and not (is_own and not other.timing.agrees(one.timing))
         ]  # fmt: skip
-        if all(_shared(one.lamp, other.lamp) < _MOST_COMMON_FRACTION for other in near):
+        if all(_shared_fraction(one.lamp, other.lamp) < _MOST_COMMON_FRACTION for other in near):
             kept.append(one)
     return kept
 
 
-def _shared(one: Lamp, other: Lamp) -> float:
+def _shared_fraction(one: Lamp, other: Lamp) -> float:
     here, there = one.spans[:, None, :], other.spans[None, :, :]
     high = np.minimum(here[..., 1], there[..., 1]) - np.maximum(here[..., 0], there[..., 0])
     wide = np.minimum(here[..., 3], there[..., 3]) - np.maximum(here[..., 2], there[..., 2])

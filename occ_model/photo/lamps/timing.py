@@ -83,7 +83,7 @@ def common_timing(one: LampTiming, other: LampTiming) -> LampTiming | None:
     if abs(one.spacing - other.spacing) > _PART_TOLERANCE * one.spacing:
         return None
     edges = one.edges.with_others(other.edges)
-    timing = _fitted(edges, np.ones(len(edges)), one.spacing, is_code=False)
+    timing = _fit(edges, np.ones(len(edges)), one.spacing, is_code=False)
     return timing if timing is not None and timing.off < 0.5 * timing.most_off else None
 
 
@@ -99,7 +99,7 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
     while waiting:
         part, shown = waiting.pop()
         for segment in segments_of(part, 0, _TOLERANCE_FACTOR if codes else 1.0, codes=codes):
-            timing = _refined(segment, part, shown)
+            timing = _refine_timing(segment, part, shown)
             if timing is not None and timing.off < timing.most_off:
                 found.append(timing)
                 continue
@@ -108,7 +108,7 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
             if not pulses:
                 continue
             longest = max(pulses, key=lambda one: len(one.edges))
-            timing = _refined(longest, part, shown)
+            timing = _refine_timing(longest, part, shown)
             found += [timing] if timing is not None else []
             before = part.place < longest.edges.place[0]
             after = part.place > longest.edges.place[-1]
@@ -121,22 +121,22 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
     return found
 
 
-def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
+def _refine_timing(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
     is_code = segment.period is None
     spacing = segment.chip if segment.period is None else segment.period
     inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
     first, last = int(np.argmax(inside)), len(edges) - int(np.argmax(inside[::-1]))
-    fit = _fitted(edges.part(first, last), weights[first:last], spacing, is_code)
+    fit = _fit(edges.part(first, last), weights[first:last], spacing, is_code)
     # The rim of a lamp is an edge too, which lies anywhere.
     for left, right in ((1, 0), (0, 1), (1, 1)) if is_code else ():
         begin, end = first + left, last - right
-        inner = _fitted(edges.part(begin, end), weights[begin:end], spacing, is_code)
+        inner = _fit(edges.part(begin, end), weights[begin:end], spacing, is_code)
         if fit is not None and inner is not None and inner.off < _MOST_RATIO * fit.off:
             fit = inner
     return fit
 
 
-def _fitted(edges: Edges, weights: FloatArray, spacing: float, is_code: bool) -> LampTiming | None:
+def _fit(edges: Edges, weights: FloatArray, spacing: float, is_code: bool) -> LampTiming | None:
     """Fit lattices to rising and falling edges; ``spacing``: roughly that of both."""
     steps = np.zeros(len(edges))
     for kind in (True, False):

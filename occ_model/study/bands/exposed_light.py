@@ -18,7 +18,7 @@ from occ_model.light.edged import EdgedWaveform
 from occ_model.light.times import PhasesInPeriod
 from occ_model.light.waveform import Exact, Waveform
 
-# Of three nodes of Gauss and Legendre from 0 to 1, which integrate a quadratic's square exactly.
+# Three Gauss-Legendre nodes from 0 to 1; they integrate the square of a quadratic exactly.
 _PLACES: FloatArray = 0.5 + np.sqrt(0.15) * np.array([-1.0, 0.0, 1.0])
 _WEIGHTS: FloatArray = np.array([5.0, 8.0, 5.0]) / 18.0
 

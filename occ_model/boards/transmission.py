@@ -137,11 +137,8 @@ def prepare_transmission(scene: Scene, board: TransmitterBoard) -> Transmission:
 def _prepare_lamp(scene: Scene, board: TransmitterBoard) -> LampTransmission:
     transmitter, duty, length = scene.transmitter, Fraction(scene.transmitter.duty), None
     if transmitter.light == "pulses":
-        name, frequency, length = (
-            "pulse_frequency",
-            transmitter.pulse_frequency,
-            transmitter.pulse_length,
-        )
+        name, frequency = "pulse_frequency", transmitter.pulse_frequency
+        length = transmitter.pulse_length
         if Fraction(length) * Fraction(frequency) >= 1:
             longest = f"below {SECOND.format(1.0 / frequency)}: others are steady light"
             raise _refuse(board, "pulse_length", SECOND.format(length), longest)

@@ -41,11 +41,8 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
     scene, fraction, focal_note = _with_focal_length(photo, scene, focal_length)
     photo_room = room.replace(scene=scene)
     check_size(scene.camera)
-    reading, image, turned = (
-        read_room(upright, photo_room, fraction),
-        upright,
-        90 if photo.turned else 0,
-    )
+    reading, image = read_room(upright, photo_room, fraction), upright
+    turned = 90 if photo.turned else 0
     if not any(lamp.name for lamp in reading.lamps):
         upside_down = np.ascontiguousarray(upright[::-1, ::-1])
         other_reading = read_room(upside_down, photo_room, fraction)

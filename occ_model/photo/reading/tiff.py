@@ -23,7 +23,6 @@ _NUMBERS = {1: "B", 3: "H", 4: "L", 5: "2L", 8: "h", 9: "l", 10: "2l", 11: "f", 
 """Layouts of the value types that are numbers."""
 _FRACTIONS = (5, 10)
 
-
 _SAMPLES = (258, 339)  # tags of the bits of each sample, and of their format
 _KINDS = {1: "whole numbers", 2: "whole numbers with a sign", 3: "floating point"}
 

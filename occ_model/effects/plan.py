@@ -230,9 +230,17 @@ def _decide(
         addition = ", " + why if included and estimate <= tolerance else ""
         reason = f"{size}{comparison}{addition}: {verdict}"
     return Decision(
-        name, effect.label, effect.kind, effect.stage, estimate, limit, included,
-        by_hand is not None, why, reason,
-    )  # fmt: skip
+        effect=name,
+        label=effect.label,
+        kind=effect.kind,
+        stage=effect.stage,
+        estimate=estimate,
+        limit=limit,
+        included=included,
+        forced=by_hand is not None,
+        why=why,
+        reason=reason,
+    )
 
 
 def _compare_with_tolerance(estimate: float, limit: float, tolerance: float, included: bool) -> str:

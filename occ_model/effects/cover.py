@@ -1,6 +1,6 @@
 """The fraction of each pixel's light that comes from the panel, bent and blurred by the lens."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,8 +59,7 @@ def covers_of(
     covers: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
     for names in subsets_of([*outlines, *blurs]):
-        bending = next((name for name in outlines if name in names), "")
-        blur = max((blurs[name] for name in blurs if name in names), default=0.0)
+        bending, blur = _bending_and_blur(names, outlines, blurs)
         if bending not in distances:
             outline = outlines.get(bending, plain.outline)
             distances[bending] = _distances(
@@ -90,11 +89,19 @@ def exact_covers(
     places = row, np.arange(region.columns)[:, None]
     covers: dict[frozenset[str], FloatArray | None] = {}
     for names in subsets_of([*outlines, *blurs]):
-        outline = next((outlines[name] for name in outlines if name in names), plain.outline)
-        blur = max((blurs[name] for name in blurs if name in names), default=0.0)
+        bending, blur = _bending_and_blur(names, outlines, blurs)
+        outline = outlines.get(bending, plain.outline)
         coverage = Coverage(outline - corner, region.rows, region.columns, blur)
         covers[names] = coverage.rows(range(region.rows))[places].astype(np.float64)
     return covers
+
+
+def _bending_and_blur(
+    names: Collection[str], outlines: Iterable[str], blurs: Mapping[str, float]
+) -> tuple[str, float]:
+    """Return the effect of some that moves the outline, if any, and their largest blur."""
+    bending = next((name for name in outlines if name in names), "")
+    return bending, max((blurs[name] for name in blurs if name in names), default=0.0)
 
 
 def subsets_of(names: list[str]) -> list[frozenset[str]]:

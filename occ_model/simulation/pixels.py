@@ -100,6 +100,15 @@ class PixelExposure:
             yield _Band(slice(place, place + len(rows)), rows)
             place += len(rows)
 
+    def _split_panel(self) -> tuple[list[_Band], list[_Band]]:
+        """Return the bands that show the panel, if these are few, and all others."""
+        bands = list(self._split_bands())
+        shows = [self._mean.may_show_panel(band.rows) for band in bands]
+        first = [band for band, is_seen in zip(bands, shows, strict=True) if is_seen]
+        if 2 * sum(len(band.rows) for band in first) > self._shape[0]:
+            return [], bands
+        return first, [band for band, is_seen in zip(bands, shows, strict=True) if not is_seen]
+
     def _expose(
         self, mean: Rows, noise: PictureNoise | None, timer: StageTimer, out: ByteArray
     ) -> Pixels | ByteArray:
@@ -157,13 +166,9 @@ class PixelExposure:
                 heartbeat()
                 yield band
 
-        bands = list(self._split_bands())
-        first = [band for band in bands if self._mean.may_show_panel(band.rows)]
-        if show_panel is None or not 0 < 2 * sum(len(b.rows) for b in first) <= self._shape[0]:
-            first = []
-        bands = [*first, *(band for band in bands if band not in first)]
+        first, others = self._split_panel() if show_panel else ([], self._split_bands())
         timers: list[StageTimer] = []
-        for panel, of_band, timer in each_in_threads(make, watch(bands)):
+        for panel, of_band, timer in each_in_threads(make, watch([*first, *others])):
             means.include(of_band)
             panels.append(panel)
             timers.append(timer)

@@ -15,7 +15,7 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.interpolation import Places, divide_weights, interpolate_at, split_levels
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.pixel_noise import GREYS, PixelNoise
+from occ_model.camera.pixel_noise import GREY_LEVELS, GREYS, PixelNoise
 
 _PER_ROOT = 32.0  # levels to the root of an electron, 16 to the deviation of shot noise
 _PER_GREY = 16  # levels to a grey level, where noise is far less
@@ -76,12 +76,12 @@ class GreyLaw:
     @cached_property
     def means(self) -> FloatArray:
         """The mean grey level of a pixel at each level, shape (levels,)."""
-        return self.mean_of(np.arange(256.0))
+        return self.mean_of(GREY_LEVELS)
 
     @cached_property
     def deviations(self) -> FloatArray:
         """The standard deviation of a pixel's grey level at each level, shape (levels,)."""
-        square = self.mean_of(np.arange(256.0) ** 2)
+        square = self.mean_of(GREY_LEVELS**2)
         return np.sqrt(np.maximum(square - self.means**2, 0.0))
 
     @cached_property

@@ -15,6 +15,7 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.normal import normal_fraction
 
 GREYS = 256
+GREY_LEVELS: FloatArray = np.arange(float(GREYS))
 
 _MOST_SUMMED = 100.0  # mean electrons up to which the sum over their number is computed
 _FINE_LATTICE = 0.7  # read noise in electrons below which single electrons show

@@ -8,7 +8,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.grey_law import GreyLaw, grey_law
 from occ_model.camera.interpolation import Places, interpolate_at
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.pixel_noise import PixelNoise
+from occ_model.camera.pixel_noise import GREY_LEVELS, PixelNoise
 from occ_model.effects.drawn_pixels import DrawnPixels, drawn_pixels, growth_by_steps, step_of
 from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.noise import noise_of
@@ -17,8 +17,6 @@ from occ_model.effects.registry import effects_named
 from occ_model.effects.sensor_effects import FullWell
 from occ_model.effects.simulated_columns import Names
 from occ_model.scene.scene import Scene
-
-GREYS: FloatArray = np.arange(256.0)
 
 
 class NoisyPixels:
@@ -62,7 +60,7 @@ class NoisyPixels:
         return self.law(included) if self.is_drawn(included) else None
 
     def drawn(
-        self, included: Names, curve: FloatArray = GREYS, *, is_rounded: bool = False
+        self, included: Names, curve: FloatArray = GREY_LEVELS, *, is_rounded: bool = False
     ) -> DrawnPixels | None:
         """Return drawn pixels after a curve of the grey levels; None if none are drawn."""
         law = self.drawn_law(included)

@@ -8,6 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, LevelSteps
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
+from occ_model.camera.pixel_noise import GREY_LEVELS
 from occ_model.effects.observed import SURE_DEVIATIONS, SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SignalSampling
@@ -31,7 +32,6 @@ _LARGE_STEP = 32.0
 
 _MOST_GAIN = 8.0  # largest contrast gain of an enhancement that noise smooths
 
-_LEVELS = np.arange(256.0)
 
 _CLIPPED_NOISE = 8.0  # noise in grey levels above which clipping matters
 
@@ -55,7 +55,7 @@ def observe_signal(pixels: SampledPixels) -> SampledObservable:
         if masks is not None:  # pixels beside the panel are not enhanced
             for included, own, signal, mask in zip(sets, values, signals, masks, strict=True):
                 is_drawn = pixels.noisy.is_drawn(included)
-                beside = own if is_drawn else curves.smooth(included, own, _LEVELS)
+                beside = own if is_drawn else curves.smooth(included, own, GREY_LEVELS)
                 np.copyto(signal, beside, where=~mask)
         return pixels.mean_of_rows(signals) * weights
 

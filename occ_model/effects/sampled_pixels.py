@@ -9,6 +9,7 @@ import numpy as np
 from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.interpolation import Places, divide_weights, interpolate_at
 from occ_model.camera.photometry import saturation_value, surroundings_values
+from occ_model.camera.pixel_noise import GREY_LEVELS
 from occ_model.effects.effect import (
     Effect,
     LightEffect,
@@ -18,7 +19,7 @@ from occ_model.effects.effect import (
 )
 from occ_model.effects.file_change import FileChange
 from occ_model.effects.level_table import LevelTable
-from occ_model.effects.noisy_pixels import GREYS, NoisyPixels
+from occ_model.effects.noisy_pixels import NoisyPixels
 from occ_model.effects.normal_noise import rounding_growth_by_noise, rounding_mean
 from occ_model.effects.observed import RandomSquare
 from occ_model.effects.registry import effects_named
@@ -170,7 +171,7 @@ class SampledPixels:
     @cached_property
     def drawn_changes(self) -> dict[str, RandomSquare]:
         """What drawing whole grey levels adds to the mean square change of pixels, by effect."""
-        return self.random_squares(GREYS)
+        return self.random_squares(GREY_LEVELS)
 
     def random_squares(
         self, curve: FloatArray, inside: BoolArray | None = None
@@ -190,13 +191,15 @@ class SampledPixels:
         else:
             squares, steps = self._drawn_squares(curve)
             if inside is not None:
-                squares, steps = np.where(inside, (squares, steps), self._drawn_squares(GREYS))
+                squares, steps = np.where(
+                    inside, (squares, steps), self._drawn_squares(GREY_LEVELS)
+                )
         parts = np.stack([squares, squares**2, squares * steps**2])
         means = np.einsum("pecn,cn->ep", parts, self.sample.pixel_weights)
         return {name: RandomSquare(*own) for name, own in zip(names, means.tolist(), strict=True)}
 
     def _drawn_squares(self, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
-        is_rounded = curve is not GREYS or bool(self.files)
+        is_rounded = curve is not GREY_LEVELS or bool(self.files)
         return self.noisy.drawn_squares(
             self._sets, self._exposed_places, self.variances, curve, is_rounded=is_rounded
         )

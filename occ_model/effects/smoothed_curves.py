@@ -11,6 +11,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import LevelSteps
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.pixel_noise import GREY_LEVELS
 from occ_model.effects.observed import SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
@@ -50,8 +51,6 @@ def cut_block_square(pixels: SampledPixels) -> float:
 
 LEAST_SMOOTHING_NOISE = 0.5
 """Noise in grey levels below which single steps of the enhancement remain visible in its mean."""
-
-_GREYS: FloatArray = np.arange(256.0)
 
 
 class SmoothedCurves:
@@ -99,7 +98,7 @@ class SmoothedCurves:
         before = self._pixels.noise_rms(included)
         after = float(file.spread(np.array([before]))[0])
         error = np.full(256, math.sqrt(max(after**2 - before**2, 0.0)))
-        return LevelSteps.of(_GREYS, error).mean_of(of_greys)
+        return LevelSteps.of(GREY_LEVELS, error).mean_of(of_greys)
 
     def enhance(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
         """Return the mean of the enhanced pixels for each mean value, shape as ``values``."""

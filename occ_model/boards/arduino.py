@@ -7,7 +7,7 @@ exact to a cycle of the clock, however late the interrupt runs.
 from dataclasses import replace
 from string import Template
 
-from occ_model.boards.board import LampTimer, TransmitterBoard
+from occ_model.boards.board import Timer, TransmitterBoard
 from occ_model.boards.chip_table import c_table, head_comment
 from occ_model.boards.transmission import LampTransmission, Transmission
 from occ_model.scene.units import HERTZ
@@ -26,16 +26,17 @@ UNO = TransmitterBoard(
     clock=16_000_000,
     # The Uno has a ceramic resonator, with 0.5 %.
     clock_error=5000.0,
-    prescalers=tuple(_CLOCK_SELECT),
-    largest_count=65_536,
-    least_cycles=128,
-    limit_reason="its interrupt takes about 100 of the clock's cycles for each chip",
+    chip_timer=Timer(
+        prescalers=tuple(_CLOCK_SELECT),
+        least_count=128,
+        largest_count=65_536,
+        limit_reason="its interrupt takes about 100 of the clock's cycles for each chip",
+    ),
     # In fast PWM the timer counts from 0 to TOP, which is at least 3 (data sheet, 16.9.3).
-    lamp_timer=LampTimer(
+    lamp_timer=Timer(
         prescalers=tuple(_CLOCK_SELECT),
         least_count=4,
         largest_count=65_536,
-        least_part=1,
         limit_reason="its timer counts at least 4 cycles",
     ),
     pin="pin 9",
@@ -52,7 +53,7 @@ UNO = TransmitterBoard(
 """Chips are counted in 16 bits, and their table takes at most a third of the flash memory.
 
 Measured in simavr, the interrupt takes up to 99 cycles, and edges are lost with fewer than 90. The
-rest of ``least_cycles`` is left for waking up and for the code of other compilers.
+rest of the chip timer's ``least_count`` is left for waking up and for the code of other compilers.
 """
 
 NANO = replace(UNO, name="arduino-nano", title="Arduino Nano")

@@ -11,30 +11,25 @@ LED_CURRENT = 0.010  # current of a single LED in A, half of what common ones be
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LampTimer:
-    """How a board blinks a lamp: ``prescaler * count`` cycles of its clock a period."""
+class Timer:
+    """How a board times a chip or a lamp's period: ``prescaler * count`` cycles of its clock."""
 
     prescalers: tuple[int, ...]
     least_count: int
     largest_count: int
-    least_part: int  # Fewest counts for the lit and for the dark part
-    limit_reason: str  # Why there must not be fewer for a period, as the end of a sentence
+    least_part: int = 1  # Fewest counts for the lit and for the dark part of a lamp's period
+    limit_reason: str  # Why there must not be fewer counts, as the end of a sentence
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TransmitterBoard:
-    """A microcontroller board; a chip lasts ``prescaler * count`` cycles of its clock."""
-
     name: str
     title: str
-    clock: int  # Frequency in Hz of the clock whose cycles its timer counts
+    clock: int  # Frequency in Hz of the clock whose cycles its timers count
     # Largest error of that frequency in parts per million, by the data sheet of its resonator
     clock_error: float
-    prescalers: tuple[int, ...]
-    largest_count: int  # Largest number of divided cycles that the timer can count
-    least_cycles: int  # Fewest cycles of the clock for a chip
-    limit_reason: str  # Why there must not be fewer, as the end of a sentence
-    lamp_timer: LampTimer
+    chip_timer: Timer
+    lamp_timer: Timer
     # The board's labels of the pin that blinks and of its ground
     pin: str
     ground: str
@@ -49,17 +44,11 @@ class TransmitterBoard:
     language: str
     ending: str
 
-    @property
-    def most_cycles(self) -> int:
-        return self.prescalers[-1] * self.largest_count
-
-    @property
-    def highest_frequency(self) -> Fraction:
-        return Fraction(self.clock, self.least_cycles)
-
-    @property
-    def lowest_frequency(self) -> Fraction:
-        return Fraction(self.clock, self.most_cycles)
+    def frequency_range(self, timer: Timer) -> tuple[Fraction, Fraction]:
+        """Return the lowest and the highest frequency of one of the board's timers, in Hz."""
+        most_cycles = timer.prescalers[-1] * timer.largest_count
+        least_cycles = timer.prescalers[0] * timer.least_count
+        return Fraction(self.clock, most_cycles), Fraction(self.clock, least_cycles)
 
     @property
     def rise_time(self) -> float:

@@ -8,7 +8,7 @@ controller divides the clock by fractions, which moves single edges, and counts 
 
 from string import Template
 
-from occ_model.boards.board import LampTimer, TransmitterBoard
+from occ_model.boards.board import Timer, TransmitterBoard
 from occ_model.boards.chip_table import c_table, head_comment
 from occ_model.boards.transmission import LampTransmission, Transmission
 
@@ -20,18 +20,20 @@ ESP32 = TransmitterBoard(
     clock=_CLOCK,
     # The modules have crystals with 10 ppm.
     clock_error=10.0,
-    # The driver needs a resolution in whole Hz.
-    prescalers=tuple(number for number in range(1, 257) if _CLOCK % number == 0),
-    # A duration has 15 bits.
-    largest_count=32_767,
-    least_cycles=80,
-    limit_reason=(
-        "the 64 chips that are refilled at a time would then last less than 64 µs (an estimate, "
-        "not measured)"
+    chip_timer=Timer(
+        # The driver needs a resolution in whole Hz.
+        prescalers=tuple(number for number in range(1, 257) if _CLOCK % number == 0),
+        least_count=80,
+        # A duration has 15 bits.
+        largest_count=32_767,
+        limit_reason=(
+            "the 64 chips that are refilled at a time would then last less than 64 µs (an "
+            "estimate, not measured)"
+        ),
     ),
     # A period of 32 bits takes several symbols if necessary. Its parts last longer than 8 cycles,
     # below which the peripheral of newer chips does not work (their manuals: 3 + 5 cycles).
-    lamp_timer=LampTimer(
+    lamp_timer=Timer(
         prescalers=(1,),
         least_count=160,
         largest_count=2**32 - 1,

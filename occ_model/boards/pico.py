@@ -10,7 +10,7 @@ from string import Template
 
 import numpy as np
 
-from occ_model.boards.board import LampTimer, TransmitterBoard
+from occ_model.boards.board import Timer, TransmitterBoard
 from occ_model.boards.chip_table import head_comment, python_table
 from occ_model.boards.transmission import LampTransmission, Transmission, count_repeats
 
@@ -23,14 +23,16 @@ PICO = TransmitterBoard(
     clock=125_000_000,
     # The Pico has a crystal with 30 ppm.
     clock_error=30.0,
-    prescalers=tuple(range(1, _MAX_CYCLES + 1)),
-    # The divider has 16 bits.
-    largest_count=65_535,
-    least_cycles=125,
-    limit_reason=(
-        "the queue of 256 chips would then be empty within 256 µs (an estimate, not measured)"
+    chip_timer=Timer(
+        prescalers=tuple(range(1, _MAX_CYCLES + 1)),
+        least_count=125,
+        # The divider has 16 bits.
+        largest_count=65_535,
+        limit_reason=(
+            "the queue of 256 chips would then be empty within 256 µs (an estimate, not measured)"
+        ),
     ),
-    lamp_timer=LampTimer(
+    lamp_timer=Timer(
         prescalers=(1,),
         least_count=2 * _LAMP_CYCLES,
         largest_count=2**32,

@@ -1,17 +1,19 @@
 """Durations on a board in whole timer counts: of a chip, or of a lamp's period and lit part."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import floor
 
-from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.board import Timer, TransmitterBoard
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import quantity
 
 
 @dataclass(frozen=True, slots=True)
 class BoardTiming:
+    """A timer's setting for a chip, and the frequency that was requested."""
+
     clock: int  # Frequency of the board's clock in Hz
     prescaler: int
     count: int  # Divided cycles for a chip
@@ -59,18 +61,7 @@ class LampBoardTiming(BoardTiming):
 
 def choose_timing(board: TransmitterBoard, frequency: float) -> BoardTiming:
     """Choose the timer's setting with the nearest frequency; among equals the finest counts."""
-    requested = Fraction(frequency)
-    if not board.lowest_frequency <= requested <= board.highest_frequency:
-        raise _refuse_frequency(
-            "switching_frequency", board, frequency, board.lowest_frequency,
-            board.highest_frequency, board.limit_reason,
-        )  # fmt: skip
-    settings = (
-        BoardTiming(board.clock, prescaler, count, requested)
-        for prescaler in board.prescalers
-        for count in _list_counts(board.clock, prescaler, requested)
-        if count <= board.largest_count and prescaler * count >= board.least_cycles
-    )
+    settings = _list_settings(board, board.chip_timer, "switching_frequency", frequency)
     return min(settings, key=lambda timing: (abs(timing.error_ppm), timing.prescaler))
 
 
@@ -85,26 +76,17 @@ def choose_lamp_timing(
     ``name`` is that of the frequency's parameter; ``lit_time`` returns the requested
     lit time in s for a period in s.
     """
-    requested, timer = Fraction(frequency), board.lamp_timer
-    low, high = (
-        Fraction(board.clock, cycles)
-        for cycles in (
-            timer.prescalers[-1] * timer.largest_count, timer.prescalers[0] * timer.least_count
-        )
-    )  # fmt: skip
-    if not low <= requested <= high:
-        raise _refuse_frequency(name, board, frequency, low, high, timer.limit_reason)
-    timings = []
-    for prescaler in timer.prescalers:
-        for count in _list_counts(board.clock, prescaler, requested):
-            if not timer.least_count <= count <= timer.largest_count:
-                continue
-            requested_lit_time = lit_time(Fraction(prescaler * count, board.clock))
-            nearest = round(requested_lit_time * board.clock / prescaler)
-            lit = min(max(nearest, timer.least_part), count - timer.least_part)
-            timings.append(
-                LampBoardTiming(board.clock, prescaler, count, requested, lit, requested_lit_time)
+    timer, timings = board.lamp_timer, []
+    for setting in _list_settings(board, timer, name, frequency):
+        requested = lit_time(setting.period)
+        nearest = round(requested * board.clock / setting.prescaler)
+        lit = min(max(nearest, timer.least_part), setting.count - timer.least_part)
+        timings.append(
+            LampBoardTiming(
+                board.clock, setting.prescaler, setting.count, setting.requested_frequency,
+                lit, requested,
             )
+        )  # fmt: skip
     return min(
         timings,
         key=lambda timing: (
@@ -115,26 +97,26 @@ def choose_lamp_timing(
     )
 
 
-def _list_counts(clock: int, prescaler: int, requested: Fraction) -> Iterator[int]:
-    """Yield the whole numbers next to the exact count, from 1 on."""
-    lower = floor(clock / (prescaler * requested))
-    yield from (count for count in (lower, lower + 1) if count >= 1)
-
-
-def _refuse_frequency(
-    name: str,
-    board: TransmitterBoard,
-    frequency: float,
-    low: Fraction,
-    high: Fraction,
-    reason: str,
-) -> ParameterError:
-    declared = quantity(name)
-    why = reason if frequency > high else "the timer cannot count longer"
-    return ParameterError.of(
-        declared.name,
-        declared.format(frequency),
-        f"{declared.format(float(low))} to {declared.format(float(high))}, since {why}",
-        condition=f"on {board.title}",
-        parameters=(declared.name,),
-    )
+def _list_settings(
+    board: TransmitterBoard, timer: Timer, name: str, frequency: float
+) -> list[BoardTiming]:
+    """List a timer's settings next to a frequency; refuse one that it cannot reach."""
+    requested = Fraction(frequency)
+    low, high = board.frequency_range(timer)
+    if not low <= requested <= high:
+        declared = quantity(name)
+        why = timer.limit_reason if requested > high else "the timer cannot count longer"
+        raise ParameterError.of(
+            name,
+            declared.format(frequency),
+            f"{declared.format(float(low))} to {declared.format(float(high))}, since {why}",
+            condition=f"on {board.title}",
+            parameters=(name,),
+        )
+    lower_counts = {each: floor(board.clock / (each * requested)) for each in timer.prescalers}
+    return [
+        BoardTiming(board.clock, prescaler, count, requested)
+        for prescaler, lower in lower_counts.items()
+        for count in (lower, lower + 1)
+        if timer.least_count <= count <= timer.largest_count
+    ]

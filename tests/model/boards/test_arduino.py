@@ -77,16 +77,16 @@ def test_a_slow_scene_is_sent_with_a_divided_clock(uno: SimulatedUno) -> None:
 
 @pytest.mark.parametrize("code", CODES)
 def test_at_the_highest_frequency_the_edges_are_still_exact(uno: SimulatedUno, code: str) -> None:
-    scene = CODES[code].replace(switching_frequency=float(UNO.highest_frequency))
+    scene = CODES[code].replace(switching_frequency=float(UNO.clock / UNO.chip_timer.least_count))
     sent = prepare_transmission(scene, UNO)
-    assert sent.timing.cycles == UNO.least_cycles
+    assert sent.timing.cycles == UNO.chip_timer.least_count
     assert measure_edge_error(uno, sent, 20) == 0
 
 
 def test_well_above_the_highest_frequency_the_interrupt_does_not_keep_pace(
     uno: SimulatedUno,
 ) -> None:
-    sent = set_cycles(prepare_transmission(PAPER, UNO), UNO.least_cycles * 5 // 8)
+    sent = set_cycles(prepare_transmission(PAPER, UNO), UNO.chip_timer.least_count * 5 // 8)
     with pytest.raises(AssertionError):
         measure_edge_error(uno, sent, 5)
 
@@ -94,10 +94,10 @@ def test_well_above_the_highest_frequency_the_interrupt_does_not_keep_pace(
 @pytest.mark.whole
 def test_the_interrupt_takes_as_long_as_the_refusal_says(uno: SimulatedUno) -> None:
     sent = prepare_transmission(CODES["8b10b, raw frame"], UNO)
-    (stated,) = (int(word) for word in UNO.limit_reason.split() if word.isdigit())
+    (stated,) = (int(word) for word in UNO.chip_timer.limit_reason.split() if word.isdigit())
     longest = uno.edges(sent, 20).longest_interrupt
     assert abs(longest - stated) <= 10  # another compiler needs a few more or fewer
-    assert longest < UNO.least_cycles
+    assert longest < UNO.chip_timer.least_count
 
 
 def test_the_largest_payload_fits_into_the_flash_memory(uno: SimulatedUno) -> None:

@@ -10,65 +10,75 @@ import occ_model as occ
 from occ_model.boards.arduino import UNO
 from occ_model.boards.board import TransmitterBoard
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.timing import choose_timing
+from occ_model.boards.timing import BoardTiming, choose_lamp_timing, choose_timing
 from occ_model.boards.transmission import prepare_transmission
 
 PAPER = occ.load_preset("phone-68us")
 
-every_board = pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board: board.name)
+boards = st.sampled_from([*BOARDS.values()])
+lights: st.SearchStrategy[dict[str, str | float]] = st.one_of(
+    st.builds(dict, switching_frequency=st.floats(60.0, 125e3)),
+    st.builds(
+        dict, light=st.just("lamp"), lamp_frequency=st.floats(0.3, 400e3),
+        duty=st.floats(0.001, 0.999),
+    ),
+)  # fmt: skip
 
-frequencies = st.floats(60.0, 125e3)
 
-
-@given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
+@given(board=boards, frequency=st.floats(60.0, 125e3))
 def test_no_setting_of_the_timer_comes_nearer(board: TransmitterBoard, frequency: float) -> None:
-    found = choose_timing(board, frequency)
-    prescalers = np.array(board.prescalers, dtype=np.int64)
+    found, timer = choose_timing(board, frequency), board.chip_timer
+    prescalers = np.array(timer.prescalers, dtype=np.int64)
     exact = board.clock / (prescalers * frequency)
-    counts = np.clip(np.stack([np.floor(exact), np.ceil(exact)]), 1, board.largest_count)
+    counts = np.clip(np.stack([np.floor(exact), np.ceil(exact)]), 1, timer.largest_count)
     cycles = (counts * prescalers).astype(np.int64).ravel()
     errors = [
         abs(Fraction(board.clock, int(number)) / Fraction(frequency) - 1)
         for number in cycles
-        if number >= board.least_cycles
+        if number >= timer.least_count
     ]
     assert abs(found.error_ppm) == min(errors) * 10**6
+    assert found.prescaler in timer.prescalers
+    assert 1 <= found.count <= timer.largest_count
 
 
-@given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
-def test_frequency_period_and_error_agree(board: TransmitterBoard, frequency: float) -> None:
-    timing = choose_timing(board, frequency)
-    assert timing.frequency * timing.period == 1
-    assert timing.frequency == timing.requested_frequency * (1 + timing.error_ppm / 10**6)
-    assert timing.prescaler in board.prescalers
-    assert 1 <= timing.count <= board.largest_count
-
-
-@given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
-def test_a_frequency_that_was_sent_can_be_sent_exactly(
-    board: TransmitterBoard, frequency: float
+@settings(max_examples=80)
+@given(board=boards, light=lights)
+def test_what_was_sent_can_be_sent_exactly(
+    board: TransmitterBoard, light: dict[str, str | float]
 ) -> None:
-    first = prepare_transmission(PAPER.replace(switching_frequency=frequency), board)
+    first = prepare_transmission(PAPER.replace(**light), board)
     again = prepare_transmission(first.sent_scene, board)
-    assert again.timing.cycles == first.timing.cycles
+    assert (again.timing.cycles, again.start_of(1)) == (first.timing.cycles, first.start_of(1))
     # A float has only 16 digits of 1/3.
     assert abs(again.timing.error_ppm) < Fraction(1, 10**9)
     assert again.is_exact
     assert again.sent_scene == first.sent_scene
 
 
-@every_board
+@pytest.mark.parametrize("name", ["switching_frequency", "lamp_frequency"])
+@pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board: board.name)
 def test_the_ends_of_the_range_are_allowed_and_frequencies_beyond_are_not(
-    board: TransmitterBoard,
+    board: TransmitterBoard, name: str
 ) -> None:
-    low, high = float(board.lowest_frequency), float(board.highest_frequency)
-    assert choose_timing(board, high).cycles == board.least_cycles
-    assert choose_timing(board, low * (1 + 1e-12)).cycles == board.most_cycles
-    for beyond in (low * 0.999, high * 1.001):
+    is_lamp = name == "lamp_frequency"
+    timer = board.lamp_timer if is_lamp else board.chip_timer
+
+    def send(frequency: float) -> BoardTiming:
+        """Choose the timing of any frequency, as a scene limits that of its chips and lamps."""
+        if is_lamp:
+            return choose_lamp_timing(board, name, frequency, lambda period: period / 2)
+        return choose_timing(board, frequency)
+
+    most, least = timer.prescalers[-1] * timer.largest_count, timer.least_count
+    low, high = board.clock / most, board.clock / least
+    assert send(high).cycles == least
+    assert send(low * (1 + 1e-12)).cycles == most
+    for beyond, why in ((low * 0.999, "the timer cannot count longer"),
+                        (high * 1.001, timer.limit_reason)):  # fmt: skip
         with pytest.raises(occ.ParameterError) as refused:
-            choose_timing(board, beyond)
-        assert refused.value.parameters == ("switching_frequency",)
-        why = board.limit_reason if beyond > high else "the timer cannot count longer"
+            send(beyond)
+        assert refused.value.parameters == (name,)
         assert str(refused.value).endswith(f", since {why}.")
 
 

@@ -2,15 +2,13 @@
 
 import re
 import shutil
-import sys
-from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
+from model.boards.simulated_pico import SimulatedPico
 from model.boards.test_esp32 import run_sketch
 
 import occ_model as occ
@@ -40,7 +38,6 @@ SCENES = {
 every_board = pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board: board.name)
 every_scene = pytest.mark.parametrize("name", SCENES)
 
-boards = st.sampled_from([*BOARDS.values()])
 frequencies = st.floats(0.3, 400e3)
 duties = st.floats(0.001, 0.999)
 
@@ -106,17 +103,6 @@ def test_no_whole_cycles_and_no_whole_pwm_dividers_come_nearer(
     parts = np.clip(parts, allowed, found.count - allowed)
     offs = [abs(Fraction(int(part), found.count) - Fraction(duty)) for part in parts]
     assert abs(found.duty - Fraction(duty)) == min(offs)
-
-
-@settings(max_examples=50)
-@given(board=boards, frequency=frequencies, duty=duties)
-def test_a_lamp_that_was_sent_can_be_sent_exactly(
-    board: TransmitterBoard, frequency: float, duty: float
-) -> None:
-    first = lamp_of(board, frequency, duty)
-    again = send(first.sent_scene, board)
-    assert (again.timing.cycles, again.start_of(1)) == (first.timing.cycles, first.start_of(1))
-    assert again.is_exact
 
 
 @every_board
@@ -194,99 +180,15 @@ def test_the_esp32_gets_the_lamps_cycles_repeatedly(name: str, tmp_path: Path) -
     np.testing.assert_array_equal(runs, np.resize([lit, sent.timing.cycles - lit], len(runs)))
 
 
-class _StateMachine:
-    """Runs a program of the state machine as the RP2040's data sheet says, a cycle an instruction.
-
-    It records the cycles at which the pin is set.
-    """
-
-    def __init__(self) -> None:
-        self.program: list[tuple[str, ...]] = []
-        self.labels: dict[str, int] = {}
-        self.words: list[int] = []
-        self.begin = self.end = 0
-        self.edges: list[tuple[int, int]] = []
-        self.clock = self.pin = 0
-
-    def modules(self) -> dict[str, ModuleType]:
-        machine, rp2 = ModuleType("machine"), ModuleType("rp2")
-        machine.freq = lambda hertz: setattr(self, "clock", hertz)  # type: ignore[attr-defined]
-        machine.Pin = lambda number: number  # type: ignore[attr-defined]
-        rp2.PIO = SimpleNamespace(OUT_LOW="low")  # type: ignore[attr-defined]
-        rp2.asm_pio = lambda set_init: self._assemble  # type: ignore[attr-defined]
-        rp2.StateMachine = self._make  # type: ignore[attr-defined]
-        return {"machine": machine, "rp2": rp2}
-
-    def _assemble(self, program: Callable[[], None]) -> object:
-        def adds(name: str) -> Callable[..., None]:
-            return lambda *words: self.program.append((name, *words))
-
-        names = {name: adds(name) for name in ("pull", "mov", "set", "jmp")}
-        names |= {
-            "label": lambda name: self.labels.update({name: len(self.program)}),
-            "wrap_target": lambda: setattr(self, "begin", len(self.program)),
-            "wrap": lambda: setattr(self, "end", len(self.program)),
-        }
-        registers = {name: name for name in ("x", "isr", "osr", "pins", "x_dec")}
-        program.__globals__.update(names | registers)
-        program()
-        for name in (*names, *registers):
-            del program.__globals__[name]
-        return self.program
-
-    def _make(self, number: int, program: object, set_base: int) -> SimpleNamespace:
-        assert program is self.program
-        self.pin = set_base
-        return SimpleNamespace(put=self.words.append, active=self._run)
-
-    def _run(self, on: bool) -> None:
-        assert on
-        assert all(0 <= word < 2**32 for word in self.words)
-        registers, queue = {"x": 0, "isr": 0, "osr": 0}, [*self.words]
-        place = cycle = 0
-        while len(self.edges) < 7:
-            name, *words = self.program[place]
-            place = place + 1
-            if name == "pull":
-                registers["osr"] = queue.pop(0)
-            elif name == "mov":
-                registers[words[0]] = registers[words[1]]
-            elif name == "set":
-                self.edges.append((cycle, int(words[1])))
-            elif self.labels[words[1]] == place - 1:  # a jump to itself until x is 0: all at once
-                cycle += registers["x"]
-                registers["x"] = 2**32 - 1
-            cycle += 1
-            place = self.begin if place == self.end else place
-
-
 @every_scene
-def test_the_picos_program_takes_the_cycles_that_are_stated(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    sent, machine = send(SCENES[name], PICO), _StateMachine()
-    for module, made in machine.modules().items():
-        monkeypatch.setitem(sys.modules, module, made)
-    exec(compile(write_sketch(sent), "main.py", "exec"), {"__name__": "__main__"})
-    cycles, levels = zip(*machine.edges, strict=True)
+def test_the_picos_program_takes_the_cycles_that_are_stated(name: str) -> None:
+    sent = send(SCENES[name], PICO)
+    pico = SimulatedPico().run(write_sketch(sent))
+    cycles, levels = zip(*pico.edges, strict=True)
     assert levels == (1, 0, 1, 0, 1, 0, 1)
     lit = sent.timing.lit_cycles
     assert np.diff(cycles).tolist() == 3 * [lit, sent.timing.cycles - lit]
-    assert (machine.clock, f"GP{machine.pin}") == (PICO.clock, PICO.pin)
-
-
-@every_board
-def test_the_ends_of_the_range_are_allowed_and_frequencies_beyond_are_not(
-    board: TransmitterBoard,
-) -> None:
-    timer = board.lamp_timer
-    low = board.clock / (timer.prescalers[-1] * timer.largest_count)
-    high = board.clock / (timer.prescalers[0] * timer.least_count)
-    assert lamp_of(board, high, 0.5).timing.count == timer.least_count
-    for beyond, why in ((low * 0.999, "the timer cannot"), (high * 1.001, timer.limit_reason)):
-        with pytest.raises(occ.ParameterError, match=re.escape(why)) as refused:
-            lamp_of(board, max(beyond, 0.01), 0.5)
-        assert refused.value.parameters == ("lamp_frequency",)
+    assert (pico.clock, f"GP{pico.pin}") == (PICO.clock, PICO.pin)
 
 
 @pytest.mark.parametrize(("changes", "sentence"), [

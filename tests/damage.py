@@ -51,6 +51,6 @@ WAYS: tuple[Callable[[Generator, bytearray], bytearray], ...] = (
 )  # fmt: skip
 
 
-def damaged(rng: Generator, content: bytes) -> bytes:
-    """Damage a file of some hundred bytes or more in one way."""
+def damage_bytes(rng: Generator, content: bytes) -> bytes:
+    """Damage a file of some hundred bytes or more in one random way."""
     return bytes(WAYS[rng.integers(len(WAYS))](rng, bytearray(content)))

@@ -18,14 +18,14 @@ STRIPES = np.tile(np.repeat([30, 220, 90, 160], 16).astype(np.uint8), (48, 1))
 COLOURS = np.dstack([STRIPES, STRIPES // 2, 255 - STRIPES])
 
 
-def saved(pixels: np.ndarray | Image.Image, file_format: str, **how: object) -> bytes:
+def encode(pixels: np.ndarray | Image.Image, file_format: str, **how: object) -> bytes:
     picture = Image.fromarray(pixels) if isinstance(pixels, np.ndarray) else pixels
     buffer = io.BytesIO()
     picture.save(buffer, file_format, **how)
     return buffer.getvalue()
 
 
-def with_opencv(pixels: np.ndarray, ending: str) -> bytes:
+def encode_with_opencv(pixels: np.ndarray, ending: str) -> bytes:
     _, encoded = cv2.imencode(ending, pixels)
     return encoded.tobytes()
 
@@ -41,37 +41,37 @@ def whole_files() -> dict[str, bytes]:
     palette = Image.fromarray(COLOURS).quantize(16)
     heic = io.BytesIO()
     from_pillow(Image.fromarray(COLOURS)).save(heic, exif=exif.tobytes())
-    tiled = saved(COLOURS, "TIFF", compression="tiff_adobe_deflate")
+    tiled = encode(COLOURS, "TIFF", compression="tiff_adobe_deflate")
     return {
-        "png": saved(STRIPES, "PNG", **noted),
-        "png-palette": saved(palette, "PNG", transparency=3),
-        "png-16": saved(deep[..., 0], "PNG"),
-        "png-16-colours": with_opencv(deep, ".png"),
-        "png-alpha": saved(Image.fromarray(COLOURS).convert("RGBA"), "PNG"),
-        "jpeg": saved(COLOURS, "JPEG", **noted),
-        "jpeg-progressive": saved(STRIPES, "JPEG", progressive=True),
-        "jpeg-cmyk": saved(Image.fromarray(COLOURS).convert("CMYK"), "JPEG"),
-        "mpo": saved(
+        "png": encode(STRIPES, "PNG", **noted),
+        "png-palette": encode(palette, "PNG", transparency=3),
+        "png-16": encode(deep[..., 0], "PNG"),
+        "png-16-colours": encode_with_opencv(deep, ".png"),
+        "png-alpha": encode(Image.fromarray(COLOURS).convert("RGBA"), "PNG"),
+        "jpeg": encode(COLOURS, "JPEG", **noted),
+        "jpeg-progressive": encode(STRIPES, "JPEG", progressive=True),
+        "jpeg-cmyk": encode(Image.fromarray(COLOURS).convert("CMYK"), "JPEG"),
+        "mpo": encode(
             COLOURS, "MPO", save_all=True, append_images=[Image.fromarray(STRIPES).convert("RGB")]
         ),
-        "tiff": saved(STRIPES, "TIFF", exif=exif),
+        "tiff": encode(STRIPES, "TIFF", exif=exif),
         "tiff-deflate": tiled,
-        "tiff-lzw": saved(COLOURS, "TIFF", compression="tiff_lzw"),
-        "tiff-jpeg": saved(COLOURS, "TIFF", compression="jpeg"),
-        "tiff-fax": saved(Image.fromarray(STRIPES > 99), "TIFF", compression="group4"),
-        "tiff-float": saved(STRIPES.astype(np.float32), "TIFF"),
-        "tiff-16": saved(deep[..., 0], "TIFF"),
-        "tiff-16-colours": with_opencv(deep, ".tiff"),
-        "webp": saved(COLOURS, "WEBP", **noted),
-        "webp-lossless": saved(COLOURS, "WEBP", lossless=True),
-        "bmp": saved(COLOURS, "BMP"),
-        "bmp-palette": saved(palette, "BMP"),
-        "gif": saved(palette, "GIF", save_all=True, append_images=[Image.fromarray(STRIPES)]),
-        "ppm": saved(COLOURS, "PPM"),
+        "tiff-lzw": encode(COLOURS, "TIFF", compression="tiff_lzw"),
+        "tiff-jpeg": encode(COLOURS, "TIFF", compression="jpeg"),
+        "tiff-fax": encode(Image.fromarray(STRIPES > 99), "TIFF", compression="group4"),
+        "tiff-float": encode(STRIPES.astype(np.float32), "TIFF"),
+        "tiff-16": encode(deep[..., 0], "TIFF"),
+        "tiff-16-colours": encode_with_opencv(deep, ".tiff"),
+        "webp": encode(COLOURS, "WEBP", **noted),
+        "webp-lossless": encode(COLOURS, "WEBP", lossless=True),
+        "bmp": encode(COLOURS, "BMP"),
+        "bmp-palette": encode(palette, "BMP"),
+        "gif": encode(palette, "GIF", save_all=True, append_images=[Image.fromarray(STRIPES)]),
+        "ppm": encode(COLOURS, "PPM"),
         "ppm-16": b"P6 64 48 65535\n" + deep.astype(">u2").tobytes(),
-        "jp2": saved(COLOURS, "JPEG2000"),
-        "jp2-16": with_opencv(deep, ".jp2"),
-        "avif": saved(COLOURS, "AVIF", **noted),
+        "jp2": encode(COLOURS, "JPEG2000"),
+        "jp2-16": encode_with_opencv(deep, ".jp2"),
+        "avif": encode(COLOURS, "AVIF", **noted),
         "heic": heic.getvalue(),
     }
 
@@ -82,7 +82,7 @@ def swap_headers(rng: Generator, content: bytearray) -> bytearray:
     return bytearray(other[:length] + content[length:])
 
 
-def wrong_size(rng: Generator, content: bytearray) -> bytearray:
+def write_wrong_size(rng: Generator, content: bytearray) -> bytearray:
     """Write another size into a PNG's header, and the check sum that fits it."""
     sizes = [0, 1, 63, 65, 5000, 9000, 40_000, 2**31 - 1, 2**32 - 1, int(rng.integers(2**20))]
     if content.startswith(b"\x89PNG"):
@@ -99,11 +99,11 @@ def wrong_size(rng: Generator, content: bytearray) -> bytearray:
 
 
 WAYS: tuple[Callable[[Generator, bytearray], bytearray], ...] = (
-    *damage.WAYS, swap_headers, wrong_size,
+    *damage.WAYS, swap_headers, write_wrong_size,
 )  # fmt: skip
 
 
-def damaged(seed: int) -> tuple[str, bytes]:
+def make_damaged(seed: int) -> tuple[str, bytes]:
     """Make the damaged photo of a number, and say what it is."""
     rng = np.random.default_rng(seed)
     kinds = list(whole_files())
@@ -120,7 +120,7 @@ _EXPOSURE, _APERTURE, _SENSITIVITY = 0x829A, 0x829D, 0x8827
 _ORIENTATION, _MAKER, _MODEL, _NOTES = 0x0112, 0x010F, 0x0110, 0x8769
 
 
-def odd(seed: int) -> tuple[str, bytes]:
+def make_unusual(seed: int) -> tuple[str, bytes]:
     """Make a whole photo of an odd size, kind of pixels, or with odd notes; say what it is."""
     rng = np.random.default_rng(seed)
     mode = MODES[rng.integers(len(MODES))]
@@ -130,7 +130,7 @@ def odd(seed: int) -> tuple[str, bytes]:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # of what is to be odd
-                picture.save(buffer, str(name), exif=_odd_notes(rng))
+                picture.save(buffer, str(name), exif=_unusual_exif(rng))
         # No such pixels, or notes, in this one; what reads damaged notes for a TIFF is a parser.
         except (OSError, ValueError, KeyError, TypeError, SyntaxError):
             buffer = io.BytesIO()
@@ -157,7 +157,7 @@ def _picture(rng: Generator, mode: str) -> Image.Image:
     return grey if mode == "LAB" else grey.convert(mode)
 
 
-def _odd_notes(rng: Generator) -> bytes:
+def _unusual_exif(rng: Generator) -> bytes:
     """Notes of a camera whose values are out of all range, or of another kind."""
     exif = Image.Exif()
     texts = ["", "Maker", "\x1b[31m", "a" * 5000, "\n\n", "é", "\0\0"]

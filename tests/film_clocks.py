@@ -100,7 +100,7 @@ class JudgedClock:
         return (measured.value - true) / max(measured.error, 1e-12 * abs(true))
 
 
-def judged_clocks(container: str, known: str, count: int, seed: int = 1) -> Iterator[JudgedClock]:
+def judge_clocks(container: str, known: str, count: int, seed: int = 1) -> Iterator[JudgedClock]:
     """Fit the clocks of random films in a container, with the lamp or the readout time known."""
     for number in range(count):
         random = np.random.default_rng([seed, number, *container.encode(), *known.encode()])

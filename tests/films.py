@@ -88,20 +88,20 @@ def film_bytes(ending: str, codec: str, frames: int = 20) -> bytes:
         return path.read_bytes()
 
 
-def damaged_film(seed: int) -> tuple[str, bytes]:
+def make_damaged_film(seed: int) -> tuple[str, bytes]:
     """A film's ending and bytes, damaged at random: also one of a huge size, or another codec."""
     rng = np.random.default_rng(seed)
     ending, codec = (*KINDS, *PICTURES)[rng.integers(len(KINDS) + len(PICTURES))]
     content = bytearray(film_bytes(ending, codec, int(rng.choice([0, 1, 20, 20, 20]))))
-    ways = (*WAYS, _enlarged, _other_codec)
+    ways = (*WAYS, _enlarge, _replace_codec)
     return ending, bytes(ways[rng.integers(len(ways))](rng, content))
 
 
-def what_damaged_films_say(seeds: range, folder: Path) -> list[str]:
+def read_damaged_films(seeds: range, folder: Path) -> list[str]:
     """Read damaged films: each gives frames, a sentence, or both; give the sentences."""
     sentences: list[str] = []
     for seed in seeds:
-        ending, content = damaged_film(seed)
+        ending, content = make_damaged_film(seed)
         path = folder / f"film.{ending}"
         path.write_bytes(content)
         try:
@@ -119,7 +119,7 @@ def what_damaged_films_say(seeds: range, folder: Path) -> list[str]:
     return sentences
 
 
-def _other_codec(rng: Generator, content: bytearray) -> bytearray:
+def _replace_codec(rng: Generator, content: bytearray) -> bytearray:
     codecs = (b"mp4v", b"MJPG", b"jpeg", b"XVID", b"FMP4", b"HFYU", b"FFV1", b"V_VP8", b"V_VP9")
     others = (b"avc1\x00", b"hvc1\x00", b"png \x00", b"abcd\x00", b"apcn\x00")
     for codec in codecs:
@@ -127,7 +127,7 @@ def _other_codec(rng: Generator, content: bytearray) -> bytearray:
     return content
 
 
-def _enlarged(rng: Generator, content: bytearray) -> bytearray:
+def _enlarge(rng: Generator, content: bytearray) -> bytearray:
     """Declare a huge size wherever the film declares its own."""
     width, height = rng.choice([0, 16_383, 30_000, 65_535], 2).tolist()
     for form, scale in ((">HH", 1), ("<HH", 1), ("<II", 1), (">II", 65_536)):
@@ -137,23 +137,23 @@ def _enlarged(rng: Generator, content: bytearray) -> bytearray:
     return content.replace(bytes((0xB0, 0x81, COLUMNS)), bytes((0xB0, 0x81, 255)))
 
 
-def lasting(film: bytes, frames: int) -> bytes:
+def repeat_first(film: bytes, frames: int) -> bytes:
     """Show the first frame of an MP4 or MOV film again and again, without storing it again."""
     place = film.index(b"stts") + 12
     (step,) = struct.unpack_from(">I", film, place + 4)
     sizes, chunks = film.index(b"stsz") + 8, film.index(b"stco") + 12
     size = struct.unpack_from(">I", film, sizes)[0] or struct.unpack_from(">I", film, sizes + 8)[0]
     (first,) = struct.unpack_from(">I", film, chunks)
-    film = _with_table(film, b"stts", struct.pack(">III", 1, frames, step))
-    film = _with_table(film, b"stsz", struct.pack(">II", size, frames))
-    film = _with_table(film, b"stsc", struct.pack(">IIII", 1, 1, 1, 1))
-    film = _with_table(film, b"stco", struct.pack(">I", frames) + struct.pack(">I", first) * frames)
+    film = _set_table(film, b"stts", struct.pack(">III", 1, frames, step))
+    film = _set_table(film, b"stsz", struct.pack(">II", size, frames))
+    film = _set_table(film, b"stsc", struct.pack(">IIII", 1, 1, 1, 1))
+    film = _set_table(film, b"stco", struct.pack(">I", frames) + struct.pack(">I", first) * frames)
     length = film.index(b"mdhd") + 20
     film = film[:length] + struct.pack(">I", frames * step) + film[length + 4 :]
     return film.replace(b"edts", b"free")  # which says how much of the film is shown
 
 
-def _with_table(film: bytes, name: bytes, table: bytes) -> bytes:
+def _set_table(film: bytes, name: bytes, table: bytes) -> bytes:
     """Put another table of frames into an MP4 film, which has them at its end."""
     path = (b"moov", b"trak", b"mdia", b"minf", b"stbl")
     places = [film.rindex(box) - 4 for box in path]

@@ -30,7 +30,7 @@ if __name__ == "__main__":
 """
 
 
-def interrupted(
+def run_and_interrupt(
     module: str, words: list[str], delay: float, inherited: signal.Handlers = signal.SIG_DFL
 ) -> tuple[int, str]:
     """Run the main function of a module, and interrupt all its processes, as a terminal does.

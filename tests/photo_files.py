@@ -14,7 +14,7 @@ STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
 PICTURE = Image.fromarray(STRIPES)
 
 
-def saved(folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", **how: Any) -> Path:
+def save(folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", **how: Any) -> Path:
     """Write a picture in the format of its name's ending."""
     picture = Image.fromarray(picture) if isinstance(picture, np.ndarray) else picture
     if name.endswith(".heic"):

@@ -51,7 +51,7 @@ def mosaic_of(
     return written
 
 
-def written(
+def write_dng(
     path: Path,
     mosaic: NDArray[np.uint16],
     pattern: str = "RGGB",
@@ -78,7 +78,7 @@ def written(
         (34855, 3, 1, 400, True),
         *more_tags,
     ]
-    stored = _packed(mosaic) if bits == 12 else mosaic
+    stored = _pack_12_bits(mosaic) if bits == 12 else mosaic
     tifffile.imwrite(path, stored, photometric=_COLOUR_FILTER_ARRAY, extratags=tags)
     if bits == 12:
         overwrite(path, ImageWidth=mosaic.shape[1], BitsPerSample=12)
@@ -93,7 +93,7 @@ def overwrite(path: Path, **tags: int) -> None:
             page.tags[name].overwrite(value)
 
 
-def _packed(mosaic: NDArray[np.uint16]) -> NDArray[np.uint8]:
+def _pack_12_bits(mosaic: NDArray[np.uint16]) -> NDArray[np.uint8]:
     """Pack pairs of 12 bits into three bytes, the upper bits first."""
     first, second = mosaic[:, 0::2].astype(np.uint32), mosaic[:, 1::2].astype(np.uint32)
     both = np.stack([first >> 4, (first & 15) << 4 | second >> 8, second & 255], axis=-1)

@@ -12,7 +12,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from film_clocks import KNOWN, RESOLUTIONS, judged_clocks
+from film_clocks import KNOWN, RESOLUTIONS, judge_clocks
 
 NAMES = ("switching_frequency", "readout_time", "gap", "frame_period")
 
@@ -20,7 +20,7 @@ NAMES = ("switching_frequency", "readout_time", "gap", "frame_period")
 def main(count: int, containers: Sequence[str]) -> None:
     for container in containers or RESOLUTIONS:
         for known in KNOWN:
-            judged = list(judged_clocks(container, known, count))
+            judged = list(judge_clocks(container, known, count))
             found = [one for one in judged if one.clock.fits]
             sure = [one for one in found if one.is_sure]
             listed = sum(one.is_listed for one in found)

@@ -10,8 +10,8 @@ import damaged_photos
 import pytest
 from film_source import FilmSource
 from gui.mouse import turn_wheel, views_of
-from hard_cases.attack import hostile
-from hard_cases.attack.promise import LONGEST
+from hard_cases.fuzzing.mutations import encode_text, mutate_text, random_quantity, random_text
+from hard_cases.fuzzing.target import LONGEST_SENTENCE
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
@@ -166,7 +166,7 @@ class Monkey:
     def check_message(self, text: str) -> None:
         """See that what the status line shows is one printable line of a bounded length."""
         assert text.isprintable(), f"not one printable line: {text!r}"
-        assert len(text) <= LONGEST, f"{len(text)} characters"
+        assert len(text) <= LONGEST_SENTENCE, f"{len(text)} characters"
 
     def act(self) -> None:
         """Do something: at first each of all things once, then whatever comes."""
@@ -308,7 +308,7 @@ class Monkey:
         fields = self._application.window.findChildren(QLineEdit)
         enabled = [field for field in fields if field.isEnabled() and field.isVisible()]
         for field in self._random.sample(enabled, min(3, len(enabled))):
-            make = hostile.quantity if self._random.random() < 0.7 else hostile.word
+            make = random_quantity if self._random.random() < 0.7 else random_text
             field.setText(make(self._random).encode("utf-8", "replace").decode())
             field.textEdited.emit(field.text())
             field.returnPressed.emit()
@@ -316,11 +316,11 @@ class Monkey:
 
     def drop_what_is_damaged(self) -> None:
         """Drop a damaged scene, or a photo that is damaged or odd."""
-        scene = hostile.damaged(self._random, self._scene.to_toml())
-        make = self._random.choice((damaged_photos.damaged, damaged_photos.odd))
+        scene = mutate_text(self._random, self._scene.to_toml())
+        make = self._random.choice((damaged_photos.make_damaged, damaged_photos.make_unusual))
         path = self._folder / self._random.choice(("a\x1b[31m", "é" * 60, "own.toml", "own.png"))
         path.write_bytes(
-            hostile.encoded(self._random, scene)
+            encode_text(self._random, scene)
             if self._random.random() < 0.3
             else make(self._random.getrandbits(32))[1]
         )

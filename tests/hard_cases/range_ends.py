@@ -23,8 +23,8 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import occ_model as occ
-from hard_cases.attack.program import OutOfTime, peak_megabytes, place_of, time_bound
-from hard_cases.attack.promise import check_sentence
+from hard_cases.fuzzing.program import OutOfTime, peak_megabytes, place_of, time_bound
+from hard_cases.fuzzing.target import check_sentence
 from occ_model.boards.sketch import BOARDS
 from occ_model.cli import main
 from occ_model.figures.bands import bands_drawing, flicker_drawing
@@ -216,7 +216,7 @@ class Answers:
     cases: int = 0
     asked: int = 0
     refused: int = 0
-    fallen: dict[str, str] = field(default_factory=dict)
+    failures: dict[str, str] = field(default_factory=dict)
     most_megabytes: tuple[float, str] = (0.0, "")
     most_seconds: tuple[float, str] = (0.0, "")
 
@@ -250,7 +250,7 @@ def _ask(found: Answers, what: str, question: Callable[[], object]) -> None:
         check_sentence(str(refusal))
         found.refused += 1
     except (Exception, OutOfTime) as fault:  # noqa: BLE001 - told below
-        found.fallen[what] = f"{type(fault).__name__}: {str(fault)[:300]} {place_of(fault)}"
+        found.failures[what] = f"{type(fault).__name__}: {str(fault)[:300]} {place_of(fault)}"
     found.most_seconds = max(found.most_seconds, (time.process_time() - begun, what))
     found.most_megabytes = max(found.most_megabytes, (peak_megabytes(), what))
 

@@ -146,12 +146,10 @@ def poses(draw: st.DrawFn) -> Scene:
         enhancement="none",
         iso=4e6,
     )
-    return draw(
-        st.just(scene) | decades(1e-10, 1.0).map(lambda remainder: grazed(scene, remainder))
-    )
+    return draw(st.just(scene) | decades(1e-10, 1.0).map(lambda remainder: graze(scene, remainder)))
 
 
-def grazed(scene: Scene, remainder: float) -> Scene:
+def graze(scene: Scene, remainder: float) -> Scene:
     """Move a panel so near that hardly a corner of it is before the camera, on its axis."""
     half = np.array([scene.transmitter.panel_width, scene.transmitter.panel_height]) / 2
     signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])

@@ -22,7 +22,7 @@ def check(first: int, step: int) -> None:
     lines = asked.stdout.splitlines() or ["no case"]
     assert asked.returncode == 0, f"{lines[-1]} ended the process: {asked.stderr[-3000:]}"
     found = json.loads(lines[-1])
-    assert not found["fallen"], found["fallen"]
+    assert not found["failures"], found["failures"]
     assert found["cases"] == len(cases()[first::step])
     assert found["asked"] > found["refused"] > 0
     megabytes, what = found["most_megabytes"]

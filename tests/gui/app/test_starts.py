@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from _pytest.mark import ParameterSet
 from gui.starts import Starts
-from interruption import MOMENTS, interrupted
+from interruption import MOMENTS, run_and_interrupt
 
 KINDS = ("window", "screenshot")
 
@@ -34,7 +34,7 @@ def test_an_interrupted_start_is_one_line_and_leaves_no_process(
     picture = tmp_path / "w.png"
     words = ["--screenshot", str(picture)] if kind == "screenshot" else []
     delay = _LATEST * (place / MOMENTS) ** 2
-    code, error = interrupted("occ_gui.__main__", words, delay)
+    code, error = run_and_interrupt("occ_gui.__main__", words, delay)
     if code == 0:  # shown by then, and closed; or drawn
         assert (error, kind == "window" or picture.is_file()) == ("", True)
     else:

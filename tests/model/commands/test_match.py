@@ -7,7 +7,7 @@ from typing import NoReturn
 
 import numpy as np
 import pytest
-from interruption import interrupted
+from interruption import run_and_interrupt
 from matches import match_of_lamp, match_with
 from PIL import Image
 
@@ -119,7 +119,7 @@ def test_interrupts_end_all_processes_with_one_line(
     out = tmp_path / "readout.csv"
     many = words(folder, "--jobs", "2", "--out", str(out))
     many[1:1] = [str(folder / "0.png")] * 60
-    code, error = interrupted("occ_model.cli", many, delay)
+    code, error = run_and_interrupt("occ_model.cli", many, delay)
     assert code == 130
     assert error.startswith("occ-model: ")
     assert error.count("\n") == 1

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import tifffile
 from numpy.typing import NDArray
-from photo_files import PICTURE, STRIPES, png, png_chunk, saved
+from photo_files import PICTURE, STRIPES, png, png_chunk, save
 from PIL import Image
 
 import occ_model as occ
@@ -77,7 +77,7 @@ def test_sixteen_bits_are_kept_however_dark_the_photo(
 ) -> None:
     deep = np.linspace(0, brightest, 300).astype(np.uint16)[None, :].repeat(4, axis=0)
     deep[2:] = deep[:2, ::-1]
-    photo = load_photo(saved(tmp_path, deep, name), "columns")
+    photo = load_photo(save(tmp_path, deep, name), "columns")
     assert (photo.samples.dtype, photo.white, photo.channel) == (np.uint16, 65535, "grey")
     np.testing.assert_array_equal(photo.samples, deep)
     np.testing.assert_array_equal(photo.image, np.rint(deep / 257))
@@ -85,7 +85,7 @@ def test_sixteen_bits_are_kept_however_dark_the_photo(
 
 
 def test_eight_bits_are_kept_once(tmp_path: Path) -> None:
-    photo = load_photo(saved(tmp_path, PICTURE))
+    photo = load_photo(save(tmp_path, PICTURE))
     assert photo.image is photo.samples
     assert (photo.samples.dtype, photo.white, photo.channel) == (np.uint8, 255, "grey")
 
@@ -144,7 +144,7 @@ def test_the_brightest_channel_is_the_one_in_which_the_led_shows(
     picture = np.zeros((6, 8, 3), np.uint8)
     picture[:, ::2] = np.array(colour)
     picture[0, 0] += 1  # for equal means are those of different colours
-    path = saved(tmp_path, picture)
+    path = save(tmp_path, picture)
     photo = load_photo(path)
     assert photo.channel == brightest
     index = ("red", "green", "blue").index(brightest)
@@ -158,14 +158,14 @@ def test_a_grey_photo_is_grey_in_whatever_colours_it_is_kept(
     tmp_path: Path, mode: str, channel: str
 ) -> None:
     grey = PICTURE.point(lambda level: 255 * (level > 99)) if mode == "1" else PICTURE
-    photo = load_photo(saved(tmp_path, grey.convert(mode)), channel=channel)
+    photo = load_photo(save(tmp_path, grey.convert(mode)), channel=channel)
     assert photo.channel == "grey"
     np.testing.assert_array_equal(photo.image, np.asarray(grey))
 
 
 @pytest.mark.parametrize("name", ["x.jpg", "x.webp", "x.avif", "x.heic"])
 def test_a_lossy_format_does_not_make_a_grey_photo_red_or_blue(tmp_path: Path, name: str) -> None:
-    photo = load_photo(saved(tmp_path, PICTURE.convert("RGB"), name))
+    photo = load_photo(save(tmp_path, PICTURE.convert("RGB"), name))
     assert photo.channel in ("grey", "green")
     assert np.abs(photo.profile - STRIPES[0]).max() < 12
 
@@ -175,7 +175,7 @@ def test_colours_become_their_luma_if_asked_for(tmp_path: Path) -> None:
     picture = Image.fromarray(colours)
     for mode in ("RGB", "RGBA", "P"):
         picture = picture.quantize(4) if mode == "P" else picture.convert(mode)
-        photo = load_photo(saved(tmp_path, picture), "columns", channel="luma")
+        photo = load_photo(save(tmp_path, picture), "columns", channel="luma")
         assert np.abs(photo.image - colours @ [0.299, 0.587, 0.114]).max() <= 1
         assert photo.channel == "luma"
 
@@ -185,21 +185,21 @@ def test_colours_of_print_and_video_are_read(tmp_path: Path, mode: str) -> None:
     picture = Image.fromarray(np.dstack([STRIPES] * 3))
     if mode == "LAB":
         picture = Image.merge("LAB", [PICTURE, *[Image.new("L", PICTURE.size, 128)] * 2])
-    path = saved(tmp_path, picture if mode == "LAB" else picture.convert(mode), "x.tif")
+    path = save(tmp_path, picture if mode == "LAB" else picture.convert(mode), "x.tif")
     np.testing.assert_allclose(load_photo(path).image, STRIPES, atol=2)
 
 
 def test_transparent_is_black_and_one_bit_is_black_or_white(tmp_path: Path) -> None:
-    binary = load_photo(saved(tmp_path, STRIPES > 128)).image
+    binary = load_photo(save(tmp_path, STRIPES > 128)).image
     np.testing.assert_array_equal(binary, np.where(STRIPES > 128, 255, 0))
     grey_alpha = np.array([[[200, 255], [200, 0], [200, 128], [10, 255]]], np.uint8)
     for mode in ("LA", "RGBA"):
-        path = saved(tmp_path, Image.fromarray(grey_alpha).convert(mode))
+        path = save(tmp_path, Image.fromarray(grey_alpha).convert(mode))
         assert np.abs(load_photo(path, "columns").image - [[200.0, 0, 100, 10]]).max() <= 1
-    path = saved(tmp_path, PICTURE.convert("P"), transparency=220)
+    path = save(tmp_path, PICTURE.convert("P"), transparency=220)
     np.testing.assert_array_equal(load_photo(path).image, np.where(STRIPES == 220, 0, STRIPES))
     deep = STRIPES.astype(np.uint16) * 100
-    path = saved(tmp_path, deep, transparency=3000)
+    path = save(tmp_path, deep, transparency=3000)
     np.testing.assert_array_equal(load_photo(path).samples, np.where(deep == 3000, 0, deep))
 
 
@@ -216,7 +216,7 @@ def test_floating_point_pixels_are_fractions_or_levels_and_nan_is_black(
 
 @pytest.mark.parametrize("largest", [1.01, 2.0, 256.0, 65535.0])
 def test_a_photo_whose_white_is_not_known_is_refused(tmp_path: Path, largest: float) -> None:
-    path = saved(tmp_path, np.array([[0.0, np.nan, largest]], np.float32), "x.tif")
+    path = save(tmp_path, np.array([[0.0, np.nan, largest]], np.float32), "x.tif")
     with pytest.raises(PhotoError, match=rf"has values from 0 to {largest:g}; allowed in float"):
         load_photo(path)
 
@@ -226,7 +226,7 @@ def test_column_means_are_those_of_the_rows_asked_for(tmp_path: Path, bits: int)
     samples = deep_stripes()[..., 0]
     if bits == 8:
         samples = (samples >> 8).astype(np.uint8)
-    photo = load_photo(saved(tmp_path, samples), "columns")
+    photo = load_photo(save(tmp_path, samples), "columns")
     for first, last in ((0, 9), (2, 5), (8, 9)):
         expected = samples[first:last].mean(axis=0) * 255 / (2**bits - 1)
         np.testing.assert_allclose(column_means(photo, first, last), expected, rtol=1e-12)
@@ -238,7 +238,7 @@ def test_the_decoder_reads_the_channel_asked_for(
 ) -> None:
     image = occ.render(occ.Scene().replace(rows=60)).image
     red_led = np.dstack([image, np.full_like(image, 9), np.full_like(image, 9)])
-    path = saved(tmp_path, red_led)
+    path = save(tmp_path, red_led)
     assert main(["decode", str(path), "--channel", channel]) == code
     assert ("code" in capsys.readouterr().out) is (code == 0)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from raw_files import PATTERNS, written
+from raw_files import PATTERNS, write_dng
 
 import occ_model as occ
 from occ_model.camera.photometry import panel_values
@@ -36,7 +36,7 @@ def photosites(scene: Scene, pattern: str) -> np.ndarray:
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_three_codes_are_read_from_photosites_of_any_pattern(tmp_path: Path, pattern: str) -> None:
     scene = scene_of()
-    path = written(tmp_path / "x.dng", photosites(scene, pattern), pattern)
+    path = write_dng(tmp_path / "x.dng", photosites(scene, pattern), pattern)
     photo = load_colours(path, gamma=scene.camera.gamma)
     across = {"rggb": "rggb", "grbg": "gbrg", "gbrg": "grbg", "bggr": "bggr"}
     assert photo.bayer == across[pattern.lower()]
@@ -48,7 +48,7 @@ def test_three_codes_are_read_from_photosites_of_any_pattern(tmp_path: Path, pat
 
 def test_photosites_keep_their_light(tmp_path: Path) -> None:
     raw = np.random.default_rng(2).integers(0, 65536, (40, 60)).astype(np.uint16)
-    photo = load_colours(written(tmp_path / "x.dng", raw), gamma=1.0, scan_axis="columns")
+    photo = load_colours(write_dng(tmp_path / "x.dng", raw), gamma=1.0, scan_axis="columns")
     assert np.array_equal(photo.image, np.rint(raw / 257.0).astype(np.uint8))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import tifffile
 from numpy.typing import NDArray
-from photo_files import png, png_chunk, saved
+from photo_files import png, png_chunk, save
 from PIL import Image
 from pillow_heif import from_bytes
 
@@ -164,7 +164,7 @@ def test_a_heic_that_calls_its_full_range_limited_is_known_by_its_pixels(tmp_pat
 
 def test_colours_of_limited_range_are_those_of_the_full_one(tmp_path: Path) -> None:
     picture = Image.fromarray(of_bits(8).astype(np.uint8)).convert("RGB")
-    path = saved(tmp_path, picture, "x.heic", quality=-1, full_range_flag=0)
+    path = save(tmp_path, picture, "x.heic", quality=-1, full_range_flag=0)
     assert np.abs(load_photo(path, "columns").image - of_bits(8).astype(float)).max() <= 1
 
 

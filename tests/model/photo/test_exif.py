@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from each_case import each_case
-from photo_files import PICTURE, saved
+from photo_files import PICTURE, save
 from PIL import Image
 from PIL.TiffImagePlugin import IFDRational
 
@@ -32,7 +32,7 @@ def noted(first: dict[int, Any], exif: dict[int, Any]) -> Image.Exif:
 def photo_with(
     folder: Path, first: dict[int, Any], exif: dict[int, Any], name: str = "x.jpg"
 ) -> Photo:
-    return load_photo(saved(folder, PICTURE, name, exif=noted(first, exif)))
+    return load_photo(save(folder, PICTURE, name, exif=noted(first, exif)))
 
 
 @pytest.mark.parametrize("name", ["x.jpg", "x.png", "x.tif", "x.webp", "x.avif", "x.heic"])

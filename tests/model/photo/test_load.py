@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from photo_files import PICTURE, STRIPES, saved
+from photo_files import PICTURE, STRIPES, save
 from PIL import Image
 
 from occ_model.photo.reading.load import load_photo
@@ -29,7 +29,7 @@ LOSSY = ["jpg", "mpo", "webp", "avif", "heic"]
 def test_a_photo_is_read_exactly_where_its_format_is_lossless(tmp_path: Path, ending: str) -> None:
     colours = ending in ("mpo", "qoi")  # which keep no grey
     picture = PICTURE.convert("RGB") if colours else PICTURE
-    path = saved(tmp_path, picture, f"x.{ending}", quality=95)
+    path = save(tmp_path, picture, f"x.{ending}", quality=95)
     photo = load_photo(str(path))
     assert (photo.path, photo.image.dtype, photo.image.shape) == (path, np.uint8, STRIPES.shape)
     furthest = 12 if ending in LOSSY else 0
@@ -44,7 +44,7 @@ def test_the_axis_that_the_shutter_scanned_becomes_the_columns(
     tmp_path: Path, axis: str, lines_are_striped: bool, rows: int
 ) -> None:
     stripes = STRIPES[:rows].T if lines_are_striped else STRIPES[:rows]
-    photo = load_photo(saved(tmp_path, np.ascontiguousarray(stripes)), axis)
+    photo = load_photo(save(tmp_path, np.ascontiguousarray(stripes)), axis)
     assert photo.turned is {"auto": lines_are_striped, "columns": False, "lines": True}[axis]
     np.testing.assert_array_equal(photo.image, stripes.T if photo.turned else stripes)
 
@@ -58,7 +58,7 @@ def test_the_orientation_that_the_camera_noted_is_obeyed(
     noted[0x0112] = orientation
     picture = STRIPES.copy()
     picture[:8] = 0  # so that top and bottom differ
-    path = saved(tmp_path, picture, name, exif=noted)
+    path = save(tmp_path, picture, name, exif=noted)
     upright = {
         1: picture,
         2: picture[:, ::-1],
@@ -79,7 +79,7 @@ def test_of_several_pictures_in_a_file_the_first_is_read(tmp_path: Path, name: s
     others = [Image.new("RGB", PICTURE.size, "white"), Image.new("RGB", PICTURE.size, "red")]
     picture = PICTURE.convert("RGB")
     how = {"lossless": True} if name == "x.webp" else {}
-    path = saved(tmp_path, picture, name, save_all=True, append_images=others, **how)
+    path = save(tmp_path, picture, name, save_all=True, append_images=others, **how)
     furthest = 12 if name == "x.mpo" else 0
     assert np.abs(load_photo(path).image - STRIPES.astype(float)).max() <= furthest
 
@@ -89,6 +89,6 @@ def test_of_several_pictures_in_a_file_the_first_is_read(tmp_path: Path, name: s
 def test_a_photo_may_be_one_pixel_wide_or_high(
     tmp_path: Path, size: tuple[int, int], axis: str
 ) -> None:
-    photo = load_photo(saved(tmp_path, Image.new("RGB", size, (9, 8, 7))), axis)
+    photo = load_photo(save(tmp_path, Image.new("RGB", size, (9, 8, 7))), axis)
     assert photo.image.size == size[0] * size[1]
     assert set(photo.profile) == {9.0}

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
-from photo_files import png, saved
+from photo_files import png, save
 from PIL import Image
 
 from occ_model.errors import PhotoError
@@ -163,7 +163,7 @@ def test_small_files_that_promise_much_take_bounded_memory(tmp_path: Path, kinds
 @pytest.mark.parametrize("progressive", [False, True])
 def test_a_jpeg_of_fifty_megapixels_is_allowed(tmp_path: Path, progressive: bool) -> None:
     picture = Image.new("RGB", (8160, 6144))
-    path = saved(tmp_path, picture, "x.jpg", progressive=progressive, subsampling=0)
+    path = save(tmp_path, picture, "x.jpg", progressive=progressive, subsampling=0)
     assert load_photo(path).image.size == 8160 * 6144
 
 
@@ -236,7 +236,7 @@ def noise_in(ending: str) -> bytes:
     shape = (200, 250, 3) if ending in (".heic", ".avif") else (240, 300, 3)
     noise = np.random.default_rng(0).integers(0, 256, shape, dtype=np.uint8)
     with TemporaryDirectory() as folder:
-        return saved(Path(folder), noise, f"x{ending}").read_bytes()
+        return save(Path(folder), noise, f"x{ending}").read_bytes()
 
 
 @pytest.mark.parametrize("name", ["x.png", "x.jpg", "x.tif", "x.webp", "x.gif", "x.jp2", "x.heic"])

@@ -7,7 +7,7 @@ from itertools import chain
 from pathlib import Path
 
 import pytest
-from photo_files import PICTURE, png_chunk, saved
+from photo_files import PICTURE, png_chunk, save
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
@@ -153,7 +153,7 @@ def test_a_directory_that_is_cut_gives_its_whole_entries(cut: int) -> None:
 
 @pytest.mark.parametrize("big", [False, True])
 def test_a_tiff_of_more_numbers_than_lines_is_refused(tmp_path: Path, big: bool) -> None:
-    path = saved(tmp_path, PICTURE, "x.tif", **({"big_tiff": True} if big else {}))
+    path = save(tmp_path, PICTURE, "x.tif", **({"big_tiff": True} if big else {}))
     content = bytearray(path.read_bytes())
     layout = struct.Struct("<HHQ" if big else "<HHL")
     place = min(content.find(layout.pack(273, kind, 1)) % 2**32 for kind in (SHORT, LONG, LONG8))
@@ -171,7 +171,7 @@ def test_notes_of_more_numbers_than_any_camera_writes_are_none(
     exif = Image.Exif()
     exif.get_ifd(EXIF)[ISO] = (100,) * 20
     exif[ORIENTATION] = 6
-    path = saved(tmp_path, PICTURE, "x.png", exif=exif.tobytes())
+    path = save(tmp_path, PICTURE, "x.png", exif=exif.tobytes())
     photo = load_photo(path, "columns")
     assert (photo.iso, photo.image.shape) == (100.0, PICTURE.size)
     monkeypatch.setattr(tiff, "MOST_NUMBERS", 19)

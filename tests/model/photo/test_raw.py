@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import tifffile
 from numpy.typing import NDArray
-from raw_files import PATTERNS, light_of, mosaic_of, overwrite, written
+from raw_files import PATTERNS, light_of, mosaic_of, overwrite, write_dng
 
 import occ_model as occ
 from occ_model.photo.reading.raw import is_raw
@@ -35,7 +35,7 @@ def test_green_photosites_give_the_light_of_each_line(
     tmp_path: Path, pattern: str, bits: int
 ) -> None:
     light, black = light_of(scene_of()), 2 ** (bits - 6)
-    path = written(
+    path = write_dng(
         tmp_path / "x.dng",
         mosaic_of(light, COLUMNS, pattern, bits=bits, black=black),
         pattern,
@@ -54,7 +54,7 @@ def test_columns_as_scan_axis_are_read_likewise(tmp_path: Path, pattern: str) ->
     light = light_of(scene_of())
     sideways = mosaic_of(light, COLUMNS, pattern).T
     mirrored = "".join(pattern[place] for place in (0, 2, 1, 3))
-    photo = occ.load_photo(written(tmp_path / "x.dng", sideways, mirrored))
+    photo = occ.load_photo(write_dng(tmp_path / "x.dng", sideways, mirrored))
     assert not photo.turned
     assert np.abs(photo.samples / 65535 - light).max() <= 1.0 / 65535
 
@@ -73,7 +73,7 @@ def test_the_sensors_samples_are_found_behind_a_thumbnail(
 
 def test_odd_sizes_keep_every_line_and_column(tmp_path: Path) -> None:
     light = light_of(scene_of())[:-1]
-    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic_of(light, COLUMNS - 1)))
+    photo = occ.load_photo(write_dng(tmp_path / "x.dng", mosaic_of(light, COLUMNS - 1)))
     assert photo.samples.shape == (COLUMNS - 1, LINES - 1)
     assert np.abs(photo.samples / 65535 - light).max() <= 1.0 / 65535
 
@@ -83,7 +83,7 @@ def test_margins_of_the_sensor_are_cut_off_with_its_pattern(tmp_path: Path) -> N
     # The area begins with a line of green and blue, which is how the file names its pattern.
     area = (50829, 4, 4, (1, 2, LINES, COLUMNS), True)
     mosaic = mosaic_of(light, COLUMNS, "RGGB")
-    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, "GBRG", more_tags=(area,)))
+    photo = occ.load_photo(write_dng(tmp_path / "x.dng", mosaic, "GBRG", more_tags=(area,)))
     first = 2  # LibRaw begins with an even line
     assert photo.samples.shape == (COLUMNS - 2, LINES - first)
     assert np.abs(photo.samples / 65535 - light[first:]).max() <= 1.0 / 65535
@@ -95,7 +95,7 @@ def test_orientation_is_applied_as_to_any_photo(tmp_path: Path, orientation: int
 
     mosaic = np.zeros((40, 60), np.uint16)
     mosaic[4:12, 6:20] = 60_000  # not symmetrical
-    raw = occ.load_photo(written(tmp_path / "x.dng", mosaic, orientation=orientation), "columns")
+    raw = occ.load_photo(write_dng(tmp_path / "x.dng", mosaic, orientation=orientation), "columns")
     notes = Image.Exif()
     notes[0x0112] = orientation
     grey = Image.fromarray((mosaic // 257).astype(np.uint8))
@@ -108,7 +108,7 @@ def test_black_level_is_zero_and_white_level_is_saturated(tmp_path: Path) -> Non
     mosaic = np.full((40, 60), 500, np.uint16)
     mosaic[:, 20:40] = 4095
     mosaic[:, 40:] = 100  # darker than black
-    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, bits=12, black=500), "columns")
+    photo = occ.load_photo(write_dng(tmp_path / "x.dng", mosaic, bits=12, black=500), "columns")
     assert photo.white == 65535
     assert np.array_equal(np.unique(photo.samples[:, 20:40]), [65535])
     assert not photo.samples[:, :20].any()
@@ -142,7 +142,7 @@ def test_black_levels_of_lines_and_columns_leave_no_stripes(
         (50716, 10, lines, fractions(of_lines), True),
         (50829, 4, 4, (*margins, *mosaic.shape), True),
     )
-    path = written(tmp_path / "x.dng", mosaic, bits=14, black=None, more_tags=tags)
+    path = write_dng(tmp_path / "x.dng", mosaic, bits=14, black=None, more_tags=tags)
     photo = occ.load_photo(path, "columns" if turned else "lines")
     samples = photo.samples if turned else photo.samples.T
     assert np.ptp(samples.astype(int), axis=0 if turned else 1).max() <= 2 * 65535 / scale
@@ -153,11 +153,11 @@ def test_too_few_black_levels_of_lines_are_damage(tmp_path: Path) -> None:
     mosaic = np.full((40, 60), 500, np.uint16)
     tags = ((50716, 10, 39, fractions(np.arange(39.0)), True),)
     with pytest.raises(occ.PhotoError, match="tag 50716 has too few numbers"):
-        occ.load_photo(written(tmp_path / "x.dng", mosaic, more_tags=tags))
+        occ.load_photo(write_dng(tmp_path / "x.dng", mosaic, more_tags=tags))
 
 
 def test_a_dng_in_jpeg_xl_is_named(tmp_path: Path) -> None:
-    path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
+    path = write_dng(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
     overwrite(path, Compression=52546)
     with pytest.raises(occ.PhotoError, match="its samples are compressed as JPEG XL; allowed: DNG"):
         occ.load_photo(path)
@@ -166,7 +166,7 @@ def test_a_dng_in_jpeg_xl_is_named(tmp_path: Path) -> None:
 def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path) -> None:
     scene = scene_of(code=345)
     mosaic = mosaic_of(light_of(scene), COLUMNS, bits=14, black=512, noise=0.02, seed=4)
-    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, bits=14, black=512))
+    photo = occ.load_photo(write_dng(tmp_path / "x.dng", mosaic, bits=14, black=512))
     match = occ.match_photo(photo, scene.replace(readout_time=5e-6, gamma=2.22))
     assert match.readout_time == pytest.approx(9e-6, rel=2e-3)
     assert match.exposure_time == pytest.approx(120e-6, rel=0.02)
@@ -175,7 +175,7 @@ def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path) -> None:
 
 def test_notes_are_those_of_the_files_tags(tmp_path: Path) -> None:
     mosaic = np.full((40, 60), 500, np.uint16)
-    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, exposure_time=(1, 8000)))
+    photo = occ.load_photo(write_dng(tmp_path / "x.dng", mosaic, exposure_time=(1, 8000)))
     assert photo.exposure_time == pytest.approx(1 / 8000)
     assert (photo.f_number, photo.iso, photo.camera) == (2.8, 400.0, "Simulated Camera")
 
@@ -184,7 +184,7 @@ def test_notes_are_those_of_the_files_tags(tmp_path: Path) -> None:
 def test_cut_files_are_refused_quietly(
     tmp_path: Path, fraction: float, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    path = written(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), COLUMNS))
+    path = write_dng(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), COLUMNS))
     content = path.read_bytes()
     path.write_bytes(content[: int(fraction * len(content))])
     with pytest.raises(occ.PhotoError, match=r"x\.dng cannot be read: .*damaged"):
@@ -193,13 +193,13 @@ def test_cut_files_are_refused_quietly(
 
 
 def test_black_level_of_white_is_damage(tmp_path: Path) -> None:
-    path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16), bits=14, black=16383)
+    path = write_dng(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16), bits=14, black=16383)
     with pytest.raises(occ.PhotoError, match="it states that black is 16383 and white 16383"):
         occ.load_photo(path)
 
 
 def test_too_many_photosites_are_refused_before_decoding(tmp_path: Path) -> None:
-    path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
+    path = write_dng(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
     with pytest.raises(occ.PhotoError, match="has 60 x 40 pixels, 2,400; allowed: at most 2,399"):
         occ.load_photo(path, max_pixels=2399)
     overwrite(path, ImageWidth=13_000, ImageLength=13_000)
@@ -209,13 +209,13 @@ def test_too_many_photosites_are_refused_before_decoding(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("channel", ["red", "blue", "luma"])
 def test_colours_of_every_second_line_are_refused(tmp_path: Path, channel: str) -> None:
-    path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
+    path = write_dng(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
     with pytest.raises(occ.PhotoError, match=rf"The channel is {channel}"):
         occ.load_photo(path, channel=channel)
 
 
 def test_missing_reader_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = written(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
+    path = write_dng(tmp_path / "x.dng", np.full((40, 60), 500, np.uint16))
     monkeypatch.setitem(sys.modules, "rawpy", None)
     with pytest.raises(occ.PhotoError, match=r"pip install occ-explorer\[raw\]"):
         occ.load_photo(path)
@@ -231,7 +231,7 @@ def test_colours_that_were_interpolated_are_refused(tmp_path: Path) -> None:
 
 
 def test_reading_can_be_cancelled(tmp_path: Path) -> None:
-    path = written(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), COLUMNS))
+    path = write_dng(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), COLUMNS))
 
     def cancel(fraction: float) -> None:
         if fraction > 0.1:

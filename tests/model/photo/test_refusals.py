@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import tifffile
 from films import film_bytes
-from photo_files import PICTURE, png, png_chunk, saved
+from photo_files import PICTURE, png, png_chunk, save
 from PIL import Image, PngImagePlugin
 
 import occ_model as occ
@@ -161,7 +161,7 @@ def test_a_size_that_so_few_bytes_cannot_hold_is_refused(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("name", ["x.png", "x.jpg", "x.tif", "x.webp", "x.gif", "x.heic", "x.jp2"])
 def test_max_pixels_is_the_number_of_pixels_that_is_still_read(tmp_path: Path, name: str) -> None:
-    saved(tmp_path, PICTURE, name)
+    save(tmp_path, PICTURE, name)
     size = PICTURE.width * PICTURE.height
     assert load_photo(tmp_path / name, max_pixels=size).image.size == size
     for limit in (size - 1, size // 2 - 1, 1):
@@ -207,7 +207,7 @@ def test_a_heic_photo_without_its_reader_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "x.png"  # whatever its name
-    saved(tmp_path, PICTURE, "x.heic").rename(path)
+    save(tmp_path, PICTURE, "x.heic").rename(path)
     assert load_photo(path).image.size == 1536
     monkeypatch.setitem(sys.modules, "pillow_heif", None)
     wanted = f"{path} is a HEIC photo; to read it: pip install occ-explorer[heic]."

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from photo_files import PICTURE, png, png_chunk, saved
+from photo_files import PICTURE, png, png_chunk, save
 from PIL import ImageCms
 from pillow_heif import from_pillow
 
@@ -34,14 +34,14 @@ def profile(curve: bytes) -> bytes:
 def test_a_profile_with_straight_curves_is_linear(
     tmp_path: Path, ending: str, curve: bytes
 ) -> None:
-    path = saved(tmp_path, PICTURE, f"x{ending}", icc_profile=profile(curve))
+    path = save(tmp_path, PICTURE, f"x{ending}", icc_profile=profile(curve))
     assert load_photo(path).is_linear is (curve in STRAIGHT)
 
 
 def test_the_usual_profile_is_not_linear(tmp_path: Path) -> None:
     usual = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
-    assert not load_photo(saved(tmp_path, PICTURE, icc_profile=usual)).is_linear
-    assert not load_photo(saved(tmp_path, PICTURE)).is_linear
+    assert not load_photo(save(tmp_path, PICTURE, icc_profile=usual)).is_linear
+    assert not load_photo(save(tmp_path, PICTURE)).is_linear
 
 
 @pytest.mark.parametrize(

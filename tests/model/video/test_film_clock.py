@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from amount import amount
 from each_case import each_case
-from film_clocks import COLUMNS, KNOWN, RESOLUTIONS, FilmTruth, JudgedClock, judged_clocks
+from film_clocks import COLUMNS, KNOWN, RESOLUTIONS, FilmTruth, JudgedClock, judge_clocks
 
 from occ_model.video.film_clock import describe_clock
 from occ_model.video.frame_period import fit_rounded_period
@@ -156,7 +156,7 @@ def test_exact_uneven_times_are_used_as_they_are() -> None:
 
 @each_case(product(RESOLUTIONS, KNOWN))
 def test_stated_errors_hold_in_every_container(container: str, known: str) -> None:
-    judged = [*judged_clocks(container, known, amount(10, 600), seed=2)]
+    judged = [*judge_clocks(container, known, amount(10, 600), seed=2)]
     found = [one for one in judged if one.clock.fits]
     assert len(found) >= 0.5 * len(judged)  # jitter hides some fast lamps
     assert all(one.is_listed for one in found)

@@ -16,7 +16,7 @@ from films import (
     LINES,
     RATE,
     film_bytes,
-    lasting,
+    repeat_first,
     stripes,
     write_film,
 )
@@ -372,7 +372,7 @@ def test_films_no_longer_used_leave_one_process_for_the_next(tmp_path: Path) -> 
 
 
 def test_a_long_film_has_its_stated_length_and_each_frame_can_be_read(tmp_path: Path) -> None:
-    film = occ.load_video(saved(tmp_path, lasting(film_bytes("mov", "MJPG"), 18_000), "mov"))
+    film = occ.load_video(saved(tmp_path, repeat_first(film_bytes("mov", "MJPG"), 18_000), "mov"))
     assert film.frame_count == 18_000
     first, last = film.frame(0), film.frame(17_999)
     np.testing.assert_array_equal(first.image, last.image)
@@ -389,7 +389,7 @@ def test_ten_minutes_of_4k_stay_within_400_megabytes(
     path = tmp_path / f"film.{ending}"
     write_film(path, codec, (stripes(n, 2160, 3840) for n in range(8)), size=(2160, 3840))
     if codec == "MJPG":
-        path.write_bytes(lasting(path.read_bytes(), 18_000))
+        path.write_bytes(repeat_first(path.read_bytes(), 18_000))
     frames, early, late = memory_of("film", str(path))
     assert frames == (60 if codec == "MJPG" else 8)
     assert late < 400_000_000

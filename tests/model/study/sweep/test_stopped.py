@@ -15,7 +15,7 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from interruption import MOMENTS, interrupted, is_alive
+from interruption import MOMENTS, is_alive, run_and_interrupt
 from worker_calls import wait_until
 
 from occ_model.results.sweep import SweepTable
@@ -83,7 +83,7 @@ def test_an_interruption_prints_one_line_and_leaves_no_process(
     tmp_path: Path, command: str, place: int
 ) -> None:
     words = COMMANDS[command].format(folder=tmp_path).split()
-    code, error = interrupted(MODULE, words, _LATEST * (place / MOMENTS) ** 2)
+    code, error = run_and_interrupt(MODULE, words, _LATEST * (place / MOMENTS) ** 2)
     text = re.sub(r"[^\n]*\r", "", error)  # the progress bar, which is redrawn in place
     lines = [line for line in text.splitlines() if line.strip()]
     if code == 0:  # it finished earlier
@@ -97,4 +97,4 @@ def test_an_interruption_prints_one_line_and_leaves_no_process(
 
 def test_a_command_started_to_ignore_interruptions_still_does(tmp_path: Path) -> None:
     words = ["render", "--set", "rows=60", "-o", str(tmp_path / "x.png")]
-    assert interrupted(MODULE, words, 0.1, signal.SIG_IGN) == (0, "")
+    assert run_and_interrupt(MODULE, words, 0.1, signal.SIG_IGN) == (0, "")

@@ -1,4 +1,4 @@
-"""Files that the window reads again: sessions, and preferences with the layout of the panes."""
+"""Files that the window stores: sessions, and preferences with the layout of the panes."""
 
 import base64
 import re
@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import damage
 import numpy as np
 
-from hard_cases.attack import hostile
-from hard_cases.attack.doors.typed import check_scene
-from hard_cases.attack.promise import Door
+from hard_cases.fuzzing.mutations import encode_text, mutate_text, random_number
+from hard_cases.fuzzing.target import FuzzTarget
+from hard_cases.fuzzing.targets.typed import check_scene
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene, SimulationSettings
 
-if TYPE_CHECKING:  # Qt is slow to import, and only the doors of the window need it
+if TYPE_CHECKING:  # Qt is slow to import, and only the targets of the window need it
     from occ_gui.files.session_record import SavedSession
 
 SESSION, SETTINGS = "session-1.json", "settings.ini"
@@ -84,7 +84,7 @@ def session_text() -> str:
 
 
 def _check_session(session: "SavedSession | None") -> None:
-    """Check that a session can be written, and is the same when it is read again."""
+    """Check that a session is unchanged when it is written and read again."""
     from occ_gui.files.session import SessionFile
 
     if session is None:
@@ -99,19 +99,19 @@ def _check_session(session: "SavedSession | None") -> None:
         again.close()
 
 
-def _session(chance: Random, folder: Path) -> list[str]:
+def _read_session(random: Random, folder: Path) -> list[str]:
     from occ_gui.core.workspace import Workspace
     from occ_gui.files.session import SessionFile
     from occ_gui.files.session_record import SavedSession
 
     text = session_text()
-    if chance.random() < 0.2:
-        text = re.sub(r'(?<="count": )1', hostile.number(chance), text)
-    elif chance.random() < 0.1:
-        text = re.sub(r'(?<="format": )1', hostile.number(chance), text)
+    if random.random() < 0.2:
+        text = re.sub(r'(?<="count": )1', random_number(random), text)
+    elif random.random() < 0.1:
+        text = re.sub(r'(?<="format": )1', random_number(random), text)
     else:
-        text = hostile.damaged(chance, text)
-    content = hostile.encoded(chance, text)
+        text = mutate_text(random, text)
+    content = encode_text(random, text)
     (folder / SESSION).write_bytes(content)
     file = SessionFile(folder)
     _check_session(file.last)
@@ -155,31 +155,31 @@ _QT_VALUES = (
 )  # fmt: skip
 
 
-def damaged_ini(chance: Random, text: str) -> str:
-    """Replace some values by texts that only Qt writes, and damage the bytes of the layouts."""
+def mutate_ini(random: Random, text: str) -> str:
+    """Replace some values by texts that only Qt writes, and damage bytes of layouts."""
     lines = text.splitlines()
-    rng = np.random.default_rng(chance.getrandbits(32))
-    for _ in range(chance.choice((1, 2, 4))):
-        place = chance.randrange(len(lines))
+    rng = np.random.default_rng(random.getrandbits(32))
+    for _ in range(random.choice((1, 2, 4))):
+        place = random.randrange(len(lines))
         key, equals, _value = lines[place].partition("=")
         layout = _LAYOUT.search(lines[place])
-        if layout is not None and chance.random() < 0.7:
-            content = damage.damaged(rng, base64.b64decode(layout[0]))
+        if layout is not None and random.random() < 0.7:
+            content = damage.damage_bytes(rng, base64.b64decode(layout[0]))
             lines[place] = f"{key}={base64.b64encode(content).decode()}"
         elif equals:
-            lines[place] = f"{key}={chance.choice(_QT_VALUES)}"
+            lines[place] = f"{key}={random.choice(_QT_VALUES)}"
     text = "\n".join(lines)
-    return hostile.damaged(chance, text) if chance.random() < 0.5 else text
+    return mutate_text(random, text) if random.random() < 0.5 else text
 
 
-def _preferences(chance: Random, folder: Path) -> list[str]:
+def _read_preferences(random: Random, folder: Path) -> list[str]:
     from PySide6.QtCore import QSettings
 
     from occ_gui.files.preferences import Preferences
 
     text = _INI.format(here=__file__, folder=folder)
     path = folder / SETTINGS
-    path.write_bytes(hostile.encoded(chance, damaged_ini(chance, text)))
+    path.write_bytes(encode_text(random, mutate_ini(random, text)))
     kept = Preferences(QSettings(str(path), QSettings.Format.IniFormat))
     for stored in kept.files:
         assert stored.is_absolute()
@@ -192,8 +192,8 @@ def _preferences(chance: Random, folder: Path) -> list[str]:
     return []
 
 
-def _state(chance: Random, folder: Path) -> list[str]:
-    return chance.choice((_session, _preferences))(chance, folder)
+def _try_any(random: Random, folder: Path) -> list[str]:
+    return random.choice((_read_session, _read_preferences))(random, folder)
 
 
-STATE = Door("settings", "sessions, preferences", _state, (), fraction=60)
+STATE = FuzzTarget("settings", "sessions, preferences", _try_any, (), fraction=60)

@@ -11,9 +11,9 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 import occ_model as occ
-from hard_cases.attack import hostile
-from hard_cases.attack.doors.typed import check_scene
-from hard_cases.attack.promise import Door
+from hard_cases.fuzzing.mutations import encode_text, mutate_text
+from hard_cases.fuzzing.target import FuzzTarget
+from hard_cases.fuzzing.targets.typed import check_scene
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.presets import USER_FOLDER as PRESETS, preset_from, presets, unreadable_presets
@@ -27,7 +27,7 @@ _NAMES = ("scene", "photo 1", "a\x1b[31mb", "a\nb", "é", "a" * 200, "-", "phone
 
 @cache
 def scene_texts() -> tuple[str, ...]:
-    """The texts of some scene files."""
+    """Return the texts of some scene files."""
     own = occ.Scene().replace(payload='text:a "b" \\ é', line_code="manchester", framing="c-ook")
     scenes = (own, occ.Scene(), occ.load_preset("phone-136us-real"))
     return tuple(scene.to_toml() for scene in scenes)
@@ -35,33 +35,33 @@ def scene_texts() -> tuple[str, ...]:
 
 @cache
 def _texts_of(folder: str) -> tuple[str, ...]:
-    """The texts of the package's own presets or lessons."""
+    """Return the texts of the package's presets or lessons."""
     return tuple(resource_text(folder, name + ".toml") for name in resource_names(folder, ".toml"))
 
 
-def _scene(chance: Random, folder: Path) -> list[str]:
-    content = hostile.encoded(chance, hostile.damaged(chance, chance.choice(scene_texts())))
-    path = folder / f"{chance.choice(_NAMES)}.toml"
+def _read_scene(random: Random, folder: Path) -> list[str]:
+    content = encode_text(random, mutate_text(random, random.choice(scene_texts())))
+    path = folder / f"{random.choice(_NAMES)}.toml"
     path.write_bytes(content)
     check_scene(read_scene_file(path))
     return []
 
 
-def _preset(chance: Random, folder: Path) -> list[str]:
-    text = hostile.damaged(chance, chance.choice((*_texts_of("presets"), *scene_texts())))
+def _read_preset(random: Random, folder: Path) -> list[str]:
+    text = mutate_text(random, random.choice((*_texts_of("presets"), *scene_texts())))
     preset = preset_from("own", text)
     check_scene(preset.scene)
     assert preset.title
     return []
 
 
-def _own_files(chance: Random, folder: Path) -> list[str]:
-    """The folders of the user's own presets and lessons: whatever is in them, they are listed."""
+def _list_own_files(random: Random, folder: Path) -> list[str]:
+    """List the user's own presets and lessons, whatever their folder contains."""
     import pytest
 
     for kind in ("presets", "lessons"):
-        text = hostile.damaged(chance, chance.choice(_texts_of(kind)))
-        (folder / f"{chance.choice(_NAMES)}.toml").write_bytes(hostile.encoded(chance, text))
+        text = mutate_text(random, random.choice(_texts_of(kind)))
+        (folder / f"{random.choice(_NAMES)}.toml").write_bytes(encode_text(random, text))
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(PRESETS, str(folder))
         patch.setenv(LESSONS, str(folder))
@@ -73,10 +73,10 @@ def _own_files(chance: Random, folder: Path) -> list[str]:
     return list(problems.values())
 
 
-def _lesson(chance: Random, folder: Path) -> list[str]:
-    text = hostile.damaged(chance, chance.choice(_texts_of("lessons")))
-    path = folder / f"{chance.choice(_NAMES)}.toml"
-    path.write_bytes(hostile.encoded(chance, text))
+def _read_lesson(random: Random, folder: Path) -> list[str]:
+    text = mutate_text(random, random.choice(_texts_of("lessons")))
+    path = folder / f"{random.choice(_NAMES)}.toml"
+    path.write_bytes(encode_text(random, text))
     lesson = read_lesson(path)
     assert lesson.title
     assert lesson.steps
@@ -93,8 +93,8 @@ def _film_note() -> str:
     return "\n".join([*recording.lines(), *scene_texts()[0].splitlines()])
 
 
-def _recording(chance: Random, _folder: Path) -> list[str]:
-    recording = Recording.from_text(hostile.damaged(chance, _film_note()))
+def _read_recording(random: Random, _folder: Path) -> list[str]:
+    recording = Recording.from_text(mutate_text(random, _film_note()))
     if recording is None:
         return ["The note is damaged."]
     assert Recording.from_text("\n".join(recording.lines())) == recording
@@ -102,8 +102,8 @@ def _recording(chance: Random, _folder: Path) -> list[str]:
 
 
 @cache
-def exported() -> dict[str, bytes]:
-    """A small file of each kind that carries a scene."""
+def exported_files() -> dict[str, bytes]:
+    """Return a small file of each format that contains a scene."""
     from matplotlib.figure import Figure
 
     from occ_model.figures.drawing import figure_bytes, table_text
@@ -115,21 +115,19 @@ def exported() -> dict[str, bytes]:
     return files
 
 
-def _carrier(chance: Random, folder: Path) -> list[str]:
-    kind = chance.choice(("svg", "pdf", "png", "csv"))
-    content = exported()[kind]
-    if kind == "png" and chance.random() < 0.5:
-        content = _png_with(chance, hostile.damaged(chance, _provenance_text()))
-    elif kind == "png" or chance.random() < 0.3:
-        content = damage.damaged(np.random.default_rng(chance.getrandbits(32)), content)
+def _read_exported(random: Random, folder: Path) -> list[str]:
+    kind = random.choice(("svg", "pdf", "png", "csv"))
+    content = exported_files()[kind]
+    if kind == "png" and random.random() < 0.5:
+        content = _png_with(random, mutate_text(random, _provenance_text()))
+    elif kind == "png" or random.random() < 0.3:
+        content = damage.damage_bytes(np.random.default_rng(random.getrandbits(32)), content)
     else:
-        # Of a PDF as of bytes, each a letter.
+        # Latin-1 maps each byte of a PDF to a letter.
         text = content.decode("latin-1" if kind == "pdf" else "utf-8")
-        text = hostile.damaged(chance, text)
-        content = (
-            text.encode("latin-1", "replace") if kind == "pdf" else hostile.encoded(chance, text)
-        )
-    path = folder / f"{chance.choice(_NAMES)}.{kind}"
+        text = mutate_text(random, text)
+        content = text.encode("latin-1", "replace") if kind == "pdf" else encode_text(random, text)
+    path = folder / f"{random.choice(_NAMES)}.{kind}"
     path.write_bytes(content)
     check_scene(read_scene_file(path))
     return []
@@ -139,41 +137,51 @@ def _provenance_text() -> str:
     return Provenance("A title", {"of this file": occ.Scene()}, seed=1).text()
 
 
-def _png_with(chance: Random, text: str) -> bytes:
-    """A picture whose description, packed or not, is a text."""
+def _png_with(random: Random, text: str) -> bytes:
+    """Return a picture with a text as its description, compressed or not."""
     notes, buffer = PngInfo(), io.BytesIO()
-    write = notes.add_itxt if chance.random() < 0.5 else notes.add_text
+    write = notes.add_itxt if random.random() < 0.5 else notes.add_text
     text = text.encode("utf-8", "replace").decode()
-    write("Description", text, zip=chance.random() < 0.5)
+    write("Description", text, zip=random.random() < 0.5)
     Image.new("L", (2, 2)).save(buffer, "PNG", pnginfo=notes)
     return buffer.getvalue()
 
 
-def _several(chance: Random, _folder: Path) -> list[str]:
+def _read_provenance(random: Random, _folder: Path) -> list[str]:
     text = Provenance("Title", {"a": occ.Scene(), "b": occ.load_preset("phone-68us")}).text()
-    scene = first_scene_in(hostile.damaged(chance, text))
+    scene = first_scene_in(mutate_text(random, text))
     if scene is not None:
         check_scene(scene)
     return []
 
 
-_WAYS = (_scene, _scene, _preset, _preset, _own_files, _recording, _several)
+_CASES = (
+    _read_scene,
+    _read_scene,
+    _read_preset,
+    _read_preset,
+    _list_own_files,
+    _read_recording,
+    _read_provenance,
+)
 
 
-def _toml(chance: Random, folder: Path) -> list[str]:
-    return chance.choice(_WAYS)(chance, folder)
+def _try_any(random: Random, folder: Path) -> list[str]:
+    return random.choice(_CASES)(random, folder)
 
 
 _REFUSALS = (occ.SceneFileError, occ.ParameterError, occ.PresetError)
 
-SCENES = Door(
-    "scenes", "scene files, presets and their folder, the notes of films", _toml, _REFUSALS,
+SCENES = FuzzTarget(
+    "scenes", "scene files, presets and their folder, the notes of films", _try_any, _REFUSALS,
     fraction=130,
 )  # fmt: skip
 
-LESSONS_FILES = Door("lessons", "lessons' files", _lesson, (occ.SceneFileError,), fraction=60)
+LESSON_FILES = FuzzTarget(
+    "lessons", "lessons' files", _read_lesson, (occ.SceneFileError,), fraction=60
+)
 
-CARRIERS = Door(
-    "exported files", "SVG, PDF, PNG and CSV files with a scene inside", _carrier, _REFUSALS,
+EXPORTED = FuzzTarget(
+    "exported files", "SVG, PDF, PNG and CSV files with a scene inside", _read_exported, _REFUSALS,
     fraction=80,
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The command lines of both programs, run to their end or to an interrupt."""
+"""Command lines of both programs, which run to their end or are interrupted."""
 
 import io
 import signal
@@ -17,18 +17,18 @@ import numpy as np
 from PIL import Image
 
 import occ_model as occ
-from hard_cases.attack import hostile
-from hard_cases.attack.promise import Door
+from hard_cases.fuzzing.mutations import random_number, random_quantity, random_text
+from hard_cases.fuzzing.target import FuzzTarget
 from occ_model.effects.registry import NAMES
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED, EXIT_MISUSE, INTERRUPTED
 from occ_model.scene.parameters import PARAMETERS
 
 _INTERRUPT_S = 0.4
-"""Processor time after which a command is interrupted, as by Ctrl-C: most begin minutes of work."""
+"""Processor time in seconds after which a command is interrupted, as by Ctrl-C."""
 
 _AGAIN_S = 0.01
 
-_IMPORTING = "<frozen importlib."  # how the file of the functions begins that import a module
+_IMPORTING = "<frozen importlib."  # start of the file names of functions that import a module
 _LONGEST_LINE = 4200  # characters of a line on standard error: a sentence, after the program's name
 
 COMMANDS: dict[str, tuple[str, ...]] = {
@@ -50,7 +50,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "presets": (),
     "parameters": (),
 }
-"""Words with which each command is in order, after those of a small scene."""
+"""A valid command line of each command, without the options of a small scene."""
 
 _SCENELESS = ("bench", "figures", "codes", "presets", "parameters")
 
@@ -72,18 +72,18 @@ OPTIONS = (
 )  # fmt: skip
 
 _KEPT = ("--jobs", "--images")
-"""Options whose valid values may start processes or hours of work."""
+"""Options of which valid values may start processes or hours of work."""
 
 
-def _value(chance: Random, folder: Path) -> str:
-    """A value of an option: a path, a setting, a word that some option knows, or anything."""
-    kind = chance.randrange(7)
+def _random_value(random: Random, folder: Path) -> str:
+    """Return a value of an option: a path, a setting, a word that an option knows, or any text."""
+    kind = random.randrange(7)
     if kind == 0:
-        return str(folder / chance.choice(_FILES))
+        return str(folder / random.choice(_FILES))
     if kind == 1:
-        return f"{chance.choice((*PARAMETERS,))}={hostile.quantity(chance)}"
+        return f"{random.choice((*PARAMETERS,))}={random_quantity(random)}"
     if kind == 2:
-        return chance.choice((
+        return random.choice((
             *NAMES, "threshold", "matched", "sequence", "equalizer", "both", "all", "exact",
             "camera", "receiver", "profile", "lines", "columns", "red", "readout_time", "read",
             "scene", "pico",
@@ -91,11 +91,11 @@ def _value(chance: Random, folder: Path) -> str:
             "1kHz,2kHz", "1280x800", "dark", "split", "explore", "map",
         ))  # fmt: skip
     if kind in (3, 4):
-        return hostile.quantity(chance)
+        return random_quantity(random)
     if kind == 5:
-        name = chance.choice((*PARAMETERS,))
-        return f"{name}={':'.join(hostile.number(chance) for _ in range(3))}"
-    return hostile.word(chance)
+        name = random.choice((*PARAMETERS,))
+        return f"{name}={':'.join(random_number(random) for _ in range(3))}"
+    return random_text(random)
 
 
 _FILES = (
@@ -113,32 +113,32 @@ def _picture() -> bytes:
     return buffer.getvalue()
 
 
-def _fill(folder: Path, chance: Random) -> None:
-    """Write the files that the command lines name."""
+def _write_files(folder: Path, random: Random) -> None:
+    """Write the files named in command lines."""
     scene = occ.Scene().replace(rows=8, columns=120, readout_time=20e-6, distance=0.6)
     (folder / "in.toml").write_text(scene.to_toml(), "utf-8")
     (folder / "in.png").write_bytes(_picture())
     (folder / "in.csv").write_text("a,b\n1,2\n", "utf-8")
-    (folder / "damaged.png").write_bytes(damaged_photos.damaged(chance.getrandbits(32))[1])
+    (folder / "damaged.png").write_bytes(damaged_photos.make_damaged(random.getrandbits(32))[1])
     (folder / "empty").touch()
     (folder / "folder").mkdir()
     (folder / "link").symlink_to("in.png")
 
 
-def _words(chance: Random, folder: Path, command: str, usual: Sequence[str]) -> list[str]:
-    """A command line that is in order but for a few words."""
+def _make_words(random: Random, folder: Path, command: str, usual: Sequence[str]) -> list[str]:
+    """Return a valid command line with a few random changes."""
     paths = {"in": str(folder / "in"), "out": str(folder / "out")}
     words = [word.format(**paths) for word in usual]
-    for _ in range(chance.choice((0, 1, 1, 1, 2, 3))):
-        place, kind = chance.randint(0, len(words)), chance.randrange(6)
+    for _ in range(random.choice((0, 1, 1, 1, 2, 3))):
+        place, kind = random.randint(0, len(words)), random.randrange(6)
         if kind < 3:
-            option = chance.choice(OPTIONS)
-            value = _value(chance, folder)
-            if option in _KEPT and chance.random() < 0.8:
-                value = chance.choice(("0", "1", "-1", "x", "1e9", "99999999999"))
-            words[place:place] = [f"{option}={value}"] if chance.random() < 0.2 else [option, value]
+            option = random.choice(OPTIONS)
+            value = _random_value(random, folder)
+            if option in _KEPT and random.random() < 0.8:
+                value = random.choice(("0", "1", "-1", "x", "1e9", "99999999999"))
+            words[place:place] = [f"{option}={value}"] if random.random() < 0.2 else [option, value]
         elif kind == 3 and words:
-            words[place % len(words)] = _value(chance, folder)
+            words[place % len(words)] = _random_value(random, folder)
         elif kind == 4 and words:
             del words[place % len(words)]
         elif words:
@@ -146,8 +146,8 @@ def _words(chance: Random, folder: Path, command: str, usual: Sequence[str]) -> 
     return [command, *words] if command else words
 
 
-class _Long:
-    """Interrupts a command that goes on for long, as Ctrl-C does."""
+class _InterruptLater:
+    """Interrupts a command that takes long, as Ctrl-C does."""
 
     def __enter__(self) -> None:
         self._hook = sys.unraisablehook
@@ -159,15 +159,15 @@ class _Long:
 
     @staticmethod
     def _interrupt(_signal: int, frame: FrameType | None) -> None:
-        # An import that is interrupted may not be repeated (fontTools says so): Ctrl-C ends the
-        # program, but here the next case would meet what is left of it.
+        # An interrupted import may be impossible to repeat, as in fontTools. Ctrl-C ends the
+        # program, but here the next case would use the incomplete module.
         if any(each.f_code.co_filename.startswith(_IMPORTING) for each in _stack(frame)):
             signal.setitimer(signal.ITIMER_PROF, _AGAIN_S)
             return
         raise KeyboardInterrupt
 
     def _hear_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
-        """Interrupt a little later what could not be interrupted, as a second Ctrl-C does."""
+        """Interrupt again a little later if an interrupt was ignored, as a second Ctrl-C does."""
         if issubclass(what.exc_type, KeyboardInterrupt):
             signal.setitimer(signal.ITIMER_PROF, _AGAIN_S)
         else:
@@ -191,24 +191,24 @@ def _streams() -> Iterator[tuple[io.StringIO, io.StringIO]]:
         yield out, err
 
 
-def ended(main: Callable[[Sequence[str]], int], words: Sequence[str]) -> tuple[int, str, str]:
-    """Run a program's main function; give its exit code, its output and its messages."""
-    # What an interrupt leaves open, of fonts for example, is closed by the collector.
+def run_main(main: Callable[[Sequence[str]], int], words: Sequence[str]) -> tuple[int, str, str]:
+    """Run a program's main function; return its exit code, output and messages."""
+    # Files that an interrupt leaves open, such as fonts, are closed by the garbage collector.
     warnings.simplefilter("ignore", ResourceWarning)
     with _streams() as (out, err):
         try:
-            with _Long():
+            with _InterruptLater():
                 code = main(words)
         except SystemExit as left:
             code = left.code if isinstance(left.code, int) else EXIT_FAILURE
-        except KeyboardInterrupt:  # when the command had just ended
+        except KeyboardInterrupt:  # the command had just ended
             code = EXIT_INTERRUPTED
             err.write(f": {INTERRUPTED}\n")
     return code, out.getvalue(), err.getvalue()
 
 
-def messages(code: int, out: str, err: str) -> list[str]:
-    """See that a program ended as it should, and give its sentences."""
+def check_output(code: int, out: str, err: str) -> list[str]:
+    """Check exit code, output and messages; return a sentence if the program refused or failed."""
     for line in out.split("\n"):
         assert line.isprintable(), f"not one printable line of output: {line!r}"
     assert "Traceback" not in err, err
@@ -222,37 +222,39 @@ def messages(code: int, out: str, err: str) -> list[str]:
         return []
     assert code in (EXIT_FAILURE, EXIT_MISUSE, EXIT_INTERRUPTED), code
     if code == EXIT_MISUSE:
-        # After the usage of a wrong option there is one line too.
+        # The usage of a wrong option is also followed by one line.
         said = [line for line in lines if line.startswith("occ-")]
         assert len(said) == 1, err
         assert lines[-1] == said[0], err
     return ["It said so."]
 
 
-def _run(chance: Random, folder: Path) -> list[str]:
+def _run_command(random: Random, folder: Path) -> list[str]:
     from occ_model.cli import main
 
-    _fill(folder, chance)
-    command = chance.choice((*COMMANDS,))
+    _write_files(folder, random)
+    command = random.choice((*COMMANDS,))
     usual = COMMANDS[command] if command in _SCENELESS else (*_SMALL, *COMMANDS[command])
-    words = _words(chance, folder, command, usual)
-    before = _inputs(folder)
-    code, out, err = ended(main, words)
+    words = _make_words(random, folder, command, usual)
+    before = _read_inputs(folder)
+    code, out, err = run_main(main, words)
     try:
-        assert _inputs(folder) == before, "an input was overwritten"
-        return messages(code, out, err)
+        assert _read_inputs(folder) == before, "an input was overwritten"
+        return check_output(code, out, err)
     except AssertionError as fault:
         raise AssertionError(f"{words} -> {code}: {fault}") from None
 
 
-def _inputs(folder: Path) -> tuple[bytes, ...]:
+def _read_inputs(folder: Path) -> tuple[bytes, ...]:
     return tuple((folder / name).read_bytes() for name in ("in.toml", "in.png"))
 
 
-SHELL = Door("command lines", "words of 17 commands", _run, (), fraction=60, patience=10.0)
+SHELL = FuzzTarget(
+    "command lines", "words of 17 commands", _run_command, (), fraction=60, patience=10.0
+)
 
 
-def _open(chance: Random, folder: Path) -> list[str]:
+def _start_window(random: Random, folder: Path) -> list[str]:
     import pytest
 
     from occ_gui.app import command_line
@@ -260,19 +262,21 @@ def _open(chance: Random, folder: Path) -> list[str]:
     def start(*_arguments: object) -> NoReturn:
         raise occ.OccError("The window opens.")
 
-    _fill(folder, chance)
-    words = _words(chance, folder, "", chance.choice((_SMALL, (), ("{in}.png",))))
-    before = _inputs(folder)
+    _write_files(folder, random)
+    words = _make_words(random, folder, "", random.choice((_SMALL, (), ("{in}.png",))))
+    before = _read_inputs(folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("OCC_STATE", str(folder / "state"))
         patch.setattr(command_line, "start", start)
-        code, out, err = ended(command_line.main, words)
+        code, out, err = run_main(command_line.main, words)
     try:
-        assert _inputs(folder) == before, "an input was overwritten"
-        said = messages(code, out, err)
+        assert _read_inputs(folder) == before, "an input was overwritten"
+        said = check_output(code, out, err)
     except AssertionError as fault:
         raise AssertionError(f"{words} -> {code}: {fault}") from None
     return [] if "The window opens." in err else said
 
 
-WINDOW_SHELL = Door("window's command lines", "words of occ-gui", _open, (), fraction=60)
+WINDOW_SHELL = FuzzTarget(
+    "window's command lines", "words of occ-gui", _start_window, (), fraction=60
+)

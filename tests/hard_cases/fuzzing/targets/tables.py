@@ -1,4 +1,4 @@
-"""Tables: a sweep's results that are gone on with, and the table of many photos."""
+"""Tables: the results of a sweep that is resumed, and the table of many photos."""
 
 import csv
 from functools import cache
@@ -11,8 +11,8 @@ import damaged_photos
 import numpy as np
 
 import occ_model as occ
-from hard_cases.attack import hostile
-from hard_cases.attack.promise import Door
+from hard_cases.fuzzing.mutations import encode_text, mutate_text, random_number
+from hard_cases.fuzzing.target import FuzzTarget
 from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results.photo_table import csv_text
@@ -25,7 +25,7 @@ from occ_model.study.sweep.sweep import run_sweep
 
 @cache
 def _sweep() -> tuple[SweepRequest, bytes]:
-    """A small sweep and its complete table; at its first points the model refuses the scene."""
+    """Return a small sweep, whose first points the model refuses, and its complete table."""
     scene = occ.load_preset("phone-136us").replace(yaw=1.3, rows=20, panel_height=0.01)
     axes = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
     request = build_request(scene, axes, RateSettings(1, ("threshold", "matched"), 3))
@@ -35,16 +35,16 @@ def _sweep() -> tuple[SweepRequest, bytes]:
         return request, path.read_bytes()
 
 
-def _with_counts(chance: Random, request: SweepRequest, whole: bytes) -> bytes:
-    """Put other counts into a point's rows, with the rates and intervals that follow from them."""
+def _replace_counts(random: Random, request: SweepRequest, whole: bytes) -> bytes:
+    """Replace counts in the rows of a point, and the rates and intervals computed from them."""
     lines = whole.decode().splitlines(keepends=True)
     first = next(place for place, line in enumerate(lines) if line[0] != "#") + 1
-    first += len(request.settings.decoders) * chance.randrange(request.point_count)
+    first += len(request.settings.decoders) * random.randrange(request.point_count)
     for place in range(first, first + len(request.settings.decoders)):
         row = next(csv.reader([lines[place]]))
-        for cell in chance.sample((5, 6, 10), chance.choice((1, 1, 2))):
+        for cell in random.sample((5, 6, 10), random.choice((1, 1, 2))):
             row[cell] = (
-                hostile.number(chance) if chance.random() < 0.7 else str(chance.randint(-9, 30))
+                random_number(random) if random.random() < 0.7 else str(random.randint(-9, 30))
             )
         try:
             right, sent, read = (int(row[cell]) for cell in (5, 6, 10))
@@ -59,18 +59,18 @@ def _with_counts(chance: Random, request: SweepRequest, whole: bytes) -> bytes:
     return "".join(lines).encode()
 
 
-def _resumed(chance: Random, folder: Path) -> list[str]:
+def _resume_sweep(random: Random, folder: Path) -> list[str]:
     request, whole = _sweep()
     path = folder / "results.csv"
-    kind = chance.random()
+    kind = random.random()
     if kind < 0.3:
-        content = _with_counts(chance, request, whole)
+        content = _replace_counts(random, request, whole)
     elif kind < 0.5:
-        content = hostile.encoded(chance, hostile.damaged(chance, whole.decode()))
+        content = encode_text(random, mutate_text(random, whole.decode()))
     elif kind < 0.7:
-        content = whole[: chance.randrange(len(whole))]
+        content = whole[: random.randrange(len(whole))]
     else:
-        content = damage.damaged(np.random.default_rng(chance.getrandbits(32)), whole)
+        content = damage.damage_bytes(np.random.default_rng(random.getrandbits(32)), whole)
     path.write_bytes(content)
     try:
         table = run_sweep(request, results=path)
@@ -89,15 +89,15 @@ def _resumed(chance: Random, folder: Path) -> list[str]:
 _PHOTO_NAMES = ("photo", "a,b", "a;b", "=1+1", "a\nb", "é", "#")
 
 
-def _many_photos(chance: Random, folder: Path) -> list[str]:
+def _match_photos(random: Random, folder: Path) -> list[str]:
     scene = occ.load_preset("phone-68us").replace(pattern="10", switching_frequency=5e3)
     paths = []
-    for number in range(chance.choice((1, 2, 4))):
-        make = chance.choice((damaged_photos.damaged, damaged_photos.odd))
-        path = folder / f"{chance.choice(_PHOTO_NAMES)}-{number}"
-        path.write_bytes(make(chance.getrandbits(32))[1])
+    for number in range(random.choice((1, 2, 4))):
+        make = random.choice((damaged_photos.make_damaged, damaged_photos.make_unusual))
+        path = folder / f"{random.choice(_PHOTO_NAMES)}-{number}"
+        path.write_bytes(make(random.getrandbits(32))[1])
         paths.append(path)
-    table = occ.match_photos(paths, scene, estimate=chance.choice(("readout_time",)), jobs=1)
+    table = occ.match_photos(paths, scene, estimate=random.choice(("readout_time",)), jobs=1)
     assert [row.path for row in table.rows] == paths
     text = csv_text(table, list(lines_to_paste(table).values()))
     data = text[text.index("\nfile,") + 1 :]
@@ -107,12 +107,12 @@ def _many_photos(chance: Random, folder: Path) -> list[str]:
     return [*table.notes, *(row.note for row in table.rows if row.note)]
 
 
-def _table(chance: Random, folder: Path) -> list[str]:
-    return chance.choice((_resumed, _resumed, _many_photos))(chance, folder)
+def _try_any(random: Random, folder: Path) -> list[str]:
+    return random.choice((_resume_sweep, _resume_sweep, _match_photos))(random, folder)
 
 
-TABLES = Door(
-    "tables", "results that are gone on with, data sets, many photos", _table,
+TABLES = FuzzTarget(
+    "tables", "results of a resumed sweep, many photos", _try_any,
     (occ.OutputError, occ.PhotoError, occ.SceneFileError, occ.ParameterError), fraction=40,
     patience=20.0,
 )  # fmt: skip

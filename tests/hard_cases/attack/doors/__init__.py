@@ -1,1 +1,0 @@
-"""The doors, a file each: what comes in, and what has to hold of what comes out."""

@@ -1,0 +1,1 @@
+"""Fuzzing: random inputs for every part of the program that takes input from outside."""

@@ -1,0 +1,1 @@
+"""The fuzz targets: how each gets its inputs, and the laws of its results."""

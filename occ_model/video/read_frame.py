@@ -222,10 +222,9 @@ def fit_lattice(
         if has_short_chips(scene):
             return None
         expected = scene.camera.readout_time * scene.transmitter.switching_frequency
-        kinds = Edges(places[rising], places[~rising])
-        step = _find_most_coherent(kinds, expected)
-        numbers = np.rint(np.concatenate(chip_numbers(kinds, lattice_at(kinds, step))))
-        places = np.concatenate([kinds.rising, kinds.falling])
+        found = Edges(places, rising)
+        step = _find_most_coherent(found, expected)
+        numbers = np.rint(chip_numbers(found, lattice_at(found, step)))
     # Far more chips than columns can show, or an exposure longer than all columns.
     if not exposure <= step * len(signal) <= _MOST_CHIPS:
         return None
@@ -253,7 +252,7 @@ def _fit_line(
 
 def _find_most_coherent(edges: Edges, expected: float) -> float:
     """Return the chips per column, near the expected number, whose lattice fits edges best."""
-    extent = max(float(np.ptp(edges.places)), 1.0)
+    extent = max(float(np.ptp(edges.place)), 1.0)
     search_range = max(_SEARCHED_FRACTION * expected, 1.0 / extent)
     count = int(np.ceil(2.0 * search_range * extent * _STEPS_A_TURN)) + 1
     steps = expected + np.linspace(-search_range, search_range, count)

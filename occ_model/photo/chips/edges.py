@@ -7,7 +7,8 @@ lattice of its own, of the same spacing.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,40 +32,35 @@ _RIM_DISTANCE = 0.2  # chips from the lattice beyond which an outermost edge is 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Edges:
-    """The edges of stripes: their places in columns, in order."""
+    """The edges of stripes, from left to right, rising and falling in turn."""
 
-    rising: FloatArray
-    falling: FloatArray
+    place: FloatArray  # Shape (edges,): columns at which the light passes its middle level
+    rises: BoolArray  # Shape (edges,): whether the light rises there; else it falls
+
+    def __len__(self) -> int:
+        return len(self.place)
 
     @property
-    def count(self) -> int:
-        return len(self.rising) + len(self.falling)
+    def rising(self) -> FloatArray:
+        """Places of the rising edges."""
+        return self.place[self.rises]
+
+    @property
+    def falling(self) -> FloatArray:
+        """Places of the falling edges."""
+        return self.place[~self.rises]
+
+    def where(self, chosen: slice | BoolArray | IndexArray) -> Self:
+        """Return some of the edges."""
+        values = {each.name: getattr(self, each.name)[chosen] for each in fields(self)}
+        return replace(self, **values)
 
     @classmethod
-    def join(cls, parts: Sequence["Edges"]) -> "Edges":
-        """Join the edges of parts that follow each other."""
-        return cls(
-            np.concatenate([part.rising for part in parts]),
-            np.concatenate([part.falling for part in parts]),
-        )
-
-    @property
-    def places(self) -> FloatArray:
-        return np.sort(np.concatenate([self.rising, self.falling]))
-
-    @property
-    def order(self) -> IndexArray:
-        """Index that sorts the rising edges followed by the falling ones."""
-        return np.argsort(np.concatenate([self.rising, self.falling]))
-
-    @property
-    def rises(self) -> BoolArray:
-        """For each of the ``places``, whether it is a rising edge."""
-        return np.asarray(self.order < len(self.rising))
-
-    def within(self, first: float, last: float) -> "Edges":
-        inside = [kind[(kind >= first) & (kind <= last)] for kind in (self.rising, self.falling)]
-        return Edges(*inside)
+    def join(cls, parts: Sequence[Self]) -> Self:
+        """Return the edges of all parts, from left to right."""
+        values = [[getattr(part, each.name) for part in parts] for each in fields(cls)]
+        whole = cls(*map(np.concatenate, values))
+        return whole.where(np.argsort(whole.place, kind="stable"))
 
     @property
     def shortest_pair(self) -> float:
@@ -72,10 +68,8 @@ class Edges:
 
         It does not change if bright runs are lengthened and dark ones shortened.
         """
-        if min(len(self.rising), len(self.falling)) == 0:
-            return np.inf
         # The panel's rim may shorten the first and the last gap.
-        gaps = np.diff(self.places)[1:-1]
+        gaps = np.diff(self.place)[1:-1]
         kinds = gaps[::2], gaps[1::2]
         return float(sum(kind.min() for kind in kinds)) if all(map(len, kinds)) else np.inf
 
@@ -87,13 +81,9 @@ def edges_of(flattened: FloatArray) -> Edges:
     )
     clear = np.flatnonzero(levels)
     changes = np.flatnonzero(np.diff(levels[clear]))
-    rising: list[float] = []
-    falling: list[float] = []
-    for change in changes.tolist():
-        first, last = int(clear[change]), int(clear[change + 1])
-        kind = rising if levels[last] > 0 else falling
-        kind.append(_crossing(flattened[first : last + 1], first))
-    return Edges(np.array(rising), np.array(falling))
+    ends = zip(clear[changes].tolist(), clear[changes + 1].tolist(), strict=True)
+    place = [_crossing(flattened[first : last + 1], first) for first, last in ends]
+    return Edges(np.array(place, dtype=np.float64), levels[clear[changes + 1]] > 0)
 
 
 def _crossing(part: FloatArray, first: int) -> float:
@@ -117,7 +107,7 @@ class Lattice:
 def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:
     """Return the coherence of edges with lattices of these frequencies, in chips per column."""
     sums = [np.abs(_phase_factors(kind, frequencies)) for kind in (edges.rising, edges.falling)]
-    return np.asarray((sums[0] + sums[1]) / max(edges.count, 1))
+    return np.asarray((sums[0] + sums[1]) / max(len(edges), 1))
 
 
 def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.complex128]:
@@ -126,10 +116,10 @@ def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.co
 
 def find_coarsest(edges: Edges) -> Lattice | None:
     """Find the coarsest pair of lattices on which edges lie; None if none is coherent."""
-    if edges.count < LEAST_EDGES or edges.shortest_pair <= LEAST_PAIR:
+    if len(edges) < LEAST_EDGES or edges.shortest_pair <= LEAST_PAIR:
         return None
     longest = edges.shortest_pair / 2.0 / _SHORTENING
-    extent = float(np.ptp(edges.places))
+    extent = float(np.ptp(edges.place))
     step = 1.0 / (_STEPS_PER_CHIP * extent)
     frequencies = np.arange(1.0 / longest, 1.0 / LEAST_COLUMNS, step)
     if frequencies.size < 3:
@@ -159,25 +149,22 @@ def lattice_at(edges: Edges, frequency: float) -> Lattice:
     )
 
 
-def chip_numbers(edges: Edges, lattice: Lattice) -> tuple[FloatArray, FloatArray]:
-    """Return the rising and falling edges' positions in chips: whole numbers except for noise."""
-    return (
-        edges.rising * lattice.frequency - lattice.rising,
-        edges.falling * lattice.frequency - lattice.falling,
-    )
+def chip_numbers(edges: Edges, lattice: Lattice) -> FloatArray:
+    """Return the edges' positions in chips: whole numbers except for noise."""
+    first = np.where(edges.rises, lattice.rising, lattice.falling)
+    return np.asarray(edges.place * lattice.frequency - first)
 
 
-def remove_rims(edges: Edges, lattice: Lattice) -> Edges:
-    """Remove an outermost edge if it is the panel's rim and not a chip's.
+def part_between_rims(edges: Edges, lattice: Lattice) -> slice:
+    """Return which edges are those of chips: all but an outermost one that is the panel's rim.
 
-    Then it is off the lattice, or by chance nearest to the lattice point of its neighbour.
+    A rim is off the lattice, or by chance nearest to the lattice point of its neighbour.
     """
-    numbers, places = np.concatenate(chip_numbers(edges, lattice))[edges.order], edges.places
+    numbers = chip_numbers(edges, lattice)
     nearest = np.rint(numbers)
-    distances, lengths = np.abs(numbers - nearest), np.diff(nearest)
-    first = places[1] if distances[0] > _RIM_DISTANCE or lengths[0] < 1 else places[0]
-    last = places[-2] if distances[-1] > _RIM_DISTANCE or lengths[-1] < 1 else places[-1]
-    return edges.within(float(first), float(last))
+    is_off, lengths = np.abs(numbers - nearest) > _RIM_DISTANCE, np.diff(nearest)
+    is_first_rim, is_last_rim = (is_off[end] or lengths[end] < 1 for end in (0, -1))
+    return slice(int(is_first_rim), len(edges) - int(is_last_rim))
 
 
 def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | None:
@@ -185,7 +172,7 @@ def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | Non
 
     None if two edges lie on the same place of the lattice.
     """
-    numbers = np.rint(np.concatenate(chip_numbers(edges, lattice))[edges.order]).astype(np.int64)
+    numbers = np.rint(chip_numbers(edges, lattice)).astype(np.int64)
     lengths = np.diff(numbers)
     if len(lengths) == 0 or lengths.min() < 1:
         return None
@@ -199,19 +186,17 @@ def certainty(edges: Edges, lattice: Lattice) -> float:
     random phase have a mean phase factor above R with the probability exp(-n R^2), for each lattice
     tried), and that no edge is displaced by half a chip or more, if displacements are normal.
     """
-    displacements = [kind - np.rint(kind) for kind in chip_numbers(edges, lattice)]
-    all_displacements = np.concatenate(displacements)
-    if len(all_displacements) < 5:
+    if len(edges) < 5:
         return 0.0
+    numbers = chip_numbers(edges, lattice)
+    displacements = numbers - np.rint(numbers)
     strength = sum(
         len(kind) * abs(np.exp(2j * np.pi * kind).mean()) ** 2
-        for kind in displacements
+        for kind in (displacements[edges.rises], displacements[~edges.rises])
         if len(kind) > 1
     )
-    lattices = max(1.0, float(np.ptp(edges.places)) * lattice.frequency)
+    lattices = max(1.0, float(np.ptp(edges.place)) * lattice.frequency)
     chance = min(1.0, lattices * math.exp(-strength))
-    deviation = max(
-        float(np.sqrt((all_displacements**2).sum() / (len(all_displacements) - 3))), 1e-9
-    )
+    deviation = max(math.sqrt(float((displacements**2).sum()) / (len(edges) - 3)), 1e-9)
     misplaced = math.erfc(0.5 / deviation / math.sqrt(2.0))
-    return (1.0 - chance) * (1.0 - misplaced) ** len(all_displacements)
+    return (1.0 - chance) * (1.0 - misplaced) ** len(edges)

@@ -1,5 +1,6 @@
 """Read the chips in view of a photo, without knowing what is sent or whether it repeats."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +16,7 @@ from occ_model.photo.chips.edges import (
     edges_of,
     find_coarsest,
     lattice_at,
-    remove_rims,
+    part_between_rims,
 )
 from occ_model.photo.reading.load import Corners, Photo
 from occ_model.photo.stripes.find import find_stripes
@@ -68,8 +69,8 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     edges = align_bursts(original_edges)
     lattice = find_coarsest(edges)
     if lattice is not None:
-        panel_edges = remove_rims(edges, lattice)
-        edges, original_edges = panel_edges, _select_original(original_edges, edges, panel_edges)
+        panel = part_between_rims(edges, lattice)
+        edges, original_edges = edges.where(panel), original_edges.where(panel)
     chips_and_start = None if lattice is None else chips_between(edges, lattice)
     if lattice is None or chips_and_start is None:
         raise MatchError(f"No chips can be read: {_explain_failure(edges)}")
@@ -89,9 +90,9 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
 def _explain_failure(edges: Edges) -> str:
     """Explain why edges give no chips: they are too few, too close, or on no lattice."""
     pair = edges.shortest_pair
-    if edges.count < LEAST_EDGES:
+    if len(edges) < LEAST_EDGES:
         return (
-            f"{inflect(edges.count, 'edge')} of stripes are in view; at least {LEAST_EDGES} are "
+            f"{inflect(len(edges), 'edge')} of stripes are in view; at least {LEAST_EDGES} are "
             "needed; come closer, or raise the frequency."
         )
     if pair <= LEAST_PAIR:
@@ -101,16 +102,8 @@ def _explain_failure(edges: Edges) -> str:
             f"more than {limit} are needed; come closer, or lower the frequency."
         )
     return (
-        f"the {edges.count} edges of the stripes lie on no common lattice of chips; a shorter "
+        f"the {len(edges)} edges of the stripes lie on no common lattice of chips; a shorter "
         "exposure, or more columns a chip, give clearer edges."
-    )
-
-
-def _select_original(original: Edges, moved: Edges, selected: Edges) -> Edges:
-    """Return the original edges whose moved edges are among the selected ones."""
-    return Edges(
-        original.rising[np.isin(moved.rising, selected.rising)],
-        original.falling[np.isin(moved.falling, selected.falling)],
     )
 
 
@@ -120,14 +113,14 @@ def _unexplained_fraction(flattened: FloatArray, edges: Edges, frequency: float)
     Only columns between the first and the last edge count. The model uses the measured edges, so
     that it includes the lengthening of bright runs.
     """
-    columns = np.arange(int(np.ceil(edges.places[0])), int(edges.places[-1]) + 1)
+    columns = np.arange(int(np.ceil(edges.place[0])), int(edges.place[-1]) + 1)
     data = flattened[columns] - flattened[columns].mean()
     power = float(data @ data)
     # Integral of the light, which is bright from a rising edge to the next falling one.
-    lit = np.concatenate([[0.0], np.cumsum(np.diff(edges.places) * edges.rises[:-1])])
+    lit = np.concatenate([[0.0], np.cumsum(np.diff(edges.place) * edges.rises[:-1])])
     smallest = power
     for exposure in _EXPOSURES / frequency:
-        ends = (np.interp(columns + side * exposure, edges.places, lit) for side in (0.5, -0.5))
+        ends = (np.interp(columns + side * exposure, edges.place, lit) for side in (0.5, -0.5))
         model = next(ends) - next(ends)
         model -= model.mean()
         energy = float(model @ model)
@@ -141,7 +134,7 @@ def align_bursts(edges: Edges) -> Edges:
     bursts = _split_into_bursts(edges)
     if len(bursts) < 2:
         return edges
-    longest = max(bursts, key=lambda burst: burst.count)
+    longest = max(bursts, key=len)
     common_lattice, burst_lattice = find_coarsest(edges), find_coarsest(longest)
     if burst_lattice is None:
         return edges
@@ -151,9 +144,7 @@ def align_bursts(edges: Edges) -> Edges:
     moved_bursts = []
     for burst, turn in zip(bursts, turns, strict=True):
         shift = (0.5 * (turn.rising + turn.falling) - first + 0.5) % 1.0 - 0.5
-        moved_bursts.append(
-            Edges(burst.rising - shift / frequency, burst.falling - shift / frequency)
-        )
+        moved_bursts.append(replace(burst, place=burst.place - shift / frequency))
     joined = Edges.join(moved_bursts)
     lattice = find_coarsest(joined)
     common_coherence = 0.0 if common_lattice is None else common_lattice.coherence
@@ -164,26 +155,13 @@ def align_bursts(edges: Edges) -> Edges:
 
 
 def _split_into_bursts(edges: Edges) -> list[Edges]:
-    if min(len(edges.rising), len(edges.falling)) < 2:
-        return [edges]
-    bright = _gaps(edges.rising, edges.falling)
-    dark = _gaps(edges.falling, edges.rising)
-    cuts = [
-        float(place) for place, gap in zip(edges.falling[: len(dark)], dark, strict=True)
-        if gap > _LEAST_PAUSE_RATIO * bright.max()
-    ]  # fmt: skip
-    bounds = [-np.inf, *cuts, np.inf]
+    gaps, is_bright = np.diff(edges.place), edges.rises[:-1]
+    longest = gaps.max(where=is_bright, initial=0.0)
+    pauses = np.flatnonzero(~is_bright & (gaps > _LEAST_PAUSE_RATIO * longest)) + 1
     bursts: list[Edges] = []
-    for first, last in pairwise(bounds):
-        part = edges.within(np.nextafter(first, np.inf), last)
-        if bursts and min(part.count, bursts[-1].count) < _LEAST_BURST_EDGES:
+    for first, last in pairwise([0, *pauses.tolist(), len(edges)]):
+        part = edges.where(slice(first, last))
+        if bursts and min(len(part), len(bursts[-1])) < _LEAST_BURST_EDGES:
             part = Edges.join([bursts.pop(), part])  # too few edges for a phase
         bursts.append(part)
     return bursts
-
-
-def _gaps(begins: FloatArray, ends: FloatArray) -> FloatArray:
-    """Return the distance from each edge of one kind to the next of the other kind, if any."""
-    following = np.searchsorted(ends, begins)
-    has_end = following < len(ends)
-    return np.asarray(ends[following[has_end]] - begins[has_end])

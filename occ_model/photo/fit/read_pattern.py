@@ -138,7 +138,7 @@ def _enough(left: Sequence[float]) -> float:
 def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
     """Return the numbers of chips in a period on whose lattices all edges lie, the fewest first."""
     count = np.arange(2, most + 1)
-    if edges.count < _LEAST_CROSSINGS or count.size == 0:
+    if len(edges) < _LEAST_CROSSINGS or count.size == 0:
         return []
     coherent = coherence(edges, count / period)
     if coherent.max() < _LEAST_COHERENCE:

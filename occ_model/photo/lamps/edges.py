@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import BoolArray, FloatArray, IndexArray
+from occ_model.photo.chips.edges import Edges
 
 _LEAST_DEVIATIONS = 6.0  # minimum height of a step in standard deviations of the noise
 _LEAST_HEIGHT = 6.0  # minimum height of a step in grey levels
@@ -20,40 +21,21 @@ _LEAST_SWING_RATIO = 0.5  # minimum height of an edge over the swing around it, 
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Edges:
-    """Edges between bright and dark, from left to right, falling and rising in turn."""
+class LampEdges(Edges):
+    """Edges with the levels of light between which each of them lies, in grey levels."""
 
-    # Shape (edges,); the column at which each passes the middle between its two levels.
-    place: FloatArray
-    rises: np.ndarray
-    low: FloatArray
-    high: FloatArray
-
-    def __len__(self) -> int:
-        return len(self.place)
+    low: FloatArray  # Shape (edges,)
+    high: FloatArray  # Shape (edges,)
 
     @property
     def swing(self) -> FloatArray:
         return self.high - self.low
 
-    def part(self, first: int, last: int) -> "Edges":
+    def part(self, first: int, last: int) -> "LampEdges":
         return self.where(slice(first, last))
 
-    def where(self, chosen: slice | np.ndarray) -> "Edges":
-        return Edges(self.place[chosen], self.rises[chosen], self.low[chosen], self.high[chosen])
 
-    def with_others(self, others: "Edges") -> "Edges":
-        places = np.concatenate([self.place, others.place])
-        order = np.argsort(places, kind="stable")
-        return Edges(
-            places,
-            np.concatenate([self.rises, others.rises]),
-            np.concatenate([self.low, others.low]),
-            np.concatenate([self.high, others.high]),
-        ).where(order)
-
-
-def edges_of(profile: FloatArray) -> Edges:
+def edges_of(profile: FloatArray) -> LampEdges:
     """Find the edges of a profile that stand out of its noise."""
     steps = np.diff(profile)
     noise = 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / np.sqrt(2.0)
@@ -65,7 +47,7 @@ def edges_of(profile: FloatArray) -> Edges:
     begin, end = _middles(turns, levels)
     ends = zip(first.tolist(), last.tolist(), begin.tolist(), end.tolist(), strict=True)
     place = np.array([_crossing(profile, *one) for one in ends])
-    return Edges(place.reshape(-1), levels[1:] > levels[:-1], low, high)
+    return LampEdges(place.reshape(-1), levels[1:] > levels[:-1], low, high)
 
 
 def _turning_points(profile: FloatArray, least: float) -> IndexArray:
@@ -110,7 +92,7 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     return kept
 
 
-def _in_chain(steps: FloatArray) -> np.ndarray:
+def _in_chain(steps: FloatArray) -> BoolArray:
     """Whether each step is one of several that follow each other and are about as large."""
     ratio = np.minimum(steps[1:], steps[:-1]) / np.maximum(steps[1:], steps[:-1])
     chains = np.append(0, np.cumsum(ratio < _LEAST_CHAIN_RATIO))
@@ -140,7 +122,7 @@ def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatAr
     return np.where(is_regular, middle[:-1], own), np.where(is_regular, middle[1:], own)
 
 
-def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> FloatArray:
+def _envelope(turns: IndexArray, levels: FloatArray, is_high: BoolArray) -> FloatArray:
     """Return the level that the high turning points follow, at each turning point."""
     place, high = turns[is_high].astype(np.float64), levels[is_high].copy()
     if len(high) > 2:
@@ -169,7 +151,7 @@ def equal_within(chip: float) -> float:
     return 1.0 + _EDGE_TOLERANCE * chip
 
 
-def matches(edges: Edges, others: Edges, chip: float) -> np.ndarray:
+def matches(edges: Edges, others: Edges, chip: float) -> BoolArray:
     """Whether each edge has an equal one among others, shape (edges,); ``chip``: in columns."""
     off = equal_within(chip)
     near = np.zeros(len(edges), dtype=bool)

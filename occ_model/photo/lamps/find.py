@@ -9,7 +9,7 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.lamps.blinking import Blinking, with_parts_joined
-from occ_model.photo.lamps.edges import Edges, edges_of, matches
+from occ_model.photo.lamps.edges import LampEdges, edges_of, matches
 from occ_model.photo.lamps.segments import (
     LEAST_EDGES_OF_STRIP,
     LEAST_EQUAL_FRACTION,
@@ -99,7 +99,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
 def _blinking(
     group: Sequence[Segment],
     segments: Sequence[Segment],
-    strips: Sequence[Edges],
+    strips: Sequence[LampEdges],
     bounds: IndexArray,
     means: FloatArray,
 ) -> list[Blinking]:
@@ -168,7 +168,9 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
     return bool(near > 2 and near >= LEAST_EQUAL_FRACTION * len(segment.edges))
 
 
-def _describe_blinking(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:
+def _describe_blinking(
+    timing: LampTiming, spans: IndexArray, strips: Sequence[LampEdges]
+) -> Blinking:
     region = around(spans)
     own = [one.where(matches(one, timing.edges, timing.chip)) for one in strips]
     low = float(np.median(np.concatenate([one.low for one in own])))

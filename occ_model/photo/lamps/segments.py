@@ -13,8 +13,8 @@ from functools import cache
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.chips.edges import Edges as ChipEdges, coherence
-from occ_model.photo.lamps.edges import Edges, equal_within, matches
+from occ_model.photo.chips.edges import coherence
+from occ_model.photo.lamps.edges import LampEdges, equal_within, matches
 
 _TOLERANCE = 0.04  # maximum distance of an edge from its place, in periods and, besides, in columns
 _COLUMN_TOLERANCE = 0.8  # columns by which an edge may lie off its place: pixels and noise
@@ -57,13 +57,13 @@ class Segment:
     """Edges of one lamp in one strip."""
 
     strip: int
-    edges: Edges  # the edges, without those of the lamp's rim
+    edges: LampEdges  # the edges, without those of the lamp's rim
     period: float | None  # columns of a cycle of a pulse that repeats; None for a code
     chip: float  # columns of a chip; half a period where a pulse repeats
 
 
 def segments_of(
-    edges: Edges, strip: int, tolerance: float = 1.0, codes: bool = True
+    edges: LampEdges, strip: int, tolerance: float = 1.0, codes: bool = True
 ) -> list[Segment]:
     """Split the edges of a strip into those of single lamps."""
     found: list[Segment] = []
@@ -93,7 +93,7 @@ def segments_of(
     return found
 
 
-def _segment(strip: int, edges: Edges, chip: float) -> Segment:
+def _segment(strip: int, edges: LampEdges, chip: float) -> Segment:
     """Describe edges on a lattice: a chip is the longest that all distances are multiples of.
 
     Where all edges of a kind are as many chips apart, a pulse repeats.
@@ -140,7 +140,7 @@ def progressions_of(place: FloatArray, tolerance: float) -> list[tuple[int, int,
 
 
 def _code_within(
-    edges: Edges, first: int, last: int, chip_within: Callable[[int, int], float | None]
+    edges: LampEdges, first: int, last: int, chip_within: Callable[[int, int], float | None]
 ) -> tuple[int, int, float] | None:
     """Find the longest stretch of edges that lie on a lattice, with the columns of a chip."""
     if not _LEAST_CODE_EDGES <= last - first <= _MOST_EDGES:
@@ -156,7 +156,7 @@ def _code_within(
     return best
 
 
-def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tuple[int, int]:
+def _without_strangers(edges: LampEdges, first: int, last: int, chip: float) -> tuple[int, int]:
     """Leave out outer edges that lie far away, or off the lattice of chips."""
     turns = np.exp(2j * np.pi * edges.place[first:last] / chip)
     off = np.zeros(last - first)
@@ -172,7 +172,7 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
     return first + begin, first + end
 
 
-def _stretches(edges: Edges) -> list[tuple[int, int]]:
+def _stretches(edges: LampEdges) -> list[tuple[int, int]]:
     """Split edges at wide gaps, and where steps become much smaller or larger."""
     gaps, swings = np.diff(edges.place), edges.swing
     ratio = np.minimum(swings[1:], swings[:-1]) / np.maximum(swings[1:], swings[:-1])
@@ -182,7 +182,7 @@ def _stretches(edges: Edges) -> list[tuple[int, int]]:
     return list(itertools.pairwise([0, *cuts.tolist(), len(edges)]))
 
 
-def chip_of(edges: Edges) -> float | None:
+def chip_of(edges: LampEdges) -> float | None:
     """Find the columns of a chip of which all distances between edges are multiples.
 
     Rising and falling edges have a lattice each: a camera's tone curve and saturation shift them
@@ -192,9 +192,7 @@ def chip_of(edges: Edges) -> float | None:
         return None
     near, usual = np.quantile(np.diff(edges.place[1:-1]), [0.1, 0.25]).tolist()
     chips = np.geomspace(_SHORTEST_CHIP_RATIO * near, _LONGEST_CHIP_RATIO * usual, _CHIP_LENGTHS)
-    inner = edges.part(1, len(edges) - 1)
-    kinds = ChipEdges(inner.place[inner.rises], inner.place[~inner.rises])
-    coherent = coherence(kinds, 1.0 / chips)
+    coherent = coherence(edges.part(1, len(edges) - 1), 1.0 / chips)
     best = int(np.argmax(coherent))
     chip = float(chips[best])
     return chip if coherent[best] >= _LEAST_COHERENCE - _COLUMN_COHERENCE / chip else None
@@ -250,26 +248,26 @@ def _agree(one: Segment, other: Segment) -> bool:
     return bool(near >= max(_LEAST_EQUAL, LEAST_EQUAL_FRACTION * most))
 
 
-def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
+def common_edges(group: Sequence[Segment]) -> tuple[LampEdges, np.ndarray]:
     """Return the edges common to several segments of a group, and the number of segments of each.
 
     The rim of a round lamp lies at other columns in each strip, and so is not among them.
     """
     off = equal_within(float(np.median([one.chip for one in group])))
-    place = np.concatenate([one.edges.place for one in group])
-    rises = np.concatenate([one.edges.rises for one in group])
-    low = np.concatenate([one.edges.low for one in group])
-    high = np.concatenate([one.edges.high for one in group])
+    every = LampEdges.join([one.edges for one in group])
     rows: list[tuple[float, bool, float, float, int]] = []
     strips = len({one.strip for one in group})
     least = max(min(LEAST_STRIPS, strips), _LEAST_STRIP_FRACTION * len(group))
     for kind in (True, False):
-        order = np.flatnonzero(rises == kind)
-        order = order[np.argsort(place[order], kind="stable")]
-        for same in np.split(order, np.flatnonzero(np.diff(place[order]) > off) + 1):
-            if len(same) >= least:
-                levels = (float(np.median(low[same])), float(np.median(high[same])))
-                rows.append((float(np.median(place[same])), kind, *levels, len(same)))
+        kept = every.where(every.rises == kind)
+        ends = np.flatnonzero(np.diff(kept.place) > off) + 1
+        for first, last in itertools.pairwise([0, *ends.tolist(), len(kept)]):
+            if last - first >= least:
+                same = kept.part(first, last)
+                place, low, high = (
+                    float(np.median(each)) for each in (same.place, same.low, same.high)
+                )
+                rows.append((place, kind, low, high, last - first))
     rows.sort()
     columns = [np.array(column) for column in zip(*rows, strict=True)] or [np.zeros(0)] * 5
-    return Edges(columns[0], columns[1].astype(bool), columns[2], columns[3]), columns[4]
+    return LampEdges(columns[0], columns[1].astype(bool), columns[2], columns[3]), columns[4]

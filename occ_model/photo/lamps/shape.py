@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import IndexArray
-from occ_model.photo.lamps.edges import Edges, matches
+from occ_model.photo.lamps.edges import LampEdges, matches
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
@@ -17,7 +17,7 @@ _SMOOTHING_STRIPS = 2  # strips on either side over which the median of a rim is
 
 
 def spans_of(
-    strips: Sequence[Edges], inner: Sequence[int], timing: LampTiming, least: float,
+    strips: Sequence[LampEdges], inner: Sequence[int], timing: LampTiming, least: float,
     bounds: IndexArray, columns: int,
 ) -> IndexArray:  # fmt: skip
     """Find the columns of a lamp in each strip that shows its edges, ``least`` grey levels high.
@@ -61,7 +61,7 @@ def rectangles(
 
 
 def _span(
-    edges: Edges, timing: LampTiming, least: float, columns: int
+    edges: LampEdges, timing: LampTiming, least: float, columns: int
 ) -> tuple[float, float] | None:
     """Return the first and the last column of a lamp in one strip; None if it is not seen there."""
     shared = np.flatnonzero(matches(edges, timing.edges, timing.chip) & (edges.swing > least))
@@ -80,7 +80,7 @@ def _span(
     return first, last
 
 
-def _outermost(edges: Edges, at: int, side: int, timing: LampTiming) -> int:
+def _outermost(edges: LampEdges, at: int, side: int, timing: LampTiming) -> int:
     """Follow the stripes outwards that the lamp's rim cuts, and thereby shifts their edges."""
     off = timing.off_lattice(edges) * timing.spacing
     while 0 <= (beside := at + side) < len(edges):

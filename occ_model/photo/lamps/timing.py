@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.lamps.edges import Edges
+from occ_model.photo.lamps.edges import LampEdges
 from occ_model.photo.lamps.segments import Segment, segments_of
 
 _LATTICE_TOLERANCE = 0.12  # maximum distance of an edge from a lattice relative to the spacing
@@ -37,7 +37,7 @@ class LampTiming:
     is_code: bool
     # Root mean square of the edges' distances from their places, as a fraction of a chip.
     off: float
-    edges: Edges
+    edges: LampEdges
 
     @property
     def chip(self) -> float:
@@ -58,7 +58,7 @@ class LampTiming:
         whole = rises[:-1] & ~rises[1:]
         return float(np.diff(place)[whole].max()) if whole.any() else self.spacing
 
-    def off_lattice(self, edges: Edges) -> FloatArray:
+    def off_lattice(self, edges: LampEdges) -> FloatArray:
         """Return how far edges are from the lattices of their kind, in spacings."""
         turns = (edges.place - np.where(edges.rises, self.rise, self.fall)) / self.spacing
         return np.abs(turns - np.rint(turns))
@@ -82,12 +82,12 @@ def common_timing(one: LampTiming, other: LampTiming) -> LampTiming | None:
         return max(one, other, key=lambda each: len(each.edges)) if agree else None
     if abs(one.spacing - other.spacing) > _PART_TOLERANCE * one.spacing:
         return None
-    edges = one.edges.with_others(other.edges)
+    edges = LampEdges.join([one.edges, other.edges])
     timing = _fit(edges, np.ones(len(edges)), one.spacing, is_code=False)
     return timing if timing is not None and timing.off < 0.5 * timing.most_off else None
 
 
-def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
+def timings_of(edges: LampEdges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
     """Find the period or the chip of edges common to some rows.
 
     Lamps side by side, in the same rows, give several timings. ``weights``: shape (edges,), how
@@ -121,7 +121,7 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
     return found
 
 
-def _refine_timing(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
+def _refine_timing(segment: Segment, edges: LampEdges, weights: FloatArray) -> LampTiming | None:
     is_code = segment.period is None
     spacing = segment.chip if segment.period is None else segment.period
     inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
@@ -136,7 +136,7 @@ def _refine_timing(segment: Segment, edges: Edges, weights: FloatArray) -> LampT
     return fit
 
 
-def _fit(edges: Edges, weights: FloatArray, spacing: float, is_code: bool) -> LampTiming | None:
+def _fit(edges: LampEdges, weights: FloatArray, spacing: float, is_code: bool) -> LampTiming | None:
     """Fit lattices to rising and falling edges; ``spacing``: roughly that of both."""
     steps = np.zeros(len(edges))
     for kind in (True, False):

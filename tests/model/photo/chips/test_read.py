@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from amount import amount
 from lit_fractions import light_of
+from model.photo.chips.edge_kinds import edges_at
 from photo_world.messages import message
 from simulated_photos import photo_of
 
@@ -14,7 +15,7 @@ from occ_model.photo.chips.edges import (
     chips_between,
     find_coarsest,
     lattice_at,
-    remove_rims,
+    part_between_rims,
 )
 from occ_model.photo.chips.read import align_bursts
 from occ_model.photo.fit.timing import Timing
@@ -57,17 +58,15 @@ def test_a_panel_cut_within_a_chip_has_no_chip_of_its_own_there(
     sliver: float, is_last: bool
 ) -> None:
     # Next to the whole chips stands what the panel's rim leaves of a bright one.
-    chips = lattice_at(Edges(np.arange(30.0, 400, 40), np.arange(50.0, 400, 40)), 1 / 20)
-    rim = 10.0 - sliver
-    edges = Edges(np.array([rim, *range(30, 400, 40)]), np.arange(10.0, 400, 40))
+    edges = edges_at([10.0 - sliver, *range(30, 400, 40)], np.arange(10.0, 400, 40))
+    inner = edges.where(slice(1, None))
     if is_last:
-        edges = Edges(400.0 - edges.falling[::-1], 400.0 - edges.rising[::-1])
-        chips = lattice_at(edges.within(0.0, 391.0), 1 / 20)
-    inner = edges.within(10.0, 390.0)
-    assert remove_rims(inner, chips).count == inner.count
-    kept = remove_rims(edges, chips)
+        inner, edges = (edges_at(400.0 - one.falling, 400.0 - one.rising) for one in (inner, edges))
+    chips = lattice_at(inner, 1 / 20)
+    assert part_between_rims(inner, chips) == slice(0, len(inner))
+    kept = edges.where(part_between_rims(edges, chips))
     found = chips_between(kept, chips)
-    assert kept.count == edges.count - 1
+    assert kept.place.tolist() == inner.place.tolist()
     assert "".join(map(str, found[0])) in "01" * 20
 
 
@@ -107,10 +106,9 @@ def edges_of_bursts(pause: float) -> Edges:
     chips = np.array([int(chip) for chip in f"0{BURST}0"])
     steps = np.flatnonzero(np.diff(chips)) + 1
     rises = np.diff(chips)[steps - 1] > 0
-    later = len(BURST) + pause
-    both = [np.concatenate([steps[kind], steps[kind] + later]) for kind in (rises, ~rises)]
-    noise = np.random.default_rng(3).normal(0.0, 0.05, (2, len(both[0])))
-    return Edges(CHIP * both[0] + noise[0], CHIP * both[1] + noise[1])
+    both = np.concatenate([steps, steps + len(BURST) + pause])
+    noise = np.random.default_rng(3).normal(0.0, 0.05, len(both))
+    return Edges(CHIP * both + noise, np.tile(rises, 2))
 
 
 @pytest.mark.parametrize("pause", [3.3, 4.4])

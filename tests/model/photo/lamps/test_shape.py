@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from occ_model.photo.lamps.blinking import Blinking, with_parts_joined
-from occ_model.photo.lamps.edges import Edges
+from occ_model.photo.lamps.edges import LampEdges
 from occ_model.photo.lamps.shape import around
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.lamp import Lamp
@@ -20,7 +20,7 @@ def part(first_column: int, last_column: int, rows: tuple[int, int] = (20, 80)) 
     place = np.arange(first_column, last_column, _PERIOD / 2, dtype=np.float64)
     count = len(place)
     rises = np.arange(count) % 2 == 0
-    edges = Edges(place, rises, np.full(count, _DARK), np.full(count, _BRIGHT))
+    edges = LampEdges(place, rises, np.full(count, _DARK), np.full(count, _BRIGHT))
     timing = LampTiming(_PERIOD, 0.01, 0.0, _PERIOD / 2, False, 0.01, edges)
     spans = np.array([[row, row + 10, first_column, last_column] for row in range(*rows, 10)])
     lamp = Lamp(around(spans), spans, _BRIGHT, True, _PERIOD, 0.01, 2.0 / _PERIOD, 1e-4, 5.0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from occ_model.photo.lamps.edges import Edges, edges_of
+from occ_model.photo.lamps.edges import LampEdges, edges_of
 from occ_model.photo.lamps.segments import LEAST_EDGES, clipped_to, progressions_of, segments_of
 from occ_model.photo.lamps.shape import rectangles
 from occ_model.photo.lamps.timing import LampTiming, timings_of
@@ -65,7 +65,7 @@ def timing_of(
     place = np.array(places)
     rises = (np.arange(len(place)) % 2 == 0) == first_rises
     levels = np.zeros(len(place)), np.full(len(place), 100.0)
-    edges = Edges(place, rises, *levels)
+    edges = LampEdges(place, rises, *levels)
     return LampTiming(
         spacing, 0.01, float(place[rises][0] % spacing), float(place[~rises][0] % spacing),
         is_code, 0.0, edges,
@@ -114,7 +114,7 @@ def test_a_chip_is_the_longest_that_all_distances_are_multiples_of(shift: float)
     at = np.flatnonzero(steps)
     rises = steps[at] > 0
     place = np.asarray(12.0 * (at + np.where(rises, 0.0, shift)), dtype=np.float64)
-    (one,) = segments_of(Edges(place, rises, np.zeros(len(at)), np.ones(len(at))), 0)
+    (one,) = segments_of(LampEdges(place, rises, np.zeros(len(at)), np.ones(len(at))), 0)
     assert (one.period, one.chip) == (None, pytest.approx(12.0, rel=0.01))
 
 

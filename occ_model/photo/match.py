@@ -17,7 +17,7 @@ from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
 from occ_model.photo.evidence.unexplained import why_not_as_sent, why_unread
 from occ_model.photo.evidence.verdict import Judge, rows_alike
 from occ_model.photo.fit.best_timing import EXPLAINED_CORRELATION
-from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
+from occ_model.photo.fit.camera_response import AVERAGINGS, CameraResponse, camera_responses
 from occ_model.photo.fitted_scene import exposure_time, make_match, readout_and_frequency
 from occ_model.photo.lamp_fit.match import match_lamp
 from occ_model.photo.photo_scene import with_notes
@@ -204,12 +204,14 @@ def check_words(estimate: str, sent: str, averaging: str) -> None:
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
 
 
-def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> list[CameraTone]:
+def _cameras(
+    stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool
+) -> list[CameraResponse]:
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)
     low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
-    return camera_tones(scene, averagings, low, high)
+    return camera_responses(scene, averagings, low, high)
 
 
 def _hypotheses(

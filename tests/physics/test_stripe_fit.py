@@ -11,8 +11,8 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
-from occ_model.photo.fit.camera_response import camera_tones
-from occ_model.photo.fit.initial_search import Search
+from occ_model.photo.fit.camera_response import camera_responses
+from occ_model.photo.fit.initial_search import TimingSearch
 from occ_model.photo.fit.least_squares import StripeModel
 from occ_model.photo.fit.timing import ChipLight, Timing
 from occ_model.transmitter.scheme import sent_chips
@@ -39,7 +39,7 @@ def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     middle = spread(31 * index, 0.0, 24.0)
     true = Timing(step, exposure, middle, 2.22)
     profile = 40.0 + 150.0 * light_of(CHIPS, true, 2000)
-    candidates = Search(profile, CHIPS).candidates(Search(profile, CHIPS).steps(), 2.22)
+    candidates = TimingSearch(profile, CHIPS).candidates(TimingSearch(profile, CHIPS).steps(), 2.22)
     model = StripeModel(profile, CHIPS, None, step)
     fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.residual)
     assert fit.timing.step == pytest.approx(step, rel=1e-6)
@@ -51,7 +51,7 @@ def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
 
 def test_gamma_comes_back_where_it_is_asked_for() -> None:
     scene = occ.Scene().replace(averaging="light", gamma=2.6, illuminance=400.0)
-    model_tone = camera_tones(scene, ("light",), 80.0, 220.0)[0].tone
+    model_tone = camera_responses(scene, ("light",), 80.0, 220.0)[0].response
     true = Timing(0.08, 0.7, 5.3, 2.6)
     tone = model_tone(light_of(CHIPS, true, 2500), 2.6)
     model = StripeModel(80.0 + 140.0 * tone, CHIPS, model_tone, 0.08)

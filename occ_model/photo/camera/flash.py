@@ -14,7 +14,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.errors import MatchError, inflect
-from occ_model.photo.lamp_fit.tone import Tone
+from occ_model.photo.lamp_fit.tone import PowerTone
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.photo.stripes.period import correlated_columns
@@ -186,7 +186,9 @@ def _levels(lines: FloatArray, values: FloatArray) -> FloatArray:
     place = np.linspace(-1.0, 1.0, len(lines))
     wall = np.exp(slope * place + bend * place**2)
     light = wall * (ambient + math.exp(height) * along)
-    return WHITE * Tone(math.exp(gamma), math.exp(toe), shoulder).levels(np.minimum(light, 1.0))
+    return WHITE * PowerTone(math.exp(gamma), math.exp(toe), shoulder).levels(
+        np.minimum(light, 1.0)
+    )
 
 
 def _doubts(fit: _BandFit, flash: float, noted: float | None, other: float) -> list[str]:

@@ -16,7 +16,7 @@ from occ_model.photo.fit.best_timing import (
     explain,
     explain_from,
 )
-from occ_model.photo.fit.camera_response import CameraTone
+from occ_model.photo.fit.camera_response import CameraResponse
 from occ_model.photo.fit.chip_runs import canonical, is_single_pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
@@ -38,7 +38,7 @@ class Candidates:
 
     stripes: Stripes
     scene: Scene
-    cameras: list[CameraTone]
+    cameras: list[CameraResponse]
     fit_gamma: bool
     estimate: str  # the unknown one of readout time and switching frequency
     # The exposure time that the camera noted, in seconds, None if it did not: of fits that are as

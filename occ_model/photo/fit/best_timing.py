@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.camera_response import CameraTone
-from occ_model.photo.fit.initial_search import Candidate, Search
+from occ_model.photo.fit.camera_response import CameraResponse
+from occ_model.photo.fit.initial_search import Candidate, TimingSearch
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import remove_trend
@@ -42,7 +42,7 @@ class Explanation:
     chips: ByteArray
     # The best fit, and those that are as good with another exposure, in order of the exposure.
     fits: tuple[StripeFit, ...]
-    camera: CameraTone
+    camera: CameraResponse
 
     @property
     def correlation(self) -> float:
@@ -58,7 +58,7 @@ class Explanation:
 def explain(
     stripes: Stripes,
     chips: ByteArray,
-    cameras: Sequence[CameraTone],
+    cameras: Sequence[CameraResponse],
     gamma: float,
     with_gamma: bool = False,
     steps: Sequence[FloatArray | None] = (None,),
@@ -73,7 +73,7 @@ def explain(
     """
     if chips.min() == chips.max():
         return None
-    search = Search(remove_trend(stripes.profile), chips)
+    search = TimingSearch(remove_trend(stripes.profile), chips)
     candidates: list[Candidate] = []
     for group in steps:
         candidates = search.candidates(group, gamma, check)
@@ -81,7 +81,7 @@ def explain(
             break
     if candidates[0].correlation < _LEAST_SURE_CORRELATION:
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
-        others = Search(stripes.flattened, chips).candidates(steps[-1], gamma, check)
+        others = TimingSearch(stripes.flattened, chips).candidates(steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     return explain_from(_promising(candidates), stripes, chips, cameras, with_gamma, check)
 
@@ -90,7 +90,7 @@ def explain_from(
     starts: Sequence[Timing],
     stripes: Stripes,
     chips: ByteArray,
-    cameras: Sequence[CameraTone],
+    cameras: Sequence[CameraResponse],
     with_gamma: bool,
     check: Callable[[], object],
 ) -> Explanation | None:
@@ -99,11 +99,11 @@ def explain_from(
     That of an equalized picture must have half the least residual of the others. What ``check``
     raises ends the fits.
     """
-    found: list[tuple[float, list[StripeFit], CameraTone]] = []
+    found: list[tuple[float, list[StripeFit], CameraResponse]] = []
     for camera in cameras:
         if found and stripes.saturated <= CLIPPED_FRACTION:  # responses then differ little
             starts = [fit.timing for fit in found[0][1]]
-        model = StripeModel(stripes.profile, chips, camera.tone, starts[0].step, check)
+        model = StripeModel(stripes.profile, chips, camera.response, starts[0].step, check)
         fits = _fits(model, starts, with_gamma)
         ratio = _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
         if fits:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.least_squares import Tone
 from occ_model.scene.scene import Scene
 
 _BLACK_LEVEL = 0.5  # grey level below which dark columns are black
@@ -16,34 +15,56 @@ _NEAR = 0.02  # of the values' range: the distance within which neighbours in ra
 AVERAGINGS = ("pixel-value", "light")
 
 
+class PixelResponse:
+    """A camera's response: from lit fractions and gamma to pixel values between any two levels.
+
+    This one is linear.
+    """
+
+    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:  # noqa: ARG002
+        return lit
+
+    def slopes(self, lit: FloatArray, gamma: float, by_timing: FloatArray) -> FloatArray:
+        """Return the values' slopes over the timing's three fields and gamma, shape (4, columns).
+
+        ``by_timing``: shape (3, columns), those of the lit fractions.
+        """
+        by_lit, by_gamma = self._rates(lit, gamma)
+        return np.concatenate([by_lit * by_timing, by_gamma[None]])
+
+    def _rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:  # noqa: ARG002
+        """Return the values' slopes over the lit fractions and over gamma."""
+        return np.ones_like(lit), np.zeros_like(lit)
+
+
 @dataclass(frozen=True, slots=True)
-class CameraTone:
-    """A camera's response to light, with the enhancement of its picture."""
+class CameraResponse:
+    """What a camera averages over an exposure, how it enhances its picture, and its response."""
 
     averaging: str
     enhancement: str
-    tone: Tone
+    response: PixelResponse
 
 
-def camera_tones(
+def camera_responses(
     scene: Scene, averagings: Sequence[str], low: float, high: float
-) -> list[CameraTone]:
+) -> list[CameraResponse]:
     """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
     Where the scene equalizes histograms, the response of an equalized picture is returned too.
     """
-    tones = []
+    found = []
     for averaging in averagings:
         black = low / high if low > _BLACK_LEVEL else 0.0
-        tone = _AveragedLight(black) if averaging == "light" else Tone()
-        tones.append(CameraTone(averaging, "none", tone))
+        response = _AveragedLight(black) if averaging == "light" else PixelResponse()
+        found.append(CameraResponse(averaging, "none", response))
         if scene.model.enhancement == "equalization":
-            tones.append(CameraTone(averaging, "equalization", _Ranks(tone)))
-    return tones
+            found.append(CameraResponse(averaging, "equalization", _Ranks(response)))
+    return found
 
 
 @dataclass(frozen=True)
-class _AveragedLight(Tone):
+class _AveragedLight(PixelResponse):
     """The response of a panel whose dark pixel value is ``black`` relative to the lit one's.
 
     By equations (1) to (3) of the paper: light is the pixel value to the power of gamma.
@@ -67,13 +88,13 @@ class _AveragedLight(Tone):
 
 
 @dataclass(frozen=True)
-class _Ranks(Tone):
+class _Ranks(PixelResponse):
     """The response of a picture with equalized histogram: each column's rank."""
 
-    tone: Tone
+    response: PixelResponse  # that of the picture before it was equalized
 
     def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:
-        values = np.round(self.tone(lit, gamma), 3)  # grey levels are no finer
+        values = np.round(self.response(lit, gamma), 3)  # grey levels are no finer
         in_order = np.sort(values)
         rank = np.searchsorted(in_order, values, side="right").astype(np.float64)
         least, most = float(rank.min()), float(rank.max())
@@ -84,12 +105,12 @@ class _Ranks(Tone):
 
         A value rises in rank by the density of values near it, times what it rises more than they.
         """
-        values = self.tone(lit, gamma)
+        values = self.response(lit, gamma)
         order = np.argsort(values)
         in_order = values[order]
         first, last = (np.searchsorted(in_order, values + part) for part in (-_NEAR, _NEAR))
         near = np.maximum(last - first, 1)
-        slopes = self.tone.slopes(lit, gamma, by_timing)
+        slopes = self.response.slopes(lit, gamma, by_timing)
         sums = np.cumsum(slopes[:, order], axis=1)
         sums = np.concatenate([np.zeros((len(sums), 1)), sums], axis=1)
         above = slopes - (sums[:, last] - sums[:, first]) / near

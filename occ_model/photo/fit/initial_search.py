@@ -36,7 +36,7 @@ class Candidate:
     correlation: float
 
 
-class Search:
+class TimingSearch:
     """Correlates a profile with chips at any timing."""
 
     def __init__(self, flattened: FloatArray, chips: ByteArray) -> None:

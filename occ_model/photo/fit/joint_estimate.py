@@ -94,7 +94,7 @@ def refine_fits(
     models = [model_by(gamma, values_blurred=blurred) for blurred in (False, True)]
     if not with_gamma and explanation.camera.averaging == "pixel-value":
         models.append(model_by(1.0))
-    model = StripeModel(stripes.profile, chips, explanation.camera.tone, step)
+    model = StripeModel(stripes.profile, chips, explanation.camera.response, step)
     found = mean_fit(models, best.timing)
     seen, unusual = (of(found.values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:

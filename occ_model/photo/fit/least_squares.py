@@ -1,6 +1,6 @@
 """Fit the exposure model to a profile of stripes by least squares.
 
-A profile is low(i) + swing(i) x tone(lit(i)): the lit fraction of the exact exposure integral,
+A profile is low(i) + swing(i) x response(lit(i)): the lit fraction of the exact exposure integral,
 through the camera's response, between two levels that vary slowly along the columns. For a given
 timing the levels are a linear fit, so that the search is over the timing alone (variable
 projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
+from occ_model.photo.fit.camera_response import PixelResponse
 from occ_model.photo.fit.damped_least_squares import Bounds, minimize_squares
 from occ_model.photo.fit.levels import LevelShapes, LitColumns
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, ChipLight, Timing
@@ -23,29 +24,6 @@ from occ_model.photo.stripes.envelope import LEAST_SWING, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.products import combine, dot, row_products
 from occ_model.scene.parameters import quantity
-
-
-class Tone:
-    """A camera's response: from lit fractions and gamma to pixel values between any two levels.
-
-    This one is linear.
-    """
-
-    def __call__(self, lit: FloatArray, gamma: float) -> FloatArray:  # noqa: ARG002
-        return lit
-
-    def slopes(self, lit: FloatArray, gamma: float, by_timing: FloatArray) -> FloatArray:
-        """Return the values' slopes over the timing's three fields and gamma, shape (4, columns).
-
-        ``by_timing``: shape (3, columns), those of the lit fractions.
-        """
-        by_lit, by_gamma = self._rates(lit, gamma)
-        return np.concatenate([by_lit * by_timing, by_gamma[None]])
-
-    def _rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:  # noqa: ARG002
-        """Return the values' slopes over the lit fractions and over gamma."""
-        return np.ones_like(lit), np.zeros_like(lit)
-
 
 _SATURATED_LEVEL = WHITE - 0.5
 _LEAST_KEPT = 0.4  # minimum unsaturated fraction for saturated columns to be left out
@@ -82,24 +60,24 @@ class StripeFit:
 
 
 class StripeModel:
-    """The model of one profile, for one sequence of chips and one tone.
+    """The model of one profile, for one sequence of chips and one response of the camera.
 
-    ``tone``: None for a profile of light, which is linear in the lit fractions. ``step``: chips per
-    column, roughly: the number of chips limits the degrees of freedom of the levels. What ``check``
-    raises ends a fit.
+    ``response``: None for a profile of light, which is linear in the lit fractions. ``step``: chips
+    per column, roughly: the number of chips limits the degrees of freedom of the levels. What
+    ``check`` raises ends a fit.
     """
 
     def __init__(
         self,
         profile: FloatArray,
         chips: ByteArray,
-        tone: Tone | None,
+        response: PixelResponse | None,
         step: float,
         check: Callable[[], object] = lambda: None,
     ) -> None:
         self._profile, self._check = profile, check
         self._light = ChipLight(chips, len(profile))
-        self._tone = tone or Tone()
+        self._response = response or PixelResponse()
         self._step = step
         # The same number for both levels, or else the mean would fit better than the swing.
         freedom = level_freedom(step * len(profile))
@@ -115,20 +93,21 @@ class StripeModel:
 
         ``low``, ``swing`` and the model's profile, limited to white, each of shape (columns,).
         """
-        _, tone, low, swing = self._at(timing)
-        return low, swing, np.minimum(low + swing * tone, WHITE)
+        _, values, low, swing = self._at(timing)
+        return low, swing, np.minimum(low + swing * values, WHITE)
 
     def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         self._check()
         lit = self._light.exposed(timing).lit
-        tone = self._tone(lit, timing.gamma)
-        levels = self._explained(tone, self._kept_profile)
-        low, swing = combine(levels.reshape(2, -1), self._shapes.all)
-        return lit, tone, low, swing
+        values = self._response(lit, timing.gamma)
+        low, swing = combine(
+            self._explained(values, self._kept_profile).reshape(2, -1), self._shapes.all
+        )
+        return lit, values, low, swing
 
-    def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:
+    def _explained(self, values: FloatArray, data: FloatArray) -> FloatArray:
         """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
-        lit = tone[self._kept]
+        lit = values[self._kept]
         return self._shapes.explaining(lit, np.ones_like(lit), data)
 
     def _slopes(self, timing: Timing) -> FloatArray:
@@ -136,12 +115,12 @@ class StripeModel:
 
         What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
         """
-        lit, tone, low, swing = self._at(timing)
+        lit, values, low, swing = self._at(timing)
         by_timing = self._light.exposed(timing).slopes()
-        changes = swing * self._tone.slopes(lit, timing.gamma, by_timing)
-        levels = self._explained(tone, changes[:, self._kept])
-        slopes = LitColumns(self._shapes.all, tone).light(levels) - changes
-        slopes[:, low + swing * tone > WHITE] = 0.0
+        changes = swing * self._response.slopes(lit, timing.gamma, by_timing)
+        levels = self._explained(values, changes[:, self._kept])
+        slopes = LitColumns(self._shapes.all, values).light(levels) - changes
+        slopes[:, low + swing * values > WHITE] = 0.0
         return np.asarray(slopes.T)
 
     def fit(

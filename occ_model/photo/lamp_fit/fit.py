@@ -20,7 +20,7 @@ from occ_model.photo.lamp_fit.model import (
     PLACE,
     RAMP,
     TOE,
-    Levels,
+    LampModel,
     envelope_basis,
 )
 from occ_model.photo.lamp_fit.profile import LampProfile
@@ -46,7 +46,7 @@ class LampFit:
     """The model's best parameters for a profile."""
 
     profile: LampProfile
-    model: Levels
+    model: LampModel
     values: FloatArray
     inverse: FloatArray  # Inverse of the products of the slopes and beliefs
     noise: FloatArray  # Shape (columns,): standard deviation of each value
@@ -149,7 +149,7 @@ def _from_period(
     basis = envelope_basis(count, knots)
     deviation = _STIFFNESS * min(1.0, (6.0 / knots) ** 1.5)
     bending = np.diff(np.eye(basis.shape[1]), 2, axis=0) / deviation
-    model = Levels(profile.columns, basis, bending, is_linear)
+    model = LampModel(profile.columns, basis, bending, is_linear)
     return _fit(profile, model, _start(profile, model, period), _FIRST_NOISE, steps)
 
 
@@ -162,7 +162,7 @@ def _with_stiffness(fit: LampFit, factor: float) -> LampFit:
 
 def _fit(
     profile: LampProfile,
-    model: Levels,
+    model: LampModel,
     values: FloatArray,
     parts: tuple[float, float],
     steps: Sequence[int],
@@ -175,7 +175,7 @@ def _fit(
     return _with_evidence(LampFit(profile, model, values, np.empty(0), noise))
 
 
-def _start(profile: LampProfile, model: Levels, period: float) -> FloatArray:
+def _start(profile: LampProfile, model: LampModel, period: float) -> FloatArray:
     columns, level = profile.columns, profile.values
     light = np.clip(level, 1e-4, 1.0) ** (1.0 if model.is_linear else 2.2)
     turn = np.exp(-2j * math.pi * columns / period)
@@ -222,7 +222,7 @@ def _off(profile: LampProfile, levels: FloatArray) -> FloatArray:
 
 
 def _minimize(
-    profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray, steps: int
+    profile: LampProfile, model: LampModel, values: FloatArray, noise: FloatArray, steps: int
 ) -> FloatArray:
     """Minimize the misfit and what contradicts the priors (Levenberg and Marquardt)."""
     most = np.concatenate([MOST_STEPS, np.ones(len(values) - COUNT)])
@@ -240,7 +240,7 @@ def _minimize(
 
 
 def _weighted_slopes(
-    profile: LampProfile, model: Levels, values: FloatArray, noise: FloatArray
+    profile: LampProfile, model: LampModel, values: FloatArray, noise: FloatArray
 ) -> FloatArray:
     """Return the slopes of the levels, and then of the beliefs, in deviations."""
     levels, slopes = model.slopes(values)

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.lamp_fit.tone import Tone
+from occ_model.photo.lamp_fit.tone import PowerTone
 from occ_model.photo.lamp_fit.wave import Wave
 
 PERIOD, PLACE, WIDTH, RAMP, BLUR, FLOOR, AMBIENT, GAMMA, TOE, BEND, NEAR, FAR = range(12)
@@ -50,7 +50,7 @@ MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3, 0.1, 
 
 
 @dataclass(frozen=True, eq=False)
-class Levels:
+class LampModel:
     """The model of a profile's levels, as fractions of white."""
 
     columns: FloatArray  # Shape (n,)
@@ -70,8 +70,8 @@ class Levels:
         """Return the light between the pulses, as a fraction of their height."""
         return _FLOOR_SCALE * math.sinh(values[FLOOR])
 
-    def tone(self, values: FloatArray) -> Tone:
-        return Tone(math.exp(values[GAMMA]), math.exp(values[TOE]), values[BEND])
+    def tone(self, values: FloatArray) -> PowerTone:
+        return PowerTone(math.exp(values[GAMMA]), math.exp(values[TOE]), values[BEND])
 
     def tension(self, values: FloatArray) -> float:
         """Return how far the tone curve is from what was believed before, in deviations."""

@@ -9,7 +9,7 @@ from occ_model.arrays import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Tone:
+class PowerTone:
     """T = T0 + kappa T0 (1 - T0) (2 T0 - 1) with T0 = ((L + eps)^(1/gamma) - eps^(1/gamma)) / D.
 
     D makes T of 1 be 1. It fits powers, sRGB's linear toe and mild S-shaped curves.

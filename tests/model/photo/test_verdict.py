@@ -14,7 +14,7 @@ from simulated_photos import photo_of
 import occ_model as occ
 from occ_model.photo.evidence.doubts import _doubts_by_reading
 from occ_model.photo.fit.chip_runs import runs_of
-from occ_model.photo.fit.initial_search import Search
+from occ_model.photo.fit.initial_search import TimingSearch
 from occ_model.photo.fit.joint_model import JointModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
@@ -62,7 +62,7 @@ def test_the_runs_of_a_period_make_up_all_its_chips(chips: list[int]) -> None:
 
 @pytest.mark.parametrize("chips", [24, 1024])
 def test_what_a_check_raises_ends_the_search(chips: int) -> None:
-    search = Search(
+    search = TimingSearch(
         np.random.default_rng(1).standard_normal(2000), np.arange(chips, dtype=np.uint8) % 3 % 2
     )
     calls: list[int] = []

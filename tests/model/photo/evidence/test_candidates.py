@@ -12,9 +12,9 @@ from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.camera_response import CameraTone, camera_tones
+from occ_model.photo.fit.camera_response import CameraResponse, PixelResponse, camera_responses
 from occ_model.photo.fit.chip_runs import canonical
-from occ_model.photo.fit.least_squares import StripeFit, Tone
+from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import sent_chips
@@ -35,7 +35,7 @@ class Case:
         stripes = occ.find_stripes(take(scene), (0, 60, 0, columns))
         low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
         self.candidates = Candidates(
-            stripes, told, camera_tones(told, ("light",), low, high), False, "readout_time", None,
+            stripes, told, camera_responses(told, ("light",), low, high), False, "readout_time", None,
             self._count,
         )  # fmt: skip
 
@@ -106,8 +106,8 @@ COLUMNS = 400
 def hypothesis(chips: np.ndarray) -> Hypothesis:
     flat = np.ones(COLUMNS)
     fit = StripeFit(TIMING, np.zeros((4, 4)), 40.0 * flat, 100.0 * flat, flat, 0.9, 1.0, True)
-    tone = CameraTone("light", "none", Tone())
-    return Hypothesis("", Explanation(chips, (fit,), tone), fit, 10.0, True)
+    camera = CameraResponse("light", "none", PixelResponse())
+    return Hypothesis("", Explanation(chips, (fit,), camera), fit, 10.0, True)
 
 
 @pytest.mark.parametrize("wrong", [[3], [5, 6]])

@@ -10,7 +10,7 @@ from lit_fractions import light_of
 
 from occ_model.photo.fit import joint_estimate
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.camera_response import CameraTone
+from occ_model.photo.fit.camera_response import CameraResponse, PixelResponse
 from occ_model.photo.fit.joint_estimate import (
     _rounding,
     _widen_covariance,
@@ -18,7 +18,7 @@ from occ_model.photo.fit.joint_estimate import (
     within_rims,
 )
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.least_squares import StripeModel, Tone
+from occ_model.photo.fit.least_squares import StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
@@ -79,9 +79,9 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(
     chips = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
     first = Timing(0.09, 0.6, 20.7, 2.2)
     profile = 40.0 + 150.0 * light_of(chips, first, COLUMNS)
-    tone = CameraTone("light", "none", Tone())
-    model = StripeModel(profile, chips, tone.tone, first.step)
-    explanation = Explanation(chips, (model.describe(first, np.eye(4) * 1e-8),), tone)
+    camera = CameraResponse("light", "none", PixelResponse())
+    model = StripeModel(profile, chips, camera.response, first.step)
+    explanation = Explanation(chips, (model.describe(first, np.eye(4) * 1e-8),), camera)
     every = np.ones(COLUMNS, dtype=bool)
     cells: Any = SimpleNamespace(profiles=lambda _: [EvenProfile(profile, every, 20.0)])
     values = np.array([first.step, exposure, first.middle, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from lit_fractions import light_of
 
-from occ_model.photo.fit.least_squares import StripeModel, Tone, level_freedom
+from occ_model.photo.fit.camera_response import PixelResponse
+from occ_model.photo.fit.least_squares import StripeModel, level_freedom
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
 
@@ -20,7 +21,7 @@ LOW, SWING = SHAPES @ [30.0, 4.0, -2.0, 1.0], SHAPES @ [120.0, -15.0, 8.0, 0.0]
 PROFILE = LOW + SWING * LIT
 
 
-class Power(Tone):
+class Power(PixelResponse):
     def __call__(self, lit: np.ndarray, gamma: float) -> np.ndarray:
         return lit**gamma
 

@@ -39,10 +39,8 @@ class AccuracyView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._snapshot: Snapshot | None = None
-        self._drawn_snapshot: Snapshot | None = None
         self._costs: tuple[SimulationRequest, MeasuredCosts] | None = None
         self._forecast: tuple[SimulationRequest, Forecast] | None = None
-        self._is_visible = False
         self._new_decisions: tuple[Decision, ...] = ()
         self._marked_decisions: tuple[Decision, ...] = ()
         self._selected = self._slowest = ""
@@ -82,10 +80,6 @@ class AccuracyView(QWidget):
     def scene_parts(self) -> tuple[QWidget, ...]:
         return self.table, self.detail
 
-    def set_visible(self, visible: bool) -> None:
-        self._is_visible = visible
-        self._redraw()
-
     def show_settings(self, settings: SimulationSettings) -> None:
         self.tolerance.show_unit(unit_of(settings.observable))
         self.plot.show_unit(unit_of(settings.observable))
@@ -102,7 +96,10 @@ class AccuracyView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         self._snapshot = snapshot
-        self._redraw()
+        self._draw()
+        if self._marked_decisions != self._new_decisions:
+            self._marked_decisions = self._new_decisions
+            self.table.bring_into_view({each.effect for each in self._new_decisions})
 
     def mark_switched(self, decisions: tuple[Decision, ...]) -> None:
         """Mark the effects that the plan has just switched; an empty tuple removes the marks."""
@@ -124,18 +121,9 @@ class AccuracyView(QWidget):
         self.plot.show_effect_sets(forecast)
         self._draw()
 
-    def _redraw(self) -> None:
-        if self._snapshot is None or self._snapshot is self._drawn_snapshot or not self._is_visible:
-            return
-        self._drawn_snapshot = self._snapshot
-        self._draw()
-        if self._marked_decisions != self._new_decisions:
-            self._marked_decisions = self._new_decisions
-            self.table.bring_into_view({each.effect for each in self._new_decisions})
-
     def _draw(self) -> None:
         snapshot = self._snapshot
-        if snapshot is None or not self._is_visible:
+        if snapshot is None:
             return
         frame, costs, forecast = snapshot.frame, self._find_costs(snapshot), None
         if self._forecast is not None and self._forecast[0].scene == snapshot.request.scene:

@@ -178,5 +178,4 @@ class AccuracyPane(PiecesPane):
         self.view.show_settings(self._settings.settings)
 
     def set_visible(self, visible: bool) -> None:
-        self.view.set_visible(visible)
         self.study.set_visible(visible)

@@ -173,7 +173,6 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
             results.switched,
             results.snapshot,
         ),
-        updates_hidden=True,
         figures=(accuracy_figure(),),
     )
 

@@ -104,7 +104,6 @@ def test_the_accuracy_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf)
     snapshot = replace(measured, frame=replace(measured.frame, timings=timings))
     view = gallery.show(AccuracyView(), 1300, 280)
     view.show_settings(SimulationSettings())
-    view.set_visible(True)
     view.show_snapshot(snapshot)
     complete = CompleteSimulation(snapshot.request.scene, "image")
     differences = {name: complete.without(name) for name in complete.effects}

@@ -34,9 +34,6 @@ class CompareView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._pinned = PinnedPair()
-        self._drawn_pair: PinnedPair | None = None
-        self._is_visible = False
         self.pin_buttons = {
             name: push_button(
                 f"Pin {name}",
@@ -58,7 +55,7 @@ class CompareView(QWidget):
         self._make_table()
         self._make_plot()
         self._lay_out()
-        self._redraw()
+        self.show_pinned(PinnedPair())
 
     def _make_table(self) -> None:
         tip = "Inputs that differ between A and B, then outputs."
@@ -73,8 +70,7 @@ class CompareView(QWidget):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         # Rows are fitted after the columns, because the height of a sentence depends on the width
         # of its column.
-        self._fitting = QTimer(self, singleShot=True)
-        self._fitting.setInterval(0)
+        self._fitting = QTimer(self, singleShot=True, interval=0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
         header.sectionResized.connect(lambda: self._fitting.start())
 
@@ -105,18 +101,7 @@ class CompareView(QWidget):
         panes.setSizes([560, 380])
         fill(QVBoxLayout(self), self.hint, row, (panes, 1), None, margins=(4, 2, 4, 2), spacing=2)
 
-    def set_visible(self, visible: bool) -> None:
-        self._is_visible = visible
-        if visible and self._drawn_pair is not self._pinned:
-            self._redraw()
-
     def show_pinned(self, pinned: PinnedPair) -> None:
-        self._pinned = pinned
-        if self._is_visible:
-            self._redraw()
-
-    def _redraw(self) -> None:
-        pinned = self._drawn_pair = self._pinned
         pins: dict[str, Pin | None] = {"A": pinned.a, "B": pinned.b}
         for name, pin in pins.items():
             self.return_buttons[name].setEnabled(pin is not None)
@@ -194,14 +179,16 @@ class ComparePane(Pane[None]):
         super().__init__(view)
         self.view = view
         self._pins = pins
+        self._is_visible = False
         view.pin_asked.connect(pins.pin)
         view.go_asked.connect(pins.go_to)
         view.clear_asked.connect(pins.clear)
         pins.changed.connect(self._show)
-        self._show()
 
     def _show(self) -> None:
-        self.view.show_pinned(self._pins.pinned)
+        if self._is_visible:
+            self.view.show_pinned(self._pins.pinned)
 
     def set_visible(self, visible: bool) -> None:
-        self.view.set_visible(visible)
+        self._is_visible = visible
+        self._show()

@@ -127,9 +127,7 @@ def test_an_impossible_command_is_answered_with_a_sentence(pins: PinController) 
 
 @pytest.fixture
 def view(qtbot: QtBot) -> CompareView:
-    view = show_widget(qtbot, CompareView(), 660, 260)
-    view.set_visible(True)
-    return view
+    return show_widget(qtbot, CompareView(), 660, 260)
 
 
 def texts(table: QTableWidget) -> list[list[str]]:
@@ -187,17 +185,6 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
     assert brightest <= high <= 1.2 * max(brightest, 20.0)
 
 
-def test_a_hidden_view_draws_nothing_until_it_is_shown(
-    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
-) -> None:
-    view.set_visible(False)
-    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pins.pinned)
-    assert view.table.rowCount() == 0
-    view.set_visible(True)
-    assert view.table.rowCount() > 0
-
-
 class Bench(PaneBench):
     """The pane, and the pins that its entries set."""
 
@@ -218,14 +205,17 @@ def bench(qtbot: QtBot, small_scene: Scene) -> Bench:
     return Bench(qtbot, small_scene)
 
 
-def test_states_are_pinned_compared_and_restored_in_one_step(
+def test_states_are_pinned_compared_once_the_pane_is_visible_and_restored_in_one_step(
     bench: Bench, small_scene: Scene
 ) -> None:
+    bench.see("compare", False)
     bench.choose("pin_a")
     assert "as A" in bench.said[-1]
     assert "pin it as B" in bench.said[-1]
     bench.simulate(iso=200.0)
     bench.choose("pin_b")
+    assert bench.view.table.rowCount() == 0
+    bench.see("compare")
     assert ["ISO speed", "100", "200"] in texts(bench.view.table)
     steps = bench.scenes.undo_stack.count()
     bench.view.return_buttons["A"].click()

@@ -43,6 +43,7 @@ class DecodeView(QWidget):
     def __init__(self, decoders: Sequence[str] = ()) -> None:
         super().__init__()
         self._decoder_names = tuple(decoders)
+        self._decoder = ""  # the chosen decoder; empty for the first
         self._reading: Reading | None = None
         self._early_reading: Reading | None = None
         self._drawn_result: DecodeResult | None = None
@@ -93,6 +94,7 @@ class DecodeView(QWidget):
                 self.decoders.addTab("")
             while self.decoders.count() > len(results):
                 self.decoders.removeTab(self.decoders.count() - 1)
+            self.choose_decoder(self._decoder)
         self._mark_tabs(reading)
         self.origin.show()
         self.strip.setVisible(bool(reading.sent))
@@ -133,14 +135,17 @@ class DecodeView(QWidget):
         return self._list_results(reading)[max(0, self.decoders.currentIndex())]
 
     def choose_decoder(self, name: str) -> None:
-        if self._reading is not None:
-            names = [result.decoder for result in self._list_results(self._reading)]
+        self._decoder = name
+        results = () if self._reading is None else self._list_results(self._reading)
+        names = [result.decoder for result in results]
+        if name in names:
             self.decoders.setCurrentIndex(names.index(name))
 
     def _choose(self) -> None:
-        self._show_result()
         if self._reading is not None:
-            self.decoder_chosen.emit(self._find_result(self._reading).decoder)
+            self._decoder = self._find_result(self._reading).decoder
+            self._show_result()
+            self.decoder_chosen.emit(self._decoder)
 
     def _show_result(self) -> None:
         reading = self._reading

@@ -1,7 +1,7 @@
 """Verdict bar: whether the code was read, in words, colour and shape, with further badges."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from PySide6.QtCore import Signal
 
@@ -17,9 +17,9 @@ from occ_gui.simulation.verdict import (
     verdict_on,
 )
 from occ_gui.story.column_facts import READ_BY_ALL, chips_in_exposure
-from occ_gui.widgets.state_bar import StateBar
+from occ_gui.widgets.state_bar import CHANGES_SCENE, StateBar
 from occ_gui.widgets.state_look import Badge, State
-from occ_model.results.decoding import PAPER_DECODER, Remedy, overexposed_text, symptom
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, overexposed_text, symptom
 from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import TOLERANCE, unit_of
 from occ_model.scene.units import PERCENT, SECOND
@@ -105,19 +105,23 @@ def _list_other_decoders(reading: Reading, decoder: str) -> list[Badge]:
 AVERAGES_LESSON = "2-past-the-shutter"
 """The lesson on codes that are read though each column averages several chips."""
 
+_LESSON_TIP = "Opens the lesson on exposures longer than a chip."
+_COLOURS_TIP = "Shows all three colours and what is read in each of them."
+
 
 class VerdictBar(StateBar):
     """The verdict on the code that is read from the simulated picture."""
 
-    step_chosen = Signal(object)  # the user takes the step that helps, a :class:`Remedy`
+    step_chosen = Signal(object)
+    """The user takes the step that helps, a :class:`~occ_model.results.decoding.Remedy`."""
     lesson_wanted = Signal(str)  # the user asks for the lesson on what is shown, by its name
     colours_wanted = Signal()  # the user asks for all three colours of a colour camera
 
     def __init__(self) -> None:
         super().__init__()
-        self._remedy: Remedy | None = None
-        self._lesson = self._colour = ""
-        self.step_taken.connect(self._take_remedy)
+        self._colour = ""
+        self._take_step: Callable[[], object] = lambda: None
+        self.step_taken.connect(lambda: self._take_step())
         self._reading: Reading | None = None
         self._decoder = PAPER_DECODER
         self._running_value = self._picture_value = ""
@@ -176,7 +180,7 @@ class VerdictBar(StateBar):
 
     def _write(self) -> None:
         reading = self._reading
-        self._offer(None)
+        self._offer("")
         if self._failure:
             self.show_state(State.BAD, "No picture of this scene", self._failure)
             return
@@ -193,51 +197,35 @@ class VerdictBar(StateBar):
             state, badges = State.WAITING, (make_computing_badge(), *badges)
         elif self._rate is not None:
             badges = (make_rate_badge(self._rate), *badges)
-        cause = cause_in(reading, result)
+        heading, *sentences = self._compose(reading, result, verdict)
+        self.show_state(state, self._make_heading(heading), *sentences, badges=badges)
+
+    def _compose(self, reading: Reading, result: DecodeResult, verdict: CodeVerdict) -> list[str]:
+        """Return a heading and its explanation in ever fewer words; offer the step that helps."""
         if not has_chips(reading.scene.transmitter):
-            title, *sentences = describe_bars(reading)
-            heading = self._make_heading(title)
-        elif cause is None:
-            # While the cause is being searched for, the title names no symptom.
-            title = verdict.title if reading.causes is None else verdict.heading
-            title += _describe_error(verdict, reading)
-            heading, sentences = self._make_heading(title), self._explain(verdict, reading)
-            if self._colour:
-                self._offer_colours()
-            elif _is_averaged(verdict, reading) and not (self._is_outdated or self._running_value):
-                self._offer_lesson(AVERAGES_LESSON)
-        else:
-            beginning = "No code" if result.code is None else verdict.title
-            heading = self._make_heading(f"{beginning}: {cause.what}")
-            sentences = [
-                f"{cause.why} {symptom(verdict.reason)}".strip(),
-                cause.why,
-                symptom(cause.why),
-            ]
-            self._offer(None if self._is_outdated else cause.remedy)
-        self.show_state(state, heading, *sentences, badges=badges)
+            return [*describe_bars(reading)]
+        cause = cause_in(reading, result)
+        if cause is not None:
+            remedy = cause.remedy
+            if remedy is not None and not self._is_outdated:
+                self._offer(remedy.label, lambda: self.step_chosen.emit(remedy))
+            verdict_in_short = "No code" if result.code is None else verdict.title
+            why = f"{cause.why} {symptom(verdict.reason)}".strip()
+            return [f"{verdict_in_short}: {cause.what}", why, cause.why, symptom(cause.why)]
+        if self._colour:
+            self._offer("Three colours", self.colours_wanted.emit, _COLOURS_TIP)
+        elif _is_averaged(verdict, reading) and not (self._is_outdated or self._running_value):
+            self._offer("Lesson", lambda: self.lesson_wanted.emit(AVERAGES_LESSON), _LESSON_TIP)
+        # While the cause is being searched for, the heading names no symptom.
+        heading = verdict.title if reading.causes is None else verdict.heading
+        return [heading + _describe_error(verdict, reading), *self._explain(verdict, reading)]
 
-    def _take_remedy(self) -> None:
-        if self._remedy is not None:
-            self.step_chosen.emit(self._remedy)
-        elif self._lesson:
-            self.lesson_wanted.emit(self._lesson)
-        elif self._colour:
-            self.colours_wanted.emit()
-
-    def _offer(self, step: Remedy | None) -> None:
-        self._remedy, self._lesson = step, ""
-        self.offer_step(step.label if step else "")
-        self.step.setToolTip("Changes the scene or the decoder in one step.")
-
-    def _offer_lesson(self, name: str) -> None:
-        self._lesson = name
-        self.offer_step("Lesson")
-        self.step.setToolTip("Opens the lesson on exposures longer than a chip.")
-
-    def _offer_colours(self) -> None:
-        self.offer_step("Three colours")
-        self.step.setToolTip("Shows all three colours and what is read in each of them.")
+    def _offer(
+        self, label: str, take: Callable[[], object] = lambda: None, tip: str = CHANGES_SCENE
+    ) -> None:
+        """Offer a step, which ``take`` takes; no step without a label."""
+        self._take_step = take
+        self.offer_step(label, tip)
 
     def _make_heading(self, verdict: str) -> str:
         """Return the heading, which names the verdict's source if several verdicts are visible."""

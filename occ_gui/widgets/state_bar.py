@@ -15,6 +15,7 @@ _ICON = 32
 _TEXT_SCALE = 1.25
 _RADIUS = 8
 _PADDING, _MARGIN = 12, 5
+CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of most steps
 _WIDEST_STEP = 0.4  # of the room that the button of a step may take beside the texts
 
 
@@ -40,8 +41,7 @@ class StateBar(QWidget):
         self._lines = self._title_lines = 1
         self._step_height = 0  # that the button takes below the texts
         self.badges = BadgeRow()
-        tip = "Changes the scene or the decoder in one step."
-        self.step = push_button("", tip, self.step_taken, name="A step that helps")
+        self.step = push_button("", CHANGES_SCENE, self.step_taken, name="A step that helps")
         self.step.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (
@@ -181,7 +181,9 @@ class StateBar(QWidget):
         self.setAccessibleDescription(f"{title}. {self._sentences[0]}".strip())
         self.changed.emit()
 
-    def offer_step(self, label: str) -> None:
+    def offer_step(self, label: str, tip: str = CHANGES_SCENE) -> None:
+        """Offer a step that helps, by a button with this label; hide the button without one."""
+        self.step.setToolTip(tip)
         if self.step.text() == label and self.step.isHidden() == (not label):
             return
         self.step.setText(label)

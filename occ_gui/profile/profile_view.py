@@ -14,9 +14,9 @@ from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import check_box, fill, paragraph, push_button
 from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin_pen
-from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
+from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods, round_level_up
 from occ_gui.widgets.plot import LineLegend, new_plot
-from occ_model.arrays import LARGEST_BYTE, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.scene import Transmitter
 
@@ -178,17 +178,10 @@ class ProfileView(QWidget):
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
         self._photo = profile
+        columns, self.photo_levels = (None, None) if profile is None else profile.curve
+        _draw(self.photo, self.photo_levels, columns)
         if profile is not None:
             self.chips.place(profile.first_column, profile.scale)
-        if profile is None:
-            self.photo_levels = None
-            _draw(self.photo, None)
-        elif profile.comparison is None:  # in the photo's own levels
-            self.photo_levels = profile.raw
-            _draw(self.photo, profile.raw, profile.first_column, profile.scale)
-        else:  # in the simulation's levels
-            self.photo_levels = profile.comparison.photo
-            _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
         is_fitted = profile is not None and profile.comparison is not None
         self.legend.show_line("photo", profile is not None and not is_fitted)
         self.legend.show_line("fitted", is_fitted)
@@ -250,15 +243,13 @@ class ProfileView(QWidget):
             _draw(self.before, self._before_levels)
 
     def _fit_levels(self) -> None:
-        """Set the range from black to the largest value, rounded up so that it rarely changes."""
+        """Set the range from black to the largest level, rounded up."""
         before = self._before_levels if self.photo_levels is None else None
         profiles = (*self._simulated_levels, before, self.photo_levels)
         largest = max(
             (float(profile.max()) for profile in profiles if profile is not None), default=0.0
         )
-        step = 20.0
-        top = min(max(step, np.ceil(largest / step) * step), LARGEST_BYTE)
-        self.plot.setYRange(0.0, top, padding=0.06)
+        self.plot.setYRange(0.0, round_level_up(largest), padding=0.06)
 
     def _fit_columns(self, reading: Reading) -> None:
         if not (self._packets.isChecked() or self._panel.isChecked()):
@@ -300,13 +291,14 @@ class ProfileView(QWidget):
 
 
 def _draw(
-    curve: pg.PlotDataItem, values: FloatArray | None, first_column: float = 0.0, scale: float = 1.0
+    curve: pg.PlotDataItem, values: FloatArray | None, columns: FloatArray | None = None
 ) -> None:
-    """Draw a curve, unless it has not changed: painting takes longer than comparing."""
-    if values is None:
-        columns, values = np.empty(0), np.empty(0)
-    else:
-        columns = first_column + scale * np.arange(len(values), dtype=np.float64)
+    """Draw a curve, by default from column 0 on, unless it is drawn already.
+
+    Painting takes longer than comparing.
+    """
+    values = np.empty(0) if values is None else values
+    columns = np.arange(len(values), dtype=np.float64) if columns is None else columns
     drawn = curve.getOriginalDataset()
     if drawn[0] is None or not all(map(np.array_equal, drawn, (columns, values))):
         curve.setData(columns, values)

@@ -1,6 +1,5 @@
 """Row of the profile: grey level over column, of simulation, band model and photo."""
 
-import math
 from typing import TypeVar
 
 import numpy as np
@@ -14,6 +13,7 @@ from occ_gui.story.curve_lines import DASH, keep_extremes, make_lines
 from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
+from occ_gui.widgets.columns import round_level_up
 from occ_gui.widgets.guarded_paint import are_equal
 from occ_model.arrays import LARGEST_BYTE, FloatArray
 from occ_model.results.decoding import DecodeResult
@@ -23,9 +23,6 @@ _Level = TypeVar("_Level", float, FloatArray)  # one level, or one for each colu
 _LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)  # grey levels between two numbers on the axis
 _LEAST_SPACING = 26  # fewest pixels between two numbers on the axis
-
-_TOP_STEP = 20.0
-"""The largest level is rounded up to a multiple of this, so that the axis rarely changes."""
 
 _GRID_ALPHA = 38
 _SHADE = 22 / 255
@@ -76,14 +73,7 @@ class ProfileRow(StoryRow):
     @property
     def photo(self) -> tuple[FloatArray, FloatArray] | None:
         """The columns of the photo on the simulated picture, and their levels."""
-        photo = self._photo
-        if photo is None:
-            return None
-        if photo.comparison is None:  # in the photo's own levels
-            columns = np.arange(len(photo.raw), dtype=np.float64)
-            return np.asarray(photo.first_column + photo.scale * columns), photo.raw
-        levels = photo.comparison.photo
-        return photo.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels
+        return None if self._photo is None else self._photo.curve
 
     @property
     def is_photo_fitted(self) -> bool:
@@ -107,7 +97,7 @@ class ProfileRow(StoryRow):
         photo = self.photo
         curves = (self.levels, self.band, None if photo is None else photo[1])
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
-        self._top = min(max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP), LARGEST_BYTE)
+        self._top = round_level_up(largest)
         region = None if self._result is None else self._result.region
         inputs = (*curves, self.threshold, region, self._photo)
         # Results from the picture are mostly equal to the earlier ones.

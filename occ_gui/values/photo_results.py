@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
+import numpy as np
+
 from occ_gui.values.choices import LoadOptions, MatchChoice, PhotoFrame, PhotoSource
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import Region
@@ -105,3 +107,15 @@ class PhotoProfile:
     sentence: str = ""
     photo: "Photo | None" = None
     is_outdated: bool = False  # whether the simulation shows an earlier scene
+
+    @property
+    def curve(self) -> tuple[FloatArray, FloatArray]:
+        """Columns of the simulated picture, and the photo's levels there.
+
+        A compared photo has the simulation's mean and contrast; any other has its own levels.
+        """
+        if self.comparison is None:
+            columns = np.arange(len(self.raw), dtype=np.float64)
+            return np.asarray(self.first_column + self.scale * columns), self.raw
+        levels = self.comparison.photo
+        return self.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels

@@ -70,7 +70,8 @@ class CompareView(QWidget):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         # Rows are fitted after the columns, because the height of a sentence depends on the width
         # of its column.
-        self._fitting = QTimer(self, singleShot=True, interval=0)
+        self._fitting = QTimer(self, singleShot=True)
+        self._fitting.setInterval(0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
         header.sectionResized.connect(lambda: self._fitting.start())
 

@@ -267,8 +267,13 @@ class Parts(QObject):
 
     def describe_photo(self) -> str:
         """Return the photo's name and the verdict on its match; empty if no photo is open."""
-        pane = self.shell.find_pane("photo")
-        return "" if pane is None else str(pane.verdict.caption())
+        results = self.results_store.results
+        if results.document is None:
+            return ""
+        from occ_gui.photo.photo_verdict import photo_caption
+        from occ_gui.photo.shown_photo import ShownPhoto
+
+        return photo_caption(ShownPhoto.of(self.store.store.workspace, results))
 
     def _may_measure_rates(self) -> bool:
         """Return whether the first picture is shown, or none is being simulated."""

@@ -13,7 +13,7 @@ from occ_gui.widgets.plain_text import copy_text
 
 if TYPE_CHECKING:
     from occ_gui.explanation.pane import ExposureController
-    from occ_gui.photo.photo_view import PhotoView
+    from occ_gui.photo.photo_verdict import PhotoVerdictBar
     from occ_gui.picture.image_view import PicturesPane
 
 
@@ -78,8 +78,8 @@ class _VerdictChoice(QObject):
 
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
-        self._story, self._modes = parts.story, parts.window.modes
-        self._photo: PhotoView | None = None
+        self._story, self._modes, self._photos = parts.story, parts.window.modes, parts.photos
+        self._verdict: PhotoVerdictBar | None = None
         self._is_step_about_photo = False
         parts.window.modes.changed.connect(self.show)
         parts.photos.opened.connect(self.show)
@@ -91,15 +91,15 @@ class _VerdictChoice(QObject):
         """Show the verdict on the photo, too, once the photo's pane is made."""
         if name != "photo":
             return
-        self._photo = pane.view
+        self._verdict = pane.view.verdict
         self._story.add_photo_verdict(pane.view.verdict)
         self._show_simulation()
         self.show()
 
     def _show_simulation(self) -> None:
         verdict = self._story.verdict
-        if self._photo is not None:
-            self._photo.verdict.show_simulation(verdict.state, verdict.heading)
+        if self._verdict is not None:
+            self._verdict.show_simulation(verdict.state, verdict.heading)
 
     def note_step(self, is_about_photo: bool) -> None:
         self._is_step_about_photo = is_about_photo
@@ -109,7 +109,7 @@ class _VerdictChoice(QObject):
         is_photo_step = self._modes.mode == "lessons" and self._is_step_about_photo
         is_about_photo = self._modes.mode == "photo" or is_photo_step
         self._story.show_photo_verdict(is_about_photo)
-        has_photo = self._photo is not None and self._photo.has_photo
+        has_photo = self._photos.document is not None
         self._story.verdict.name_simulation(is_about_photo or has_photo)
 
 

@@ -35,6 +35,7 @@ class FittedStripes:
             box.addItem(item, ignoreBounds=True)
 
     def show_match(self, match: Match | None) -> None:
+        """Show the stripes of a match; None hides those of the last one."""
         if match is not None:
             region = match.region
             rows = max(1, round(_FRACTION * region.rows))
@@ -43,12 +44,8 @@ class FittedStripes:
             self.picture.set_image(stripes_of(match), rect)
             self.frame.setRect(rect)
             self.word.setPos(left, top + rows)
-        self.show_valid(match is not None)
-
-    def show_valid(self, is_valid: bool) -> None:
-        """Hide the stripes of a match that is outdated."""
         for item in self.items:
-            item.setVisible(is_valid)
+            item.setVisible(match is not None)
 
 
 def stripes_of(match: Match) -> ByteArray:

@@ -18,11 +18,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.widgets.building import fill, make_read_only, name_widget, push_button
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
+from occ_model.scene.scene import Scene
 from occ_model.scene.units import NONE
 
 _MOST_ROWS = 6  # rows of the table that are visible without scrolling
@@ -65,8 +67,9 @@ class PartForm(QWidget):
         self._make_table()
         buttons = fill(QHBoxLayout(), self.search, self.by_hand, self.whole_photo, None)
         fill(QVBoxLayout(self), buttons, self.table, self.target, margins=0, spacing=4)
-        self.show_lamps((), None)
-        self.show_region(None)
+        self._shown = ShownPhoto(Scene())
+        self._show_lamps((), None)
+        self.show_photo(self._shown)
 
     def _make_table(self) -> None:
         self.table = make_read_only(
@@ -84,7 +87,22 @@ class PartForm(QWidget):
         header.setStretchLastSection(True)
         self.table.itemSelectionChanged.connect(self._choose)
 
-    def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
+    def show_photo(self, shown: ShownPhoto) -> None:
+        """Show the lamps of a photo, and which part of it is matched."""
+        last, self._shown = self._shown, shown
+        if (shown.lamps, shown.part) != (last.lamps, last.part):
+            self._show_lamps(shown.lamps, shown.chosen_lamp)
+        lamp, match = shown.chosen_lamp, shown.present_match
+        region = shown.rectangle if lamp is None else shown.lamps[lamp].region
+        self._show_region(region, lamp, None if match is None else match.region)
+        with QSignalBlocker(self.by_hand):
+            self.by_hand.setChecked(shown.rectangle is not None)
+        _, is_searching, reason = shown.search
+        self.search.setEnabled(not is_searching)
+        if is_searching or reason:
+            self.target.setText("Searching for lamps…" if is_searching else reason)
+
+    def _show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
         with QSignalBlocker(self.table):
             self.table.setRowCount(len(lamps))
             for row, lamp in enumerate(lamps):
@@ -113,9 +131,7 @@ class PartForm(QWidget):
         chip = NONE.format_estimate(1.0 / product, error)
         return str(row + 1), columns, f"chip {chip}", f"code{doubt}"
 
-    def show_region(
-        self, region: Region | None, lamp: int | None = None, fitted: Region | None = None
-    ) -> None:
+    def _show_region(self, region: Region | None, lamp: int | None, fitted: Region | None) -> None:
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo.
 
         ``fitted``: where a match of the whole photo has found the stripes.
@@ -130,16 +146,6 @@ class PartForm(QWidget):
         else:
             text = "The whole photo will be searched for stripes."
         self.target.setText(text)
-
-    def show_by_hand(self, by_hand: bool) -> None:
-        with QSignalBlocker(self.by_hand):
-            self.by_hand.setChecked(by_hand)
-
-    def show_search(self, is_searching: bool, reason: str) -> None:
-        """Show that the search is running, or why no lamps were found."""
-        self.search.setEnabled(not is_searching)
-        if is_searching or reason:
-            self.target.setText("Searching for lamps…" if is_searching else reason)
 
     def _choose(self) -> None:
         rows = {item.row() for item in self.table.selectedItems()}
@@ -189,7 +195,7 @@ class LampOutlines(QObject):
         super().__init__()
         # A weak reference: the view holds the rectangle, and its signal holds this object.
         self._box = weakref.proxy(box)
-        self._lamps: Sequence[Lamp] = ()
+        self._shown = ShownPhoto(Scene())
         self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
         self._is_updating = False
         self.rectangle = pg.ROI((0, 0), (1, 1), pen=pg.mkPen(REGION, width=_THIN))
@@ -206,10 +212,15 @@ class LampOutlines(QObject):
             item.hide()
             box.addItem(item, ignoreBounds=True)
 
-    def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
+    def show_photo(self, shown: ShownPhoto) -> None:
+        last, self._shown = self._shown, shown
+        if (shown.lamps, shown.part) != (last.lamps, last.part):
+            self._show_lamps(shown.lamps, shown.chosen_lamp)
+            self._show_rectangle(shown.rectangle)
+
+    def _show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
         for item in (item for items in self.items for item in items):
             self._box.removeItem(item)
-        self._lamps = lamps
         self.items = [
             self._draw_outline(index, lamp, index == chosen) for index, lamp in enumerate(lamps)
         ]
@@ -232,13 +243,13 @@ class LampOutlines(QObject):
 
     def click(self, position: QPointF) -> None:
         row, column = round(position.y()), round(position.x())
-        for index, lamp in enumerate(self._lamps):
+        for index, lamp in enumerate(self._shown.lamps):
             outline = QPolygonF([QPointF(x, y) for x, y in lamp.outline.tolist()])
             if lamp.covers(row, column) or outline.containsPoint(position, Qt.FillRule.OddEvenFill):
                 self.clicked.emit(index)
                 return
 
-    def show_rectangle(self, region: Region | None) -> None:
+    def _show_rectangle(self, region: Region | None) -> None:
         self.rectangle.setVisible(region is not None)
         self.area.setVisible(region is not None)
         if region is not None:

@@ -16,7 +16,6 @@ from occ_gui.values.choices import MatchChoice
 from occ_gui.values.photo_results import MatchOutcome, MatchRequest
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
-from occ_model.results.bands import Cure
 from occ_model.results.match import Match
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
@@ -47,10 +46,6 @@ def describe_sources(
     if match.pattern_was_read and match.lamp is None:
         sources["pattern"] = f"read from the photo {photo_name}"
     return sources
-
-
-def cure_of_match(match: Match) -> Cure:
-    return cure_of(match.scene, match.uncertainties.get("exposure_time", 0.0))
 
 
 class MatchController(QObject):

@@ -1,11 +1,10 @@
 """Form of a match: its choices, the button that starts it, and its progress."""
 
-from collections.abc import Mapping
-
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from occ_gui.photo.match_figures import is_certain
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import new_gesture
@@ -21,7 +20,7 @@ from occ_gui.widgets.building import (
 from occ_model.results.match import known_parameter
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene, Transmitter
+from occ_model.scene.scene import Scene
 
 _LAMP = "lamp_frequency"
 
@@ -43,10 +42,7 @@ class MatchForm(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._scene: Scene | None = None
-        self._shown_choice = MatchChoice()
-        self._certain: Mapping[str, float] = {}
-        self._certain_before: Mapping[str, float] = {}  # values confirmed for earlier photos only
+        self._shown = ShownPhoto(Scene())
         self.sent = KeyedComboBox(
             "What was sent",
             "What the LED in the photo sent: what the scene sends, a lamp of a known frequency, or "
@@ -127,7 +123,7 @@ class MatchForm(QWidget):
     def _take_sent(self, sent: str) -> None:
         if sent == "lamp":  # choosing it confirms its frequency
             self._confirm_lamp(self.lamp.value())
-        elif self._certain.get(_LAMP) == self.lamp.value():
+        elif self._shown.choice.certain.get(_LAMP) == self.lamp.value():
             self.certain_chosen.emit(_LAMP, None)  # the confirmed frequency was that of this lamp
 
     def _confirm_lamp(self, frequency: float) -> None:
@@ -137,8 +133,7 @@ class MatchForm(QWidget):
         estimate = self.estimate.key()
         if estimate == "readout_time" and self.sent.key() == "lamp":
             return _LAMP
-        sent = Transmitter() if self._scene is None else self._scene.transmitter
-        return known_parameter(estimate, sent)
+        return known_parameter(estimate, self._shown.scene.transmitter)
 
     def _set_certain(self, certain: bool) -> None:
         name = self._known_name()
@@ -155,7 +150,7 @@ class MatchForm(QWidget):
         self.cancel = push_button(
             "&Cancel", "Cancel this match; the previous result stays.", self.cancelled
         )
-        self.show_running(False)
+        self._show_running(False)
 
     def _lay_out(self) -> None:
         grid = QGridLayout()
@@ -187,31 +182,28 @@ class MatchForm(QWidget):
             fit_gamma=self.gamma.isChecked(),
         )
 
-    def show_choice(
-        self, choice: MatchChoice, certain: Mapping[str, float], certain_before: Mapping[str, float]
-    ) -> None:
-        """Show the choices, the confirmed values, and those confirmed for other photos."""
-        if choice != self._shown_choice:  # else keep what was typed but not yet entered
-            self._shown_choice = choice
+    def show_photo(self, shown: ShownPhoto) -> None:
+        """Show the choices for a photo, the known values, and whether a match is running."""
+        last, self._shown = self._shown, shown
+        if shown.is_matching != self.is_running:
+            self._show_running(shown.is_matching)
+        choice = shown.choice.form
+        if choice != last.choice.form:  # else keep what was typed but not yet entered
             self.sent.show_key(choice.sent)
             self.lamp.set_value(choice.lamp_frequency)
             self.estimate.show_key(choice.estimate)
             self.gamma.setChecked(choice.fit_gamma)
-        self._certain, self._certain_before = certain, certain_before
-        self._show_known()
-
-    def show_scene(self, scene: Scene) -> None:
-        """Show the known values of this scene in place of refused input."""
-        self._scene = scene
-        for field in self._fields:
-            field.notice.end()
-        self._show_known()
+        if shown.scene is not last.scene:  # its values replace refused input
+            for field in self._fields:
+                field.notice.end()
+        if (shown.scene, shown.choice) != (last.scene, last.choice):
+            self._show_known()
 
     @property
     def is_running(self) -> bool:
         return not self.cancel.isHidden()
 
-    def show_running(self, running: bool) -> None:
+    def _show_running(self, running: bool) -> None:
         before, after = (self.start, self.cancel) if running else (self.cancel, self.start)
         had_focus = before.hasFocus()
         for widget in (self.progress, self.cancel):
@@ -234,21 +226,20 @@ class MatchForm(QWidget):
             field.setVisible(field_name == name)
             if field_name != name:
                 field.notice.end()
-            if self._scene is not None:
-                field.set_value(float(self._scene.value(field_name)))
+            field.set_value(float(self._shown.scene.value(field_name)))
         is_stated = is_lamp and name == _LAMP
         self.known[name].setEnabled(not is_stated)  # the field of the lamp determines it
         if is_stated:
             self.known[name].set_value(self.lamp.value())
         known = self.known[name].value()
-        self.certain.setChecked(is_certain(name, known, self._certain))
+        self.certain.setChecked(is_certain(name, known, self._shown.choice.certain))
         lines = []
         if name == "switching_frequency":
-            lamp = None if self._scene is None else blinking_lamp(self._scene.transmitter)
+            lamp = blinking_lamp(self._shown.scene.transmitter)
             lines.append("chips or levels per second" if lamp is None else f"a {lamp.words}")
         if self.certain.isChecked():
             pass
-        elif is_certain(name, known, self._certain_before):
+        elif is_certain(name, known, self._shown.choice.forgotten):
             lines.append(
                 "Only assumed here: it was certain for another photo. Tick “certain” if it "
                 "also holds for this one."

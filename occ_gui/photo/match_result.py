@@ -1,8 +1,5 @@
 """Result of a match: the cure of its bars, buttons that use it, and the figures under More."""
 
-import math
-from collections.abc import Mapping
-
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
@@ -13,11 +10,12 @@ from occ_gui.photo.match_figures import (
     describe_stale_value,
     is_match_certain,
 )
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.widgets.answer import MoreButton
 from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
-from occ_gui.widgets.state_look import State
 from occ_model.photo.many.other_programs import lines_of_match
+from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import OF_MEAN_LIGHT, Cure
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
@@ -27,9 +25,6 @@ from occ_model.scene.units import HERTZ, PERCENT, SECOND
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 """Sign of each verdict, so that it does not depend on colour alone."""
 
-STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
-"""The state that gives each verdict its colours, here and in the bar at the top."""
-
 
 class MatchResult(QWidget):
     apply_asked = Signal()
@@ -38,13 +33,7 @@ class MatchResult(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._match: Match | None = None
-        self._cure: Cure | None = None
-        self._recorded_exposure: float | None = None
-        self._scene: Scene | None = None
-        self._known_at_match = ("", math.nan)
-        self._certain: Mapping[str, float] = {}
-        self._turned = False
+        self._shown = ShownPhoto(Scene())
         self.figures, self.paste = MatchValues(), PasteLines()
         self.mark = OutdatedMark(self.figures)
         self.reasons = paragraph(name="Reasons of the verdict", is_selectable=True)
@@ -91,28 +80,20 @@ class MatchResult(QWidget):
             self.cure_asked,
         )
 
-    def show_match(
-        self,
-        match: Match,
-        recorded_exposure: float | None,
-        known_at_match: tuple[str, float] = ("", math.nan),
-        cure: Cure | None = None,
-        *,
-        turned: bool = False,
-    ) -> None:
-        """Show a match.
-
-        ``recorded_exposure``: the exposure time in seconds recorded by the camera, if any.
-        ``known_at_match``: name and value of the scene's known parameter when the match began.
-        ``cure``: the remedy for its bars.
-        """
-        self._match, self._recorded_exposure, self._turned = match, recorded_exposure, turned
-        self._cure, self._known_at_match = cure, known_at_match
-        self._warn_if_stale()
-        self.reasons.setText("\n".join(f"• {reason}" for reason in match.all_reasons))
-        self.reasons.setVisible(bool(match.all_reasons))
-        self._show_figures(match)
-        self.show_outdated("", usable=True)
+    def show_photo(self, shown: ShownPhoto) -> None:
+        """Show the match of a photo, or hide this part if there is none."""
+        last, self._shown = self._shown, shown
+        self.setVisible(shown.match is not None)
+        if shown.match is None or shown.photo is None:
+            return
+        is_new = shown.match is not last.match or shown.photo is not last.photo
+        if is_new:
+            self.reasons.setText("\n".join(f"• {reason}" for reason in shown.match.all_reasons))
+            self.reasons.setVisible(bool(shown.match.all_reasons))
+        if is_new or shown.choice.certain != last.choice.certain:
+            self._show_figures(shown.match, shown.photo)
+        self._show_outdated(*shown.validity)
+        self._warn_if_stale(shown.match)
 
     def _show_cure(self, cure: Cure, match: Match) -> None:
         text = (
@@ -138,44 +119,29 @@ class MatchResult(QWidget):
         exposure = SECOND.format(match.exposure_time, 3)
         return f"bars of {' to '.join(depths)} % {OF_MEAN_LIGHT} at {exposure}, "
 
-    def show_certain(self, certain: Mapping[str, float]) -> None:
-        self._certain = certain
-        self._warn_if_stale()
-        if self._match is not None:
-            self._show_figures(self._match)
-
-    def _show_figures(self, match: Match) -> None:
+    def _show_figures(self, match: Match, photo: Photo) -> None:
+        certain = self._shown.choice.certain
         for part in (self.cure, self.without_bars):
-            part.setVisible(self._cure is not None)
-        if self._cure is not None:
-            self._show_cure(self._cure, match)
-        condition = condition_of(match, self._certain)
+            part.setVisible(self._shown.cure is not None)
+        if self._shown.cure is not None:
+            self._show_cure(self._shown.cure, match)
+        condition = condition_of(match, certain)
         self.condition.setText(f"These values hold only {condition.removesuffix(': ')}.")
         self.condition.setVisible(bool(condition))
-        self.figures.show_match(match, self._certain, self._recorded_exposure)
-        self.paste.show_lines(lines_of_match(match, turned=self._turned), condition)
+        self.figures.show_match(match, certain, photo.exposure_time)
+        self.paste.show_lines(lines_of_match(match, turned=photo.turned), condition)
 
-    def show_outdated(self, why: str, usable: bool) -> None:
-        """Show why the match is outdated, empty if it is not, and whether it can be used."""
-        if self._match is None:
-            return
+    def _show_outdated(self, why: str, is_usable: bool) -> None:
         self.reasons.setEnabled(not why)
         self.mark.show_age(DELAY if why else 0.0, why)  # at once
-        self.paste.setEnabled(usable and not why)
+        self.paste.setEnabled(is_usable and not why)
         for button in (self.apply, self.save, self.without_bars):
-            button.setEnabled(usable)
+            button.setEnabled(is_usable)
 
-    def show_scene(self, scene: Scene) -> None:
-        self._scene = scene
-        self._warn_if_stale()
-
-    def _warn_if_stale(self) -> None:
-        match, scene = self._match, self._scene
-        if match is None or scene is None:
-            return
-        used = match.known, float(getattr(match, match.known))
-        warning = ""
-        if not is_match_certain(match, self._certain):
-            warning = describe_stale_value(scene, match.estimate, used, self._known_at_match)
+    def _warn_if_stale(self, match: Match) -> None:
+        shown, warning = self._shown, ""
+        if shown.outcome is not None and not is_match_certain(match, shown.choice.certain):
+            used = match.known, float(getattr(match, match.known))
+            warning = describe_stale_value(shown.scene, match.estimate, used, shown.outcome.given)
         self.warning.setText(f"{warning}match again.")
         self.warning.setVisible(bool(warning))

@@ -9,11 +9,12 @@ from occ_gui.background.task import Task
 from occ_gui.photo.fitted_stripes import FittedStripes
 from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
-from occ_gui.photo.match_controller import MatchController, cure_of_match
+from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.photo_work import (
     comparison_inputs,
+    cure_of_match,
     find_lamps,
     make_chip_updater,
     make_stripe_updater,
@@ -27,7 +28,6 @@ from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import ResultsStore, make_remark, next_match
 from occ_gui.values.choices import OVERLAYS, MatchChoice, PlacedPhoto, Placement
 from occ_model.photo.reading.load import Photo
-from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
 
@@ -71,7 +71,6 @@ class PhotoPane(Pane[ShownPhoto]):
             results_store,
             photos,
         )
-        self.verdict = view.verdict
         self.matching = MatchController(scenes, photos, results_store)
         self.parts = PartEdits(scenes.store, results_store)
         self.many = ManyPhotosController(scenes, photos, view.many, results_store)
@@ -84,10 +83,9 @@ class PhotoPane(Pane[ShownPhoto]):
         self.tasks = (*(work.task for work in works), self.many.runner)
         self.outlines = LampOutlines(image.photo.box)
         self.stripes = FittedStripes(image.photo.box)
-        self._shown = ShownPhoto(scenes.scene, None, photos.choice)
+        self._shown = ShownPhoto(scenes.scene, photos.choice)
         self._comparison_inputs = comparison_inputs(self._shown)
-        view.show_scene(scenes.scene)
-        view.show_choice(photos.choice)
+        view.show_photo(self._shown)
         self.matching.task.reported.connect(view.form.show_progress)
         self._connect_view()
         self._connect_window(window)
@@ -137,54 +135,27 @@ class PhotoPane(Pane[ShownPhoto]):
         self.outlines.drawn.connect(parts.draw)
         image.photo.graphics.scene().sigMouseClicked.connect(self._click)
 
-    # Showing the part.
-
     def show_part(self, part: ShownPhoto) -> None:
-        last, self._shown = self._shown, part
-        self._show(part, last)
-        self._act_on_change(part, last)
+        last = self._shown
+        cure = last.cure if part.match is last.match else cure_of_match(part.match)
+        shown = self._shown = replace(part, cure=cure)
+        if shown.photo is not last.photo:
+            self._image.show_photo(shown.photo)
+        if shown.placement != last.placement:
+            self._image.show_placement(shown.placement)
+        self.view.show_photo(shown)
+        self.outlines.show_photo(shown)
+        if shown.present_match is not last.present_match:
+            self.stripes.show_match(shown.present_match)
+        self._act_on_change(shown, last)
 
-    def _show(self, part: ShownPhoto, last: ShownPhoto) -> None:
-        view, is_new = self.view, part.photo is not last.photo
-        if is_new:
-            self._image.show_photo(part.photo)
-            view.show_photo(part.photo)
-        if part.scene is not last.scene:
-            view.show_scene(part.scene)
-        if part.choice != last.choice:
-            view.show_choice(part.choice)
-        self._show_match(part, last)
-        has_other_fit = part.match is not last.match or part.validity != last.validity
-        if is_new or has_other_fit or (part.search, part.part) != (last.search, last.part):
-            self._show_part_of_photo()
-        placement = (part.placement, part.is_placed_by_hand)
-        if placement != (last.placement, last.is_placed_by_hand):
-            self._image.show_placement(part.placement)
-            view.placement.show_placement(*placement)
-
-    def _show_match(self, part: ShownPhoto, last: ShownPhoto) -> None:
-        view, is_new = self.view, part.match is not last.match
-        if is_new:
-            view.show_match(part.outcome, None if part.match is None else cure_of_match(part.match))
-            is_own = part.outcome is not None and not part.outcome.is_listed
-            own_path = part.photo.path if part.photo is not None and is_own else None
-            view.many.rows.mark_earlier(own_path)
-            self.stripes.show_match(part.match)
-        if part.match is not None and (is_new or part.validity != last.validity):
-            view.show_match_outdated(*part.validity)
-            self.stripes.show_valid(not part.validity[0])
-        running = (part.is_matching, part.refusal)
-        is_other_photo = part.photo is not last.photo
-        if is_new or is_other_photo or running != (last.is_matching, last.refusal):
-            view.show_match_running(*running)
-
-    def _act_on_change(self, part: ShownPhoto, last: ShownPhoto) -> None:
-        """Act on a change, which may change the part again; that change is then shown."""
-        if part.choice.listed != last.choice.listed:
-            self.many.show_files(part.choice.listed)
-        if part.part != last.part:
+    def _act_on_change(self, shown: ShownPhoto, last: ShownPhoto) -> None:
+        """Act on a change, which may change the photo again; that change is then shown."""
+        if shown.choice.listed != last.choice.listed:
+            self.many.show_files(shown.choice.listed)
+        if shown.part != last.part:
             self.matching.cancel()
-            if part.part is not None:
+            if shown.part is not None:
                 # Lamps and regions are drawn on the photo beside the picture.
                 self._set_overlay(OVERLAYS[0])
         inputs = comparison_inputs(self._shown)
@@ -192,20 +163,6 @@ class PhotoPane(Pane[ShownPhoto]):
             self._comparison_inputs = inputs
             profile = photo_profile(self._shown)
             self._results_store.put(replace(self._results_store.results, photo_profile=profile))
-
-    def _show_part_of_photo(self) -> None:
-        lamps, part = self._shown.lamps, self._shown.part
-        chosen = next((index for index, lamp in enumerate(lamps) if lamp is part), None)
-        rectangle = part if isinstance(part, Region) else None
-        for view in (self.view.lamps, self.outlines):
-            view.show_lamps(lamps, chosen)
-        region = rectangle if chosen is None else lamps[chosen].region
-        match, (why_outdated, _) = self._shown.match, self._shown.validity
-        fitted = None if match is None or why_outdated else match.region
-        self.view.lamps.show_region(region, chosen, fitted)
-        self.view.lamps.show_by_hand(rectangle is not None)
-        self.view.lamps.show_search(*self._shown.search[1:])
-        self.outlines.show_rectangle(rectangle)
 
     # Handling the user's input.
 

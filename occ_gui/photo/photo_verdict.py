@@ -1,20 +1,20 @@
 """The steps from a photo to a scene that explains it, and the verdict on the match so far."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.photo.match_figures import condition_of
-from occ_gui.photo.match_result import STATES
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import Badge, State
 from occ_model.errors import inflect, one_line
-from occ_model.photo.reading.load import Photo
-from occ_model.results.match import PLAIN_STRIPES, Match
+from occ_model.results.match import PLAIN_STRIPES
 from occ_model.results.match_sentence import describe_match, state_verdict
-from occ_model.results.photo_table import SURE, PhotoRow
+from occ_model.results.photo_table import SURE
+from occ_model.scene.scene import Scene
 
 STEPS = {
     "open": ("Open", "Open a photo of a rolling-shutter camera."),
@@ -90,121 +90,65 @@ class PhotoVerdictBar(StateBar):
             "Match the photo as one of a lamp, lit once in each period; its frequency is assumed "
             "until you enter it."
         )
-        self._photo: Photo | None = None
-        self._match: Match | None = None
-        self._row: PhotoRow | None = None
-        self._is_running = False
-        self._refusal: tuple[str, ...] = ()
-        self._outdated_reason = ""
-        self._is_applied = True
-        self._certain: Mapping[str, float] = {}
         self._simulation: tuple[Badge, ...] = ()
-        self._write()
-
-    def show_photo(self, photo: Photo | None) -> None:
-        self._photo, self._match = photo, None
-        self._refusal, self._outdated_reason = (), ""
-        self._write()
-
-    def show_row(self, row: PhotoRow | None) -> None:
-        """Show the table's result for this photo, which has not been matched on its own yet."""
-        self._row = row
-        self._write()
-
-    def begin_match(self) -> None:
-        self._is_running, self._refusal = True, ()
-        self._write()
-
-    def end_match(self, refusal: Sequence[str] = ()) -> None:
-        """Show that no match is running, with the reasons why none was found."""
-        self._is_running, self._refusal = False, tuple(refusal)
-        self._write()
-
-    def show_match(self, match: Match | None) -> None:
-        self._match, self._outdated_reason = match, ""
-        self.end_match()
-
-    def show_outdated(self, why: str) -> None:
-        """Show why the match is outdated, empty if it is not."""
-        self._outdated_reason = why
-        self._write()
-
-    def show_certain(self, certain: Mapping[str, float]) -> None:
-        self._certain = certain
-        self._write()
-
-    def show_applied(self, applied: bool) -> None:
-        if applied != self._is_applied:
-            self._is_applied = applied
-            self._write()
+        self.show_photo(ShownPhoto(Scene()))
 
     def show_simulation(self, state: State, verdict: str) -> None:
         meaning = "What was read from the simulated picture."
-        badges = (Badge("simulation", verdict, meaning, state),)
-        if badges != self._simulation:
-            self._simulation = badges
-            self._write()
+        self._simulation = (Badge("simulation", verdict, meaning, state),)
+        self.show_photo(self._shown)
 
-    def _write(self) -> None:
-        state, (title, *sentences) = self._judge()
+    def show_photo(self, shown: ShownPhoto) -> None:
+        self._shown = shown
+        state, (title, *sentences) = judge_photo(shown)
         badges = self._simulation
-        is_present = self._match is not None and not self._outdated_reason and not self._refusal
-        if is_present and not self._is_applied:
+        if shown.present_match is not None and not shown.is_applied:
             meaning = "The simulation is of another scene. Apply the match to simulate its scene."
             badges = (Badge("applied", "not applied", meaning, State.DOUBTFUL), *badges)
         self.show_state(state, title, *sentences, badges=badges)
-        is_plain = PLAIN_STRIPES in self._refusal
+        is_plain = PLAIN_STRIPES in shown.refusal and not shown.is_matching
         self.offer_step("It is a &lamp" if is_plain else "")
 
-    def _judge(self) -> tuple[State, tuple[str, ...]]:
-        if self._is_running:
-            return State.WAITING, ("Photo: matching…",)
-        if self._photo is None:
-            sentence = "Open one, say what was sent if you know it, and match it."
-            return State.NEUTRAL, ("No photo is open", sentence)
-        if self._refusal:
-            reasons = (" ".join(self._refusal), _shorten_reasons(self._refusal))
-            return State.BAD, ("Photo: not matched", *reasons)
-        if self._match is None and self._row is not None:
-            return self._judge_row(self._row)
-        if self._match is None:
-            sentence = "Say what was sent if you know it, and match it."
-            return State.NEUTRAL, ("Photo: no match yet", sentence)
-        if self._outdated_reason:
-            sentence = f"It is {self._outdated_reason}."
-            return State.WAITING, ("Photo: an earlier match is shown", sentence)
-        return self._judge_match(self._match)
 
-    def _judge_match(self, match: Match) -> tuple[State, tuple[str, ...]]:
-        title = f"Photo: {state_verdict(match, condition_of(match, self._certain))}"
-        if match.verdict == SURE:  # the title has the condition
-            return State.GOOD, (title, describe_match(match))
-        sentence = self._describe_match(match)
-        reason = _shorten_reasons(match.reasons)
-        return State.DOUBTFUL, (title, f"{sentence} {reason}", reason)
-
-    def caption(self) -> str:
-        """Return a figure's caption: the photo's name, its verdict and the estimates."""
-        if self._photo is None:
-            return ""
-        name = f"photo {one_line(self._photo.path.name)}"
-        if self._match is None or self._outdated_reason or self._refusal:
-            return f"{name}, not matched"
-        whose = "" if self._is_applied else ", whose match is not this scene's"
-        return f"{name}{whose}. {self._describe_match(self._match)}"
-
-    def _judge_row(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
-        """Return the state and the sentences for the table's result."""
-        state = STATES.get(row.verdict, State.BAD)
-        is_matched = state is not State.BAD
-        advice = "Match it on its own to see its curves and to apply the match." * is_matched
-        title = f"Photo: {row.verdict} in the table"
-        return state, (title, f"{row.note} {advice}".strip(), row.note or advice)
-
-    def _describe_match(self, match: Match) -> str:
-        return describe_match(match, condition_of(match, self._certain))
+def judge_photo(shown: ShownPhoto) -> tuple[State, tuple[str, ...]]:
+    """Return the state of a photo's match, its title, and sentences from the longest on."""
+    if shown.is_matching:
+        return State.WAITING, ("Photo: matching…",)
+    if shown.photo is None:
+        sentence = "Open one, say what was sent if you know it, and match it."
+        return State.NEUTRAL, ("No photo is open", sentence)
+    if shown.refusal:
+        reasons = (" ".join(shown.refusal), _shorten_reasons(shown.refusal))
+        return State.BAD, ("Photo: not matched", *reasons)
+    match = shown.match
+    if match is None and shown.row is not None:
+        return State.BAD, (f"Photo: {shown.row.verdict} in the table", shown.row.note)
+    if match is None:
+        sentence = "Say what was sent if you know it, and match it."
+        return State.NEUTRAL, ("Photo: no match yet", sentence)
+    reason, _ = shown.validity
+    if reason:
+        return State.WAITING, ("Photo: an earlier match is shown", f"It is {reason}.")
+    condition = condition_of(match, shown.choice.certain)
+    title = f"Photo: {state_verdict(match, condition)}"
+    if match.verdict == SURE:  # the title has the condition
+        return State.GOOD, (title, describe_match(match))
+    reason = _shorten_reasons(match.reasons)
+    return State.DOUBTFUL, (title, f"{describe_match(match, condition)} {reason}", reason)
 
 
 def _shorten_reasons(reasons: Sequence[str]) -> str:
     more = len(reasons) - 1
     return reasons[0] + (f" And {inflect(more, 'more reason')}." if more else "")
+
+
+def photo_caption(shown: ShownPhoto) -> str:
+    """Return a figure's caption: the photo's name, its verdict and the estimates."""
+    if shown.photo is None:
+        return ""
+    name = f"photo {one_line(shown.photo.path.name)}"
+    match = shown.present_match
+    if match is None:
+        return f"{name}, not matched"
+    whose = "" if shown.is_applied else ", whose match is not this scene's"
+    return f"{name}{whose}. {describe_match(match, condition_of(match, shown.choice.certain))}"

@@ -1,6 +1,6 @@
 """Pane of the photo: facts about it and its loading, its match, and its placement."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
@@ -12,8 +12,7 @@ from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_verdict import EARLIER, PhotoSteps, PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
-from occ_gui.values.choices import PhotoChoice
-from occ_gui.values.photo_results import MatchOutcome
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.widgets.building import (
     ElidedLabel,
     KeyedComboBox,
@@ -26,8 +25,6 @@ from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import CHANNELS
 from occ_model.photo.reading.load import Photo
-from occ_model.results.bands import Cure
-from occ_model.results.match import Match
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
@@ -129,14 +126,10 @@ class PhotoView(QWidget):
         self.verdict.step_taken.connect(self._match_lamp)
         self.steps = PhotoSteps()
         self.steps.chosen.connect(self._go_to_step)
-        self._photo: Photo | None = None
-        self._match: Match | None = None
-        self._is_outdated = False
-        self._scene: Scene | None = None
+        self._shown = ShownPhoto(Scene())
         fill(QVBoxLayout(self), self.steps, self._pages, margins=(4, 0, 4, 0))
         self.result.hide()
         self.many.files_shown.connect(self._show_page)
-        self.many.rows_changed.connect(self._show_row)
         for form in (self.form, self.placement):
             form.refused.connect(self.refused)
             form.accepted.connect(self.accepted)
@@ -176,50 +169,56 @@ class PhotoView(QWidget):
         self._scroll = ScrollPane(page, minimum_size)
         return self._scroll
 
-    def show_photo(self, photo: Photo | None) -> None:
-        if photo is not None and (self._photo is None or self._photo.path != photo.path):
-            self._scroll.verticalScrollBar().setValue(0)  # its name is at the top
-        self._photo, self._match, self._is_outdated = photo, None, False
-        self.verdict.show_photo(photo)
-        self._show_page()
-        self._show_steps()
-        self.many.rows.show_open(None if photo is None else photo.path)
-        self._show_row()
-        if photo is not None:
+    def show_photo(self, shown: ShownPhoto) -> None:
+        last, self._shown = self._shown, shown
+        photo, options = shown.photo, shown.choice.load_options
+        if photo is not last.photo:
+            path = None if photo is None else photo.path
+            if photo is not None and (last.photo is None or path != last.photo.path):
+                self._scroll.verticalScrollBar().setValue(0)  # its name is at the top
+            self.many.rows.show_open(path)
+            self._show_page()
+        if photo is not None and photo is not last.photo:
             self.facts.show_photo(photo)
+        self.facts.show_load_options(options.channel, options.scan_axis)
+        for part in (self.lamps, self.form, self.verdict):
+            part.show_photo(shown)
+        self._show_in_table(shown, last)
+        placement = (shown.placement, shown.is_placed_by_hand)
+        if placement != (last.placement, last.is_placed_by_hand):
+            self.placement.show_placement(*placement)
+        self._show_result(shown, last)
+        match, present = shown.match, shown.present_match
+        verdict = "" if match is None else EARLIER if present is None else match.verdict
+        self.steps.show_state(
+            has_photo=photo is not None, match=verdict, is_applied=shown.is_applied
+        )
 
-    def show_choice(self, choice: PhotoChoice) -> None:
-        self.facts.show_load_options(choice.load_options.channel, choice.load_options.scan_axis)
-        self.form.show_choice(choice.form, choice.certain, choice.forgotten)
-        for part in (self.result, self.many, self.verdict):
-            part.show_certain(choice.certain)
+    def _show_in_table(self, shown: ShownPhoto, last: ShownPhoto) -> None:
+        if shown.scene is not last.scene:
+            self.many.show_scene(shown.scene)
+        if shown.choice.certain != last.choice.certain:
+            self.many.show_certain(shown.choice.certain)
+        if shown.match is not last.match:
+            is_own = shown.outcome is not None and not shown.outcome.is_listed
+            own_path = shown.photo.path if shown.photo is not None and is_own else None
+            self.many.rows.mark_earlier(own_path)
 
-    def _show_row(self) -> None:
-        photo = self._photo
-        self.verdict.show_row(None if photo is None else self.many.rows.row_of(photo.path))
-
-    @property
-    def has_photo(self) -> bool:
-        return self._photo is not None
+    def _show_result(self, shown: ShownPhoto, last: ShownPhoto) -> None:
+        bar = self._scroll.verticalScrollBar()
+        scroll_position = bar.value()
+        self.result.show_photo(shown)
+        if shown.outcome is not None and shown.match is not None and shown.match is not last.match:
+            self._bring_into_view(self.result)
+            if shown.outcome.is_listed:  # the table stays where it was
+                bar.setValue(scroll_position)
 
     def _show_page(self) -> None:
         """Show the forms if there is a photo or a table, else the invitation."""
-        self._pages.setCurrentIndex(1 if self.has_photo or self.many.rows.paths else 0)
+        has_photo = self._shown.photo is not None
+        self._pages.setCurrentIndex(1 if has_photo or self.many.rows.paths else 0)
         for part in (self.facts, self.form.start, self.placement):
-            part.setVisible(self.has_photo)
-
-    def show_scene(self, scene: Scene) -> None:
-        self._scene = scene
-        self._show_steps()
-        for part in (self.form, self.result, self.many):
-            part.show_scene(scene)
-
-    def _show_steps(self) -> None:
-        match, scene = self._match, self._scene
-        is_applied = match is not None and scene is not None and match.is_applied_to(scene)
-        self.verdict.show_applied(is_applied)
-        verdict = "" if match is None else EARLIER if self._is_outdated else match.verdict
-        self.steps.show_state(has_photo=self.has_photo, match=verdict, is_applied=is_applied)
+            part.setVisible(has_photo)
 
     def _go_to_step(self, step: str) -> None:
         if step == "open":
@@ -235,38 +234,6 @@ class PhotoView(QWidget):
     def _match_lamp(self) -> None:
         self._bring_into_view(self.form)
         self.form.match_lamp()
-
-    def show_match_running(self, is_running: bool, why_not: Sequence[str] = ()) -> None:
-        """Show whether a match is running; if not, why the last one was refused, if it was."""
-        if is_running != self.form.is_running:
-            self.form.show_running(is_running)
-        if is_running:
-            self.verdict.begin_match()
-        else:
-            self.verdict.end_match(why_not)
-
-    def show_match(self, outcome: MatchOutcome | None, cure: Cure | None = None) -> None:
-        """Show a match with the remedy for its bars, or that there is none."""
-        match = None if outcome is None else outcome.match
-        self.result.setVisible(match is not None)
-        self._match, self._is_outdated = match, False
-        self.verdict.show_match(match)
-        self._show_steps()
-        if outcome is None or match is None or cure is None or self._photo is None:
-            return
-        bar = self._scroll.verticalScrollBar()
-        scroll_position, photo = bar.value(), self._photo
-        self.result.show_match(match, photo.exposure_time, outcome.given, cure, turned=photo.turned)
-        self._bring_into_view(self.result)
-        if outcome.is_listed:  # the table stays where it was
-            bar.setValue(scroll_position)
-
-    def show_match_outdated(self, why: str, usable: bool) -> None:
-        """Show why the match is outdated, empty if it is not, and whether it can be used."""
-        self._is_outdated = bool(why)
-        self.result.show_outdated(why, usable)
-        self.verdict.show_outdated(why)
-        self._show_steps()
 
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, once the page has a new layout."""

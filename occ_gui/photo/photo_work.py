@@ -18,10 +18,12 @@ from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
+from occ_model.results.bands import Cure
 from occ_model.results.comparison import Comparison
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, known_value
+from occ_model.results.match import ChipReading, Match, known_value
 from occ_model.scene.scene import Scene
+from occ_model.study.bands.advice import cure_of
 
 PartOfPhoto = tuple[Photo, Part]
 
@@ -105,40 +107,46 @@ def put_known_values(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     return scene.replace(light="lamp", lamp_frequency=choice.lamp_frequency, duty=0.5), "auto"
 
 
-def comparison_inputs(part: ShownPhoto) -> tuple[object, ...]:
+def cure_of_match(match: Match | None) -> Cure | None:
+    if match is None:
+        return None
+    return cure_of(match.scene, match.uncertainties.get("exposure_time", 0.0))
+
+
+def comparison_inputs(shown: ShownPhoto) -> tuple[object, ...]:
     """Return what a comparison depends on."""
-    stripes = (part.compared_stripes, part.why_no_stripes)
-    return (part.photo, part.reading, *stripes, part.placement, part.is_enhanced)
+    stripes = (shown.compared_stripes, shown.why_no_stripes)
+    return (shown.photo, shown.reading, *stripes, shown.placement, shown.is_enhanced)
 
 
-def photo_profile(part: ShownPhoto) -> PhotoProfile | None:
+def photo_profile(shown: ShownPhoto) -> PhotoProfile | None:
     """Return the photo's profile, placed beside the simulated one; None unless there are both."""
-    photo, reading, placement = part.photo, part.reading, part.placement
+    photo, reading, placement = shown.photo, shown.reading, shown.placement
     if photo is None or reading is None:
         return None
-    comparison, sentence = None, part.why_no_stripes
+    comparison, sentence = None, shown.why_no_stripes
     try:
-        comparison = _compare(part, reading)
+        comparison = _compare(shown, reading)
     except MatchError as error:
         sentence = str(error)
     if comparison is not None and float(np.ptp(comparison.simulated)) < _LEAST_SWING:
         # A photo scaled to a swing of zero would agree with it.
         comparison, sentence = None, "The simulation has no stripes to compare there."
     raw = photo.profile
-    if part.is_enhanced:
+    if shown.is_enhanced:
         raw = enhance(raw, reading.scene.model.enhancement).astype(np.float64)
-    is_outdated = reading.scene != part.scene
+    is_outdated = reading.scene != shown.scene
     place = placement.column, placement.scale
     return PhotoProfile(comparison, raw, *place, sentence, photo, is_outdated)
 
 
-def _compare(part: ShownPhoto, reading: Reading) -> Comparison | None:
-    placement, stripes = part.placement, part.compared_stripes
+def _compare(shown: ShownPhoto, reading: Reading) -> Comparison | None:
+    placement, stripes = shown.placement, shown.compared_stripes
     if stripes is None:
         return None
     first = placement.column + stripes.region.first_column * placement.scale
     swing = stripes.high - stripes.low
     comparison = compare(stripes.flattened, reading.profile, first, placement.scale, swing)
-    if not part.is_enhanced:
+    if not shown.is_enhanced:
         return comparison
     return enhance_comparison(comparison, reading.signal, reading.scene.model.enhancement)

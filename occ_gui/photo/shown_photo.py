@@ -13,9 +13,11 @@ from occ_gui.values.choices import PhotoChoice, PhotoFrame, Placement
 from occ_gui.values.photo_results import MatchOutcome, PhotoDocument, StripeSearch
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within
+from occ_model.results.bands import Cure
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Match, Stripes
+from occ_model.results.photo_table import PhotoRow
 from occ_model.scene.scene import Scene
 
 Part: TypeAlias = Lamp | Region | None
@@ -76,11 +78,13 @@ def automatic_placement(
 @dataclass(frozen=True, slots=True)
 class ShownPhoto:
     scene: Scene
-    reading: Reading | None  # of the simulated scene
-    choice: PhotoChoice
+    choice: PhotoChoice = field(default_factory=PhotoChoice)
+    reading: Reading | None = None  # of the simulated scene
     document: PhotoDocument | None = None
     part: Part = None
     outcome: MatchOutcome | None = None
+    cure: Cure | None = None  # the remedy for the bars of the match, once it is known
+    row: PhotoRow | None = None  # the photo's row of the table
     stripe_search: StripeSearch | None = None
     placement: Placement = field(default_factory=Placement)
     is_placed_by_hand: bool = False  # whether the user has placed the photo
@@ -90,7 +94,7 @@ class ShownPhoto:
     @classmethod
     def of(cls, workspace: Workspace, results: Results) -> "ShownPhoto":
         choice, document, reading = workspace.photo, results.document, results.reading
-        shown = cls(workspace.scene, reading, choice)
+        shown = cls(workspace.scene, choice, reading)
         if document is None:
             return shown
         placed, placement = choice.placed_photo, Placement()
@@ -104,6 +108,7 @@ class ShownPhoto:
             document=document,
             part=part_of(choice, results),
             outcome=find_match(results),
+            row=None if results.listed is None else results.listed.row_of(document),
             stripe_search=results.stripes,
             placement=placement,
             is_placed_by_hand=is_placed_by_hand,
@@ -118,6 +123,16 @@ class ShownPhoto:
     @property
     def lamps(self) -> tuple[Lamp, ...]:
         return () if self.document is None else self.document.lamps
+
+    @property
+    def chosen_lamp(self) -> int | None:
+        """The index of the lamp that is matched; None if it is not one of the lamps found."""
+        return next((index for index, lamp in enumerate(self.lamps) if lamp is self.part), None)
+
+    @property
+    def rectangle(self) -> Region | None:
+        """The rectangle drawn by hand that is matched."""
+        return self.part if isinstance(self.part, Region) else None
 
     @property
     def is_matching(self) -> bool:
@@ -157,6 +172,16 @@ class ShownPhoto:
     @property
     def match(self) -> Match | None:
         return None if self.outcome is None else self.outcome.match
+
+    @property
+    def present_match(self) -> Match | None:
+        """The match, unless it is outdated."""
+        return None if self.validity[0] else self.match
+
+    @property
+    def is_applied(self) -> bool:
+        """Whether the scene is that of the match."""
+        return self.match is not None and self.match.is_applied_to(self.scene)
 
     @property
     def refusal(self) -> tuple[str, ...]:

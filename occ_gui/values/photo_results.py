@@ -86,10 +86,15 @@ class ListedRows:
     load_options: LoadOptions
     given: tuple[str, float]  # the known value of the scene when they were matched, as above
 
+    def row_of(self, document: PhotoDocument) -> "PhotoRow | None":
+        """Return the row of a photo; None before it is matched, or if it was loaded otherwise."""
+        if document.source.load_options != self.load_options:
+            return None
+        return next((row for row in self.rows if row.path == document.photo.path), None)
+
     def match_of(self, document: PhotoDocument) -> MatchOutcome | None:
-        rows = (row for row in self.rows if row.path == document.photo.path)
-        row = next(rows, None)
-        if row is None or row.match is None or document.source.load_options != self.load_options:
+        row = self.row_of(document)
+        if row is None or row.match is None:
             return None
         return MatchOutcome(None, row.match, self.given, is_listed=True)
 

@@ -251,8 +251,6 @@ class SharedWindow:
             window.modes.layouts.clear()
         elif is_moved or home.docks != Home.of(kept).docks:
             window.modes.reset()
-        kept.view("photo").form._shown = None
-        kept.view("photo").form.show_choice(home.choice, {}, {})
         kept.story.show_whole_picture(False)
         kept.view("picture").before.checkbox.setChecked(False)
         for pages in kept.controls.findChildren(QTabWidget):

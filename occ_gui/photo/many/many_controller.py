@@ -145,6 +145,7 @@ class ManyPhotosController(QObject):
             self._rows[index] = row
             self._finished_count += 1
             self._view.show_row(index, row, self._finished_count)
+            self._put_rows()
 
     def _take_table(self, table: PhotoTable) -> None:
         self.table = table

@@ -47,14 +47,11 @@ class ManyPhotosView(QWidget):
     cancelled = Signal()
     closed = Signal()  # the user closes the table
     files_shown = Signal()  # other files are listed, or none
-    rows_changed = Signal()  # the result of a photo has changed
     photo_chosen = Signal(Path)  # the user opens one of the photos
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.rows = PhotoRowsModel(self)
-        self.rows.modelReset.connect(self.rows_changed)
-        self.rows.dataChanged.connect(self.rows_changed)
         self.rows.refused.connect(self._show_note)
         self._make_buttons()
         self._make_table()

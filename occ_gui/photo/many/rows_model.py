@@ -104,10 +104,6 @@ class PhotoRowsModel(QAbstractTableModel):
         self._rematched_path = path
         self._redraw()
 
-    def row_of(self, path: Path) -> PhotoRow | None:
-        """Return the row of a photo; None before it is matched."""
-        return next((row for row in self._rows.values() if row.path == path), None)
-
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
         return 0 if parent.isValid() else len(self.paths)
 

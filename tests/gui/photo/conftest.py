@@ -6,7 +6,6 @@ from gui.photo.photo_bench import LiveView
 from matches import match_with
 from pytestqt.qtbot import QtBot
 
-import occ_model as occ
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
@@ -19,7 +18,6 @@ def view(qtbot: QtBot, photo: Photo) -> PhotoView:
     qtbot.addWidget(view.verdict)  # which stands elsewhere in the window
     view.resize(380, 500)
     view.show()
-    view.show_scene(occ.Scene())
     view.open(photo)
     return view
 

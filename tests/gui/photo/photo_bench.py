@@ -6,18 +6,17 @@ from pathlib import Path
 from gui.stores import store_of
 from PySide6.QtGui import QAccessible
 
-from occ_gui.photo.match_controller import cure_of_match
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_verdict import PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
+from occ_gui.photo.photo_work import cure_of_match
 from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.choices import MatchChoice, PhotoChoice, PhotoSource
-from occ_gui.values.photo_results import MatchOutcome, PhotoDocument
+from occ_gui.values.choices import PhotoChoice, PhotoSource
+from occ_gui.values.photo_results import MatchOutcome, MatchRequest, PhotoDocument
 from occ_model.photo.reading.load import Photo
-from occ_model.results.bands import Cure
 from occ_model.results.match import Match, known_value
 from occ_model.scene.scene import Scene
 
@@ -37,7 +36,7 @@ class PhotoBench:
         return self.store.workspace.photo
 
     @property
-    def part(self) -> ShownPhoto:
+    def shown(self) -> ShownPhoto:
         return ShownPhoto.of(self.store.workspace, self.results_store.results)
 
     def choose(self, **changes: object) -> None:
@@ -81,41 +80,59 @@ def spoken(steps: PhotoSteps) -> list[str]:
     return [face.text(QAccessible.Text.Name) for face in faces]
 
 
+def shown_photo(photo: Photo, scene: Scene, match: Match | None = None) -> ShownPhoto:
+    """Return a photo that has been opened, with a match that was asked for in a scene."""
+    choice = PhotoChoice().open(photo.path)
+    source = PhotoSource(photo.path, choice.load_options, choice.opening)
+    outcome = None
+    if match is not None:
+        outcome = MatchOutcome(None, match, known_value(match.estimate, scene))
+    return ShownPhoto(scene, choice, document=PhotoDocument(photo, source), outcome=outcome)
+
+
 class LiveView(PhotoView):
     """A view that shows what the user chooses in it, as in its pane."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.choice = PhotoChoice()
-        self.form.chosen.connect(self._take_form)
-        self.form.certain_chosen.connect(self._take_certain)
+        self.shown = ShownPhoto(Scene())
+        self.form.chosen.connect(lambda form: self.choose(replace(self.choice, form=form)))
+        self.form.certain_chosen.connect(
+            lambda name, value: self.choose(self.choice.with_certain(name, value))
+        )
         self.many.files_shown.connect(self._list)
+
+    @property
+    def choice(self) -> PhotoChoice:
+        return self.shown.choice
+
+    def change(self, **changes: object) -> None:
+        self.shown = replace(self.shown, **changes)  # type: ignore[arg-type]  # fields of its own
+        self.show_photo(self.shown)
 
     def _list(self) -> None:
         self.choose(replace(self.choice.clear_certain(), listed=self.many.rows.paths))
 
-    def _take_form(self, form: MatchChoice) -> None:
-        self.choose(replace(self.choice, form=form))
-
-    def _take_certain(self, name: str, value: float | None) -> None:
-        self.choose(self.choice.with_certain(name, value))
-
     def choose(self, choice: PhotoChoice) -> None:
-        self.choice = choice
-        self.show_choice(choice)
+        self.change(choice=choice)
 
     def confirm(self, certain: dict[str, float]) -> None:
         self.choose(replace(self.choice, certain=certain))
 
     def open(self, photo: Photo | None) -> None:
-        self.show_photo(photo)
-        self.choose(self.choice.close() if photo is None else self.choice.open(photo.path))
-
-    def show_matched(self, match: Match | None, cure: Cure | None = None) -> None:
-        """Show a match that was asked for in the present scene, with its own cure or another."""
-        self.show_match_running(False)
-        if match is None or self._photo is None:
-            self.show_match(None)
+        if photo is None:
+            self.change(choice=self.choice.close(), document=None, outcome=None)
             return
-        given = ("", 0.0) if self._scene is None else known_value(match.estimate, self._scene)
-        self.show_match(MatchOutcome(None, match, given), cure or cure_of_match(match))
+        document = shown_photo(photo, self.shown.scene).document
+        self.change(choice=self.choice.open(photo.path), document=document, outcome=None)
+
+    def show_running(self, running: bool) -> None:
+        photo, choice = self.shown.photo, self.choice.form
+        request = MatchRequest(photo, self.shown.scene, choice, None) if running else None
+        self.change(document=replace(self.shown.document, match_request=request))
+
+    def show_matched(self, match: Match | None, *refusal: str) -> None:
+        """Show a match that was asked for in the present scene, or why it was refused."""
+        self.show_running(False)
+        given = ("", 0.0) if match is None else known_value(match.estimate, self.shown.scene)
+        self.change(outcome=MatchOutcome(None, match, given, refusal), cure=cure_of_match(match))

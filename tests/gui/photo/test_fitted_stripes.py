@@ -25,7 +25,5 @@ def test_they_cover_the_columns_of_the_region_and_a_third_of_its_rows(qapp: QApp
     assert all(item.isVisible() for item in stripes.items)
     assert stripes.picture.image.shape == (1, len(match.profile))
     assert np.abs(stripes_of(match)[0] - match.profile).max() <= 0.5
-    stripes.show_valid(False)
-    assert not any(item.isVisible() for item in stripes.items)
     stripes.show_match(None)
     assert not any(item.isVisible() for item in stripes.items)

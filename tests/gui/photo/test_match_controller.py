@@ -51,7 +51,7 @@ class Bench(PhotoBench):
 
     def _note(self) -> None:
         """Note when the pane shows that a match is at work, and when not any more."""
-        was, self._was_running = self._was_running, self.part.is_matching
+        was, self._was_running = self._was_running, self.shown.is_matching
         if was != self._was_running:
             self.events.append("ended" if was else "begun")
 
@@ -76,7 +76,7 @@ class Bench(PhotoBench):
     @property
     def validity(self) -> str:
         """Why the match is not the present one."""
-        why, is_usable = self.part.validity
+        why, is_usable = self.shown.validity
         assert is_usable or why
         return why
 
@@ -130,16 +130,16 @@ def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> N
     bench.refusal = ("No scene explains these stripes.", "They do not repeat.")
     bench.start()
     assert bench.failures == ["No scene explains these stripes."]
-    assert bench.part.refusal == bench.refusal
+    assert bench.shown.refusal == bench.refusal
     assert bench.controller.match is found
     assert "refused" in bench.validity
     bench.parts.draw(PARTS[0])
-    assert bench.part.refusal == (), "it is of the part that was matched"
+    assert bench.shown.refusal == (), "it is of the part that was matched"
     bench.parts.match_whole()
     bench.refusal = ()
     bench.start()
     assert bench.validity == ""
-    assert bench.part.refusal == ()
+    assert bench.shown.refusal == ()
 
 
 PARTS = (Region(0, 5, 0, 20), Region(0, 5, 20, 40))
@@ -208,17 +208,17 @@ def test_a_match_comes_back_with_its_photo_and_stays_where_another_is_cancelled(
 ) -> None:
     """As happens at the end of a lesson."""
     bench.start()
-    users, found = bench.store.workspace, bench.part.outcome
+    users, found = bench.store.workspace, bench.shown.outcome
     bench.show_photo(replace(photo))
     assert bench.controller.match is None
     bench.start()
     bench.store.put(users)
-    assert bench.part.outcome == found
+    assert bench.shown.outcome == found
     bench.go_on.clear()
     bench.controller.start(MatchChoice())
     bench.controller.cancel()
     bench.go_on.set()
-    assert bench.part.outcome == found
+    assert bench.shown.outcome == found
 
 
 def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
@@ -234,13 +234,13 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
     assert bench.controller.match is None, "read in another way it is not what the table matched"
     show_listed(LoadOptions())
     assert bench.controller.match is row.match
-    assert bench.part.outcome.is_listed
+    assert bench.shown.outcome.is_listed
     bench.controller.apply()
     assert row.match is not None
     assert bench.scenes.scene == row.match.scene
     bench.refusal = ("No.",)
     bench.start()
-    assert (bench.controller.match, bench.part.refusal) == (row.match, ("No.",))
+    assert (bench.controller.match, bench.shown.refusal) == (row.match, ("No.",))
     bench.refusal = ()
     bench.start()
     assert bench.controller.match is not row.match

@@ -37,7 +37,7 @@ def test_the_button_asks_for_a_match_as_it_is_chosen(view: LiveView, qtbot: QtBo
 
 
 def test_what_is_known_beside_the_estimate_is_shown(view: LiveView, qtbot: QtBot) -> None:
-    view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
+    view.change(scene=occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
     assert view.form.hint.text() == "chips or levels per second"
@@ -74,12 +74,12 @@ def test_choosing_a_lamp_confirms_its_frequency_until_another_choice(
 
 def test_a_match_of_outdated_inputs_is_marked(view: LiveView, match: Match) -> None:
     scene = occ.Scene().replace(switching_frequency=2e3)
-    view.show_scene(scene)
+    view.change(scene=scene)
     view.show_matched(match)
     for frequency, stale in ((2e3, False), (1e3, True), (2e3, False)):
-        view.show_scene(scene.replace(switching_frequency=frequency, exposure_time=5e-5))
+        view.change(scene=scene.replace(switching_frequency=frequency, exposure_time=5e-5))
         assert view.result.warning.isVisible() == stale
-    view.show_scene(scene.replace(switching_frequency=1e3))
+    view.change(scene=scene.replace(switching_frequency=1e3))
     assert view.result.warning.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
     # A frequency that is certain for the photo does not depend on the scene's.
     view.confirm({"switching_frequency": 2e3})
@@ -96,7 +96,7 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
     view.activateWindow()
     qtbot.waitActive(view)
     view.form.start.setFocus()
-    view.show_match_running(True)
+    view.show_running(True)
     assert view.form.cancel.hasFocus()
     view.show_matched(match)
     assert view.form.start.hasFocus()
@@ -105,29 +105,29 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
 def test_a_running_match_shows_progress_and_a_cancel_button(view: LiveView, qtbot: QtBot) -> None:
     form = view.form
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
-    view.show_match_running(True)
+    view.show_running(True)
     assert (form.start.isVisible(), form.progress.isVisible()) == (False, True)
     form.show_progress(0.25)
     assert form.progress.value() == form.progress.maximum() / 4
     with qtbot.waitSignal(form.cancelled):
         qtbot.mouseClick(form.cancel, Qt.MouseButton.LeftButton)
-    view.show_match_running(False)
+    view.show_running(False)
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
 
 
 def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
     view: LiveView, qtbot: QtBot
 ) -> None:
-    view.show_scene(occ.Scene().replace(switching_frequency=7e3))
+    view.change(scene=occ.Scene().replace(switching_frequency=7e3))
     assert not view.form.certain.isChecked()
     qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
     assert view.choice.certain == {"switching_frequency": 7e3}
-    view.show_scene(occ.Scene().replace(switching_frequency=8e3))  # by a slider, say
+    view.change(scene=occ.Scene().replace(switching_frequency=8e3))  # by a slider, say
     assert not view.form.certain.isChecked()
     field = view.form.known["switching_frequency"]
     field.selectAll()
     qtbot.keyClicks(field, "9 kHz\r")
-    view.show_scene(occ.Scene().replace(switching_frequency=9e3))
+    view.change(scene=occ.Scene().replace(switching_frequency=9e3))
     assert view.form.certain.isChecked()
     assert view.choice.certain == {"switching_frequency": 9e3}
     choose(qtbot, view.form.estimate, "switching_frequency")
@@ -140,9 +140,9 @@ def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
 def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
     view: LiveView, qtbot: QtBot
 ) -> None:
-    view.show_scene(occ.Scene())
+    view.change(scene=occ.Scene())
     view.form.edited.connect(
-        lambda name, value, _: view.show_scene(occ.Scene().replace(**{name: value}))
+        lambda name, value, _: view.change(scene=occ.Scene().replace(**{name: value}))
     )
     refused = collect(view.refused)
     fields = {"auto": view.form.known["switching_frequency"], "lamp": view.form.lamp}

@@ -12,14 +12,13 @@ from occ_gui.widgets.state_look import State
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Alternative, Match
 from occ_model.scene.units import SECOND
-from occ_model.study.bands.advice import cure_of
 
 
 def test_results_stand_with_uncertainty_in_the_screens_units(
     view: LiveView, photo: Photo, match: Match
 ) -> None:
     view.open(replace(photo, exposure_time=1 / 16000))
-    view.result.show_certain({"switching_frequency": 2e3})
+    view.confirm({"switching_frequency": 2e3})
     view.show_matched(match)
     texts = {name: label.text() for name, label in view.result.figures.labels.items()}
     assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
@@ -66,7 +65,7 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     assert view.result.condition.text() == "These values hold only if f = 2 kHz."
     assert view.result.figures.labels["frame"].text() == "14.57770 ± 0.00027 ms"
     assert (paste.lines, paste.reason.isVisible()) == ({}, True)
-    view.result.show_certain({"switching_frequency": 2e3})
+    view.confirm({"switching_frequency": 2e3})
     assert not view.result.condition.isVisible()
     texts = {program: field.text() for program, field in paste.lines.items()}
     assert texts["OpenDroneMap"].endswith("--rolling-shutter-readout 14.57770")
@@ -80,9 +79,9 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
 
 def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: Match) -> None:
     scene = match.scene.replace(pattern="10", switching_frequency=3840.0)
-    view.result.show_certain({"switching_frequency": 2e3})
+    view.confirm({"switching_frequency": 2e3})
     found = replace(match, scene=scene)
-    view.show_matched(found, cure_of(scene))
+    view.show_matched(found)
     rest = (
         "no bars at whole multiples of 520.8 µs. "
         "Set 1/640 s or 1/320 s if the camera keeps the marked times exactly, "
@@ -95,11 +94,12 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: M
     assert view.result.cure.text() == lamp + depth + rest
     # Half a period is left of 1.5: (1/2) / (1.5 / 2), and less with 0.05 more or fewer.
     longer = scene.replace(exposure_time=1.5 / 1920.0)
-    view.show_matched(found, cure_of(longer, exposure_error=0.025 / 1920.0))
+    error = {"exposure_time": 0.025 / 1920.0}
+    view.show_matched(replace(found, scene=longer, uncertainties=error))
     assert "bars of 58.1 to 66.7 % of the mean light from dark to bright" in view.result.cure.text()
-    view.show_matched(replace(found, exposure_reasons=("Two exposures fit.",)), cure_of(scene))
+    view.show_matched(replace(found, exposure_reasons=("Two exposures fit.",)))
     assert view.result.cure.text() == lamp + rest
-    view.result.show_certain({})
+    view.confirm({})
     assert view.result.cure.text() == lamp + rest
     assert view.result.condition.text() == "These values hold only if f = 2 kHz."
 
@@ -152,7 +152,7 @@ def estimates(view: LiveView) -> list[str]:
 def test_a_result_that_depends_on_an_assumed_value_says_so_until_it_is_confirmed(
     view: LiveView, photo: Photo, match: Match, qtbot: QtBot
 ) -> None:
-    view.show_scene(match.scene.replace(switching_frequency=2e3))
+    view.change(scene=match.scene.replace(switching_frequency=2e3))
     view.show_matched(match)
     view.result.more.setChecked(True)
     assumed = ["14.57770 ± 0.00027 µs", "2 kHz (assumed)", "62.50 ± 0.21 µs"]
@@ -162,8 +162,10 @@ def test_a_result_that_depends_on_an_assumed_value_says_so_until_it_is_confirmed
     assert estimates(view) == ["14.57770 ± 0.00027 µs", "2 kHz (given)", "62.50 ± 0.21 µs"]
     assert not view.result.condition.isVisible()
     view.open(replace(photo, channel="red"))  # the same photo, read in another way
+    view.show_matched(match)
     assert estimates(view)[1] == "2 kHz (given)"
     view.open(replace(photo, path=photo.path.with_name("another.png")))
+    view.show_matched(match)
     assert estimates(view) == assumed
     spreads = {"switching_frequency": 1.0, "exposure_time": 2e-7, "gamma": 0.05}
     view.show_matched(replace(match, uncertainties=spreads))
@@ -181,7 +183,7 @@ READ = Alternative("chips that were read", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-
 
 
 def test_a_doubtful_exposure_is_stated_beside_sure_values(view: LiveView, match: Match) -> None:
-    view.result.show_certain({"switching_frequency": 2e3})
+    view.confirm({"switching_frequency": 2e3})
     view.show_matched(replace(match, exposure_reasons=REASONS))
     result = view.result
     assert result.reasons.text().splitlines() == [
@@ -212,9 +214,9 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
     result, steps, bar = view.result, view.steps, view.verdict
     result.more.setChecked(True)
     assert result.more.geometry().bottom() < result.details.geometry().top()
-    for why in ("of another part of the photo", ""):
+    for why in ("of another part of the photo: match again", ""):
         is_present = not why
-        view.show_match_outdated(why, usable=is_present)
+        view.change(part=None if is_present else match.region)
         assert result.mark.isVisible() != is_present
         assert result.reasons.isEnabled() == is_present
         for button in (result.apply, result.save, result.without_bars, steps.buttons["apply"]):

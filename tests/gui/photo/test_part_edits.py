@@ -59,7 +59,7 @@ class Bench(PhotoBench):
         self.show_photo(photo)
 
     def _show(self) -> None:
-        self.pane.show_part(self.part)
+        self.pane.show_part(self.shown)
 
     def find(self) -> None:
         self.change(lamps=LAMPS)

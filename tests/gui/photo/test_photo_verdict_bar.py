@@ -9,8 +9,7 @@ from matches import match_of_lamp
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-import occ_model as occ
-from occ_gui.photo.photo_verdict import PhotoVerdictBar
+from occ_gui.photo.photo_verdict import PhotoVerdictBar, photo_caption
 from occ_gui.widgets.state_look import State
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
@@ -32,12 +31,12 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     assert (bar.state, bar.heading) == (State.NEUTRAL, "No photo is open")
     view.open(photo)
     assert (bar.state, bar.heading) == (State.NEUTRAL, "Photo: no match yet")
-    view.show_match_running(True)
+    view.show_running(True)
     assert (bar.state, bar.heading) == (State.WAITING, "Photo: matching…")
-    view.show_match_running(False)
+    view.show_running(False)
     assert bar.state is State.NEUTRAL
-    view.show_match_running(True)
-    view.verdict.end_match(REASONS)
+    view.show_running(True)
+    view.show_matched(None, *REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert " ".join(REASONS) in bar.accessibleDescription()  # they are stated nowhere else
     view.show_matched(match)
@@ -72,7 +71,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
     assert (bar.state, bar.heading) == (
         State.GOOD, "Photo: sure, but for the exposure, if f = 2 kHz",
     )  # fmt: skip
-    for told in (bar.accessibleDescription(), bar.caption()):
+    for told in (bar.accessibleDescription(), photo_caption(view.shown)):
         assert "exposed for 62.50 ± 0.21 µs (doubtful); sure otherwise." in told
     why = f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}"
     assert why in view.result.reasons.text()
@@ -93,23 +92,15 @@ def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
             assert ("if " in told) == (not view.result.condition.isHidden()) == is_assumed
 
 
-def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
+def test_an_open_photo_that_the_table_has_not_matched_says_why_until_it_is_matched_by_itself(
     view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.many.show_files((photo.path,))
-    view.open(photo)
-    assert bar.heading == "Photo: no match yet"
+    view.change(row=PhotoRow(photo.path, "refused", REASONS[1]))
+    assert (bar.state, bar.heading) == (State.BAD, "Photo: refused in the table")
+    assert REASONS[1] in bar.accessibleDescription()
     view.confirm({"switching_frequency": 2e3})
-    for verdict, state in (("refused", State.BAD), ("sure", State.GOOD)):
-        view.many.show_row(0, PhotoRow(photo.path, verdict, REASONS[1]), 1)
-        view.open(photo)
-        assert (bar.state, bar.heading) == (state, f"Photo: {verdict} in the table")
-        assert REASONS[1] in bar.accessibleDescription()
     view.show_matched(match)
     assert bar.heading == "Photo: sure"  # the frequency is certain
-    view.open(photo)
-    view.many.begin_match("readout_time", occ.Scene())
-    assert bar.heading == "Photo: no match yet"
 
 
 def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
@@ -117,14 +108,14 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
 ) -> None:
     asked = collect(view.form.asked)
     view.open(photo)
-    view.verdict.end_match(REASONS)
+    view.show_matched(None, *REASONS)
     assert bar.step.isHidden()
-    view.verdict.end_match([PLAIN_STRIPES, "They repeat after 40.0 columns."])
+    view.show_matched(None, PLAIN_STRIPES, "They repeat after 40.0 columns.")
     assert not bar.step.isHidden()
     qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
     assert [one.sent for one in asked] == ["lamp"]
     assert not view.form.certain.isChecked()
-    view.show_match_running(True)
+    view.show_running(True)
     assert bar.step.isHidden()
 
 
@@ -132,15 +123,17 @@ def test_the_caption_of_a_figure_names_the_photo_and_the_verdict_on_its_match(
     view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
     view.open(None)
-    assert bar.caption() == ""
+    assert photo_caption(view.shown) == ""
     view.open(photo)
-    assert bar.caption() == "photo stripes.png, not matched"
+    assert photo_caption(view.shown) == "photo stripes.png, not matched"
     view.show_matched(match)
-    assert bar.caption().startswith("photo stripes.png. If f = 2 kHz: your camera reads a line in")
-    assert "exposed for 62.50 ± 0.21 µs; sure." in bar.caption()
-    bar.show_applied(False)  # the picture in the figure is of another scene
-    assert bar.caption().startswith(
+    assert photo_caption(view.shown).startswith(
+        "photo stripes.png. If f = 2 kHz: your camera reads a line in"
+    )
+    assert "exposed for 62.50 ± 0.21 µs; sure." in photo_caption(view.shown)
+    view.change(scene=match.scene.replace(iso=50.0))  # the figure's picture is of another scene
+    assert photo_caption(view.shown).startswith(
         "photo stripes.png, whose match is not this scene's. If f = 2 kHz"
     )
-    view.show_match_outdated("of another part of the photo: match again", usable=False)
-    assert bar.caption() == "photo stripes.png, not matched"
+    view.change(part=match.region)
+    assert photo_caption(view.shown) == "photo stripes.png, not matched"

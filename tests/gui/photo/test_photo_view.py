@@ -157,7 +157,7 @@ def test_a_scene_that_differs_by_rounding_is_the_matched_one(
     view.open(photo)
     view.show_matched(match)
     for shown, word in ((brighter, "done"), (scene.replace(luminance=4e3), "next step")):
-        view.show_scene(shown)
+        view.change(scene=shown)
         assert spoken(view.steps)[3] == f"Apply: {word}"
         told = {chip.text for chip in view.verdict.badges.badges}
         assert ("not applied" in told) == (word != "done")

@@ -91,12 +91,8 @@ class Bench(PhotoBench):
         self.store.put(replace(self.store.workspace, is_enhanced=enhanced))
 
     @property
-    def shown(self) -> PhotoProfile | None:
-        return photo_profile(self.part)
-
-    @property
     def last(self) -> PhotoProfile:
-        return self.shown
+        return photo_profile(self.shown)
 
     @property
     def comparison(self) -> Comparison:
@@ -193,7 +189,7 @@ def test_without_stripes_or_beside_the_picture_the_photo_is_drawn_with_a_sentenc
     assert bench.last.sentence == SENTENCE
     assert bench.last.raw is photo.profile
     bench.show_photo(None)
-    assert bench.shown is None
+    assert bench.last is None
 
 
 def test_a_match_leaves_the_residual_of_a_scene_as_it_was(
@@ -240,16 +236,16 @@ def test_a_photo_lies_at_the_panels_corner_or_where_it_was_put_but_not_where_the
 ) -> None:
     bench.show_photo(photo)
     bench.move(Placement(1.0, 2.0, 3.0))
-    assert bench.part.placement == Placement(1.0, 2.0, 3.0)
+    assert bench.shown.placement == Placement(1.0, 2.0, 3.0)
     bench.show_photo(photo)
     for distance in (1.2, 2.0):
         snapshot = snapshot_of(distance=distance)
         bench.show_reading(snapshot)
         column, row = snapshot.panel_origin
-        assert bench.part.placement == Placement(column, row)
+        assert bench.shown.placement == Placement(column, row)
     bench.wait()
     # Once its lamp is found, which begins in its tenth column, that lies on the panel.
-    assert bench.part.placement == Placement(column - 10.0, row)
+    assert bench.shown.placement == Placement(column - 10.0, row)
 
 
 def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
@@ -259,7 +255,7 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
     Image.fromarray(snapshot.frame.image).save(tmp_path / "a.png")
     bench.show_reading(snapshot)
     bench.show_photo(occ.load_photo(tmp_path / "a.png", "columns"))
-    assert bench.part.placement == Placement()
+    assert bench.shown.placement == Placement()
     bench.wait()
 
 
@@ -309,17 +305,17 @@ def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
     bench.show_photo(photo)
     assert searched == []
     search.find()
-    assert bench.part.search == ((), True, "")
+    assert bench.shown.search == ((), True, "")
     bench.wait()
     users = bench.store.workspace
-    (lamp,) = bench.part.lamps
-    assert bench.part.search == ((lamp,), False, "")
+    (lamp,) = bench.shown.lamps
+    assert bench.shown.search == ((lamp,), False, "")
     bench.show_photo(replace(photo))
-    assert bench.part.lamps == ()
+    assert bench.shown.lamps == ()
     bench.store.put(users)
-    assert bench.part.lamps == (lamp,)
+    assert bench.shown.lamps == (lamp,)
     assert searched == [photo]
     search.find()
     bench.show_photo(replace(photo))
     bench.store.put(users)
-    assert bench.part.search == ((), False, ""), "the search has ended with its photo"
+    assert bench.shown.search == ((), False, ""), "the search has ended with its photo"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.kinds import SnapshotOf
+from gui.photo.photo_bench import shown_photo
 from gui.snapshots.gallery import Gallery
 from matches import match_with
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
@@ -53,9 +54,9 @@ def test_the_verdict_on_a_photo_looks_as_stored(
     reasons: tuple[str, ...],
 ) -> None:
     bar = gallery.show(PhotoVerdictBar(), 820, 50)
-    bar.show_photo(photo)
-    bar.show_match(match_with(scene=small_scene, reasons=reasons))
-    bar.show_applied(name == "sure")
+    match = match_with(scene=small_scene, reasons=reasons)
+    scene = match.scene if name == "sure" else match.scene.replace(iso=50.0)
+    bar.show_photo(shown_photo(photo, scene, match))
     bar.show_simulation(State.BAD, "Simulation: no code: no header found")
     bar.resize(820, bar.sizeHint().height())  # as high as its lines, as a layout makes it
     gallery.compare(bar, f"photo-verdict-{name}-{theme}")

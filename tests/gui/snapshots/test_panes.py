@@ -13,6 +13,7 @@ import numpy as np
 from accuracy_points import EACH_WAY
 from camera_measurements import measurement
 from gui.kinds import SnapshotOf
+from gui.photo.photo_bench import shown_photo
 from gui.snapshots.gallery import Gallery
 from matches import match_with
 from PIL import Image
@@ -119,7 +120,9 @@ def test_the_accuracy_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf)
     gallery.compare(view, "accuracy")
 
 
-def test_a_doubtful_match_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
+def test_a_doubtful_match_looks_as_stored(
+    gallery: Gallery, small_scene: Scene, photo: Photo
+) -> None:
     view = gallery.show(MatchResult(), 360, 460)
     view.more.setChecked(True)
     other = Alternative("the scene's chips", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
@@ -128,9 +131,10 @@ def test_a_doubtful_match_looks_as_stored(gallery: Gallery, small_scene: Scene) 
         reasons=("Only 1.2 periods of 4 chips are in view; at least 3 are needed.",),
         alternatives=(other,),
     )
-    view.show_match(match, 7.9e-5)
+    shown = shown_photo(replace(photo, exposure_time=7.9e-5), small_scene, match)
+    view.show_photo(shown)
     gallery.compare(view, "match-doubtful")
-    view.show_outdated("of another part of the photo: match again", usable=False)
+    view.show_photo(replace(shown, part=match.region))
     gallery.compare(view, "match-outdated")
 
 
@@ -222,6 +226,5 @@ def test_the_explanation_looks_as_stored(gallery: Gallery, snapshot_of: Snapshot
 
 def test_the_pane_of_a_photo_looks_as_stored(gallery: Gallery, photo: Photo) -> None:
     view = gallery.show(PhotoView(), 400, 420)
-    view.show_scene(Scene())
-    view.show_photo(photo)
+    view.show_photo(shown_photo(photo, Scene()))
     gallery.compare(view, "photo")

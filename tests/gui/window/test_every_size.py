@@ -14,6 +14,7 @@ from gui.layout_faults import find_faults, is_cut_off
 from gui.shared_window import end
 from gui.user import User
 from gui.window.size_walk import LARGE, LEAST, SIZES, USUAL, walk
+from matches import match_with
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -21,7 +22,8 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, make_lattice
-from occ_gui.values.choices import OVERLAYS
+from occ_gui.values.choices import OVERLAYS, MatchChoice
+from occ_gui.values.photo_results import MatchOutcome, MatchRequest
 from occ_gui.window.theme import SIZES as TEXT_SIZES
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.sweep_request import SweepPoint
@@ -94,16 +96,17 @@ def test_nothing_is_cut_off_squeezed_or_overlapped_beside_a_photo(
     application.files.open_photo(photo_file)
     application.view("profile").enhanced.setChecked(True)
     user.wait_until_idle()
-    photo = application.view("photo")
-    for mode in (*OVERLAYS, "matched"):
-        if mode == "matched":  # a running match, a failure, and the result of the match before
-            photo.form.sent.show_key("lamp")
-            photo.form.sent.chosen.emit("lamp")
-            photo.result.show()
-            photo.verdict.end_match(["No scene explains the stripes of this photo at all. " * 4])
-            photo.form.show_running(True)
-        else:
+    photos, choice = application.photos, MatchChoice("lamp")
+    document, reason = photos.document, "No scene explains the stripes of this photo at all. " * 4
+    refused = replace(document, outcome=MatchOutcome(None, match_with(), ("", 0.0), (reason,)))
+    request = MatchRequest(document.photo, application.store.scene, choice, None)
+    for mode in (*OVERLAYS, "refused", "running"):
+        if mode in OVERLAYS:
             application.options.choose_overlay(mode)
+        else:  # with the result of the match before
+            photos.edit(lambda each: replace(each, form=choice))
+            is_running = mode == "running"
+            photos.put(replace(refused, match_request=request) if is_running else refused)
         qtbot.waitUntil(check)
     assert application.window.size() == LEAST
     application.view("profile").enhanced.setChecked(False)

@@ -2,16 +2,15 @@
 
 import platform
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
-from typing import Protocol
+from typing import Any, Protocol
 
 import cv2
 import numpy as np
 
-from occ_gui.video.quiet import silence_opencv
 from occ_model.arrays import ByteArray
 from occ_model.errors import VideoError, one_line
 
@@ -90,12 +89,24 @@ def _read_text(file: Path) -> str:
 
 
 def _probe_devices() -> Iterator[CameraDevice]:
-    with silence_opencv():
+    with _silence_opencv():
         for number in range(_MOST_TRIED):
             capture = cv2.VideoCapture(number)
             if capture.isOpened():
                 yield CameraDevice(number, f"Camera {number + 1}")
             capture.release()
+
+
+@contextmanager
+def _silence_opencv() -> Iterator[None]:
+    """Keep OpenCV from printing, because errors are reported in sentences."""
+    logging: Any = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging  # OpenCV 4, and 5
+    level = logging.getLogLevel()
+    logging.setLogLevel(0)
+    try:
+        yield
+    finally:
+        logging.setLogLevel(level)
 
 
 class CameraSource:
@@ -109,7 +120,7 @@ class CameraSource:
     def open(self) -> None:
         """Open the camera in full HD, or in the nearest size that it has."""
         self.close()
-        with silence_opencv():
+        with _silence_opencv():
             kind = cv2.CAP_V4L2 if IS_LINUX else cv2.CAP_ANY
             capture = cv2.VideoCapture(self._device.number, kind)
             if not capture.isOpened():

@@ -38,7 +38,15 @@ from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.plain_text import in_menu, in_tool_tip
 from occ_model.results.fact import Fact
 
-_ICON = 16
+_ICON = 16  # pixels
+
+_MOST_TEXT = 200_000  # most characters of text that are shown, from its end
+
+_LEAST_TEXT_HEIGHT = 40
+
+_LEAST_PAGE = QSize(240, 80)
+
+_LARGE_PICTURE_PERCENT = 80  # height of large pictures, in percent of the pane
 
 
 class FilmBar(QWidget):
@@ -111,17 +119,6 @@ class FilmBar(QWidget):
             self.cameras.addAction(words).setEnabled(False)
 
 
-class TransportButton(IconButton):
-    def __init__(self, drawing: str, name: str, meaning: str) -> None:
-        super().__init__(drawing, _ICON)
-        self.rename(drawing, name, meaning)
-
-    def rename(self, drawing: str, name: str, meaning: str) -> None:
-        self.show_drawing(drawing)
-        self.setAccessibleName(name)
-        self.setToolTip(meaning)
-
-
 class Transport(QWidget):
     """Buttons to play and step, and the number and time of the frame that is shown."""
 
@@ -130,9 +127,11 @@ class Transport(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.back = TransportButton("step-back", "Previous frame", "Show the frame before (Left).")
-        self.play = TransportButton("play", "", "")
-        self.forward = TransportButton("step-on", "Next frame", "Show the frame after (Right).")
+        self.back, self.play, self.forward = (
+            IconButton(drawing, _ICON) for drawing in ("step-back", "play", "step-on")
+        )
+        name_widget(self.back, "Previous frame", "Show the frame before (Left).")
+        name_widget(self.forward, "Next frame", "Show the frame after (Right).")
         self.place = name_widget(ElidedLabel(), "Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         parts = (self.back, self.play, self.forward, 6, (self.place, 1))
@@ -143,10 +142,11 @@ class Transport(QWidget):
         self.show_playing(False)
 
     def show_playing(self, playing: bool) -> None:
+        self.play.show_drawing("pause" if playing else "play")
         if playing:
-            self.play.rename("pause", "Pause", "Stop at this frame (Space).")
+            name_widget(self.play, "Pause", "Stop at this frame (Space).")
         else:
-            self.play.rename("play", "Play", "Play the film at its own speed (Space).")
+            name_widget(self.play, "Play", "Play the film at its own speed (Space).")
 
     def show_place(self, index: int, count: int | None, time: float | None) -> None:
         """Show the index of the frame, the number of frames, and the time in seconds."""
@@ -161,15 +161,6 @@ class Transport(QWidget):
             button.setEnabled(usable)
 
 
-_MOST_TEXT = 200_000  # most characters of text that are shown, from its end
-
-_LEAST_HEIGHT = 40
-
-_LARGE_PICTURE_PERCENT = 80  # height of large pictures, in percent of the pane
-
-_LEAST_PAGE = QSize(240, 80)
-
-
 class DataView(QWidget):
     """What was read from a film: a sentence, the text, remarks, and a table of facts."""
 
@@ -178,7 +169,7 @@ class DataView(QWidget):
         hint = "What is read from the film appears here."
         field = QPlainTextEdit(readOnly=True, placeholderText=hint, tabChangesFocus=True)
         self.text = name_widget(field, "What was read")
-        self.text.setMinimumHeight(_LEAST_HEIGHT)
+        self.text.setMinimumHeight(_LEAST_TEXT_HEIGHT)
         self.sentences = paragraph(name="What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.rows: list[tuple[QLabel, QLabel]] = []
@@ -257,9 +248,8 @@ class VideoView(QWidget):
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.split.addWidget(self.pictures)
         self.split.addWidget(self.pages)
-        self.split.setSizes(
-            [150, 350]
-        )  # in this proportion, the bits of a frame fit in a low window
+        # In this proportion, the bits of a frame fit in a low window.
+        self.split.setSizes([150, 350])
         line = fill(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
         fill(
             QVBoxLayout(self), self.bar, self.message, (self.split, 1), line, self.timeline,
@@ -276,9 +266,8 @@ class VideoView(QWidget):
     def show_large(self) -> None:
         """Give the pictures most of the pane, and show them whole."""
         height = sum(self.split.sizes())
-        self.split.setSizes(
-            [_LARGE_PICTURE_PERCENT * height // 100, (100 - _LARGE_PICTURE_PERCENT) * height // 100]
-        )
+        large = _LARGE_PICTURE_PERCENT * height // 100
+        self.split.setSizes([large, height - large])
         self.pictures.fit()
 
     def show_reading(self, reading: FilmReading, frames: Marks) -> None:

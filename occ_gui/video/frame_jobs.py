@@ -7,7 +7,7 @@ import numpy as np
 import occ_model as occ
 from occ_gui.simulation.snapshot import ColumnView, PictureView
 from occ_gui.video.frame_views import FrameStory, ShownPicture
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.errors import OccError
 from occ_model.light.sent import period_columns
 from occ_model.receiver.signal import column_means
@@ -53,20 +53,21 @@ def process_frame(request: FrameRequest) -> ShownFrame:
     story = None
     if frame is not None:
         title = "" if request.film is None else request.film.title
-        story = _make_story(frame, scene, None, title)
-        film = _make_picture(frame.image, story, f"{title}: {_describe_time(frame)}")
-    simulated, refusal, simulated_frame = None, "", None
+        story = _make_story(frame, scene, title)
+        caption = f"{title}: {_describe_time(frame)}"
+        film = ShownPicture(frame.image, story.reading.region, caption)
+    simulated, refusal, simulated_frame, step = None, "", None, _step_of(request)
     start = None if story is None else start_of(story.reading.results[PAPER_DECODER], request.scene)
     try:
-        simulated_frame = _simulate(request, start)
+        simulated_frame = _simulate(request, step, start)
     except OccError as error:
         refusal = str(error)
     if simulated_frame is not None and simulated_frame.scene is not None:
-        is_draft = _step_of(request) > 1
-        simulated_story = _make_story(simulated_frame, simulated_frame.scene, request, "Simulated")
+        simulated_story = _make_story(simulated_frame, simulated_frame.scene, "Simulated", step)
         when = _describe_time(simulated_frame) if start is None else "in phase with the film"
-        caption = f"Simulated{' (draft)' * is_draft}: {when}"
-        simulated = _make_picture(simulated_frame.image, simulated_story, caption)
+        caption = f"Simulated{' (draft)' * (step > 1)}: {when}"
+        region = simulated_story.reading.region
+        simulated = ShownPicture(simulated_frame.image, region, caption, step)
         story = story or simulated_story
     first_frame = simulated_frame if frame is None else frame
     time = None if first_frame is None else first_frame.time
@@ -102,13 +103,13 @@ def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
     return float(-(packet_start + camera.exposure_time / 2.0) % (len(occ.packet(scene)) * period))
 
 
-def _simulate(request: FrameRequest, start: float | None) -> VideoFrame:
+def _simulate(request: FrameRequest, step: int, start: float | None) -> VideoFrame:
     """Simulate the frame with the film's index, or a frame that starts at the film's phase."""
     scene = request.scene
     if start is not None:
         scene = scene.replace(start_time=start)
     video = occ.render_video(
-        scene, None, request.recording, settings=request.settings, rows_step=_step_of(request),
+        scene, None, request.recording, settings=request.settings, rows_step=step,
     )  # fmt: skip
     return video.frame(request.index if start is None else 0)
 
@@ -121,36 +122,30 @@ def _step_of(request: FrameRequest) -> int:
     return min(request.draft_step, camera.rows)
 
 
-def _make_picture(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
-    step = story.picture.rows.step
-    region = story.reading.region
-    return ShownPicture(image, region, caption, step)
-
-
 def _make_story(
-    frame: VideoFrame, scene: Scene, request: FrameRequest | None, source_name: str
+    frame: VideoFrame, scene: Scene, source_name: str, step: int | None = None
 ) -> FrameStory:
-    """Read one frame with its scene; ``request`` is None for a frame that was filmed."""
-    image = frame.image
-    step = 1
-    if request is not None and image.shape[0] != scene.camera.rows:
-        step = request.draft_step
+    """Read one frame with its scene.
+
+    ``step``: of how many rows one was simulated; None for a frame that was filmed.
+    """
+    image, is_simulated = frame.image, step is not None
+    step = step or 1
+    size = (scene.camera.rows if step > 1 else image.shape[0]), image.shape[1]
     decoded, is_enhanced = read_by_itself(image, scene)
     region = decoded.region or Region(0, image.shape[0], 0, image.shape[1])
     profile = column_means(image, Region(region.first_row, region.last_row, 0, image.shape[1]))
-    picture_scene = _resize_scene(scene, image, step)
-    decoded = _scale_to_picture(decoded, step, picture_scene.camera.rows)
-    region = decoded.region or Region(0, picture_scene.camera.rows, 0, image.shape[1])
+    decoded = _scale_to_picture(decoded, step, size[0])
+    region = decoded.region or Region(0, size[0], 0, size[1])
     corners = _corners_of(region)
     transmitter = scene.transmitter
     has_payload = transmitter.light == "code" and not transmitter.pattern
     reading = ColumnView(
-        scene=picture_scene, profile=profile, signal=profile, corners=corners,
-        results={decoded.decoder: decoded},
-        sent=transmitter.payload_bits if request is not None and has_payload else (),
+        scene=scene.replace(rows=size[0], columns=size[1]), profile=profile,
+        signal=profile, corners=corners,        results={decoded.decoder: decoded},
+        sent=transmitter.payload_bits if is_simulated and has_payload else (),
         period_columns=period_columns(scene),
     )  # fmt: skip
-    size = picture_scene.camera.rows, picture_scene.camera.columns
     picture = PictureView(image, range(0, size[0], step), size, corners)
     # Without this note, its threshold would seem to contradict that in the mode Explore.
     treatment = "enhanced" if is_enhanced else "not enhanced"
@@ -158,7 +153,7 @@ def _make_story(
     title = f"{place}, read by itself, {treatment}: {_describe_result(decoded)}"
     if transmitter.light != "code":
         title = f"{place}: {describe_light(transmitter)}"
-    return FrameStory(picture, reading, request is not None, title)
+    return FrameStory(picture, reading, is_simulated, title)
 
 
 def _describe_result(decoded: DecodeResult) -> str:
@@ -167,15 +162,8 @@ def _describe_result(decoded: DecodeResult) -> str:
     return f"{decoded.payload or f'code {decoded.code}'} read."
 
 
-def _resize_scene(scene: Scene, image: ByteArray, step: int) -> Scene:
-    rows, columns = image.shape
-    rows = scene.camera.rows if step > 1 else rows
-    if (rows, columns) == (scene.camera.rows, scene.camera.columns):
-        return scene
-    return scene.replace(rows=rows, columns=columns)
-
-
 def _scale_to_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResult:
+    """Give the region of a draft the rows of the whole picture, of which there are ``rows``."""
     region = decoded.region
     if region is None or step == 1:
         return decoded

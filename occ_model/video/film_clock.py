@@ -48,6 +48,11 @@ class FilmFit:
         """Chips in a second of the film's stated times."""
         return self.fit.frequency / (self.tick * self.values.slow_motion)
 
+    @property
+    def noise(self) -> float:
+        """Standard deviation in seconds of a frame's time from its phase."""
+        return self.fit.noise / self.fit.frequency * self.tick
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmClock:
@@ -75,7 +80,7 @@ class FilmPhases:
         unequal = max(_EQUAL_STEPS * self.times.period.value, _ROUNDED * self.times.resolution)
         if self.times.scatter > unequal:
             by_time = self._fit(is_by_number=False)
-            if by_time and (not by_number or _noise(by_time[0]) < _noise(by_number[0])):
+            if by_time and (not by_number or by_time[0].noise < by_number[0].noise):
                 found = by_time
         if not found:
             return FilmClock(reason=self._explain())
@@ -165,10 +170,6 @@ class FilmPhases:
         return "no frequency that may be fits the phases of the frames, or too many do."
 
 
-def _noise(found: FilmFit) -> float:
-    return found.fit.noise / found.fit.frequency * found.tick
-
-
 def describe_clock(clock: FilmClock, film: FilmPhases, part: Part, chips_of_cycle: int) -> Clock:
     """Return a film's clock for one part of its times.
 
@@ -176,7 +177,7 @@ def describe_clock(clock: FilmClock, film: FilmPhases, part: Part, chips_of_cycl
     """
     best, times = clock.fits[0], film.times
     fit, values = best.fit, best.values
-    frequency, noise = values.switching_frequency.value, _noise(best)
+    frequency, noise = values.switching_frequency.value, best.noise
     drift = None
     if fit.drift_error > 0.0:
         scale = frequency / fit.frequency / best.tick

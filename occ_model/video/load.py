@@ -109,7 +109,7 @@ class VideoFile(Video):
                 yield self._make_frame(index, stored)
                 index += 1
         except DecoderStoppedError as error:
-            self._problem = f"{self._name} ends early: frame {index} cannot be read: {error}."
+            self._end_early(f": frame {index} cannot be read: {error}.")
         finally:
             put_back(decoder)
 
@@ -145,20 +145,19 @@ class VideoFile(Video):
         current, self._current = self._current, None
         try:
             decoder = current[0] if current is not None else self._open_decoder()[0]
-            skipped = -1 if current is None else index - current[1].index - 1
-            if 0 <= skipped < _MAX_DECODED_AHEAD:
-                return (
-                    self._read_next(decoder, index) if decoder.skip(skipped) == skipped else None
-                ), decoder
-            if decoder.seek(index):
-                frame = self._read_next(decoder, index)
-                known = self._times[index : index + 1]
-                # A file does not tell which frames cannot be decoded and so have no number.
-                if frame is None or not known or frame.time == known[0]:
-                    return frame, decoder
-            self._open(decoder)
-            skipped = decoder.skip(index)
-            return (self._read_next(decoder, index) if skipped == index else None), decoder
+            position = 0 if current is None else current[1].index + 1
+            if not 0 <= index - position < _MAX_DECODED_AHEAD:
+                if decoder.seek(index):
+                    frame = self._read_next(decoder, index)
+                    known = self._times[index : index + 1]
+                    # A file does not tell which frames cannot be decoded and so have no number.
+                    if frame is None or not known or frame.time == known[0]:
+                        return frame, decoder
+                self._open(decoder)
+                position = 0
+            if decoder.skip(index - position) < index - position:
+                return None, decoder
+            return self._read_next(decoder, index), decoder
         except DecoderStoppedError as error:
             raise VideoError(f"Frame {index} of {self._name} cannot be read: {error}.") from None
 
@@ -167,32 +166,32 @@ class VideoFile(Video):
         try:
             stored = decoder.read()
         except VideoError as error:
-            self._problem = f"{self._name} ends early: frame {index} cannot be read: {error}"
+            self._end_early(f": frame {index} cannot be read: {error}")
             return None
         if stored is None:
             self._note_end(index, decoder.damaged)
             if self._problem is not None and decoder.is_full:
-                self._problem = (
-                    f"{self._name} ends early, after {inflect(index, 'frame')}: {NO_MEMORY}"
-                )
+                self._end_early(f", after {inflect(index, 'frame')}: {NO_MEMORY}")
             return None
         if stored.pixels.shape != self._stored_shape:
             lines, columns = stored.pixels.shape[:2]
-            self._problem = (
-                f"{self._name} ends early: frame {index} has {columns} x {lines} pixels, "
-                "another size than the first."
+            self._end_early(
+                f": frame {index} has {columns} x {lines} pixels, another size than the first."
             )
             return None
-        if not abs(stored.time - self._first_time) <= LATEST_TIME:
-            self._problem = (
-                f"{self._name} ends early: the time of frame {index} is "
-                f"{stored.time - self._first_time:.3g} s; "
+        time = stored.time - self._first_time
+        if not abs(time) <= LATEST_TIME:
+            self._end_early(
+                f": the time of frame {index} is {time:.3g} s; "
                 f"allowed: {-LATEST_TIME:g} to {LATEST_TIME:g} s."
             )
             return None
         if index == len(self._times):
             self._times.append(stored.time)
         return stored
+
+    def _end_early(self, why: str) -> None:
+        self._problem = f"{self._name} ends early{why}"
 
     def _note_end(self, frames: int, damaged: int) -> None:
         """Compare the film, if all of it was read, with what its file states."""

@@ -15,7 +15,12 @@ from occ_model.transmitter.framings.framing import (
     own_preamble,
     preamble_of,
 )
-from occ_model.transmitter.framings.paper import FRAMING as PAPER, HEADER, find_headers
+from occ_model.transmitter.framings.paper import (
+    FRAMING as PAPER,
+    HEADER,
+    find_headers,
+    is_header_unique,
+)
 from occ_model.transmitter.framings.preamble import FRAMING as PREAMBLE
 from occ_model.transmitter.framings.raw import FRAMING as RAW
 from occ_model.transmitter.scheme import Scheme, scheme_of, sent_chips, shortest_period
@@ -90,17 +95,20 @@ class SentPeriod:
         is_same = (periods == periods[0]).all(axis=0)
         return tuple(periods[0][: int(np.argmin(is_same))].tolist())
 
+    @cached_property
+    def _preamble(self) -> ByteArray | None:
+        """The chips that the framing puts before the line-coded bits; None if not at one place."""
+        if self.scheme is None:
+            return None
+        if self.scheme.framing.name == PAPER.name:
+            return np.array(HEADER, dtype=np.uint8)
+        has_preamble = self.scheme.framing.name in (PREAMBLE.name, RAW.name)
+        return preamble_of(self.scheme.form) if has_preamble else None
+
     @property
     def data_start(self) -> int | None:
         """The chip at which the line-coded bits start; None if the framing has no such place."""
-        if self.scheme is None:
-            return None
-        name = self.scheme.framing.name
-        if name == PAPER.name:
-            return len(HEADER)
-        if name in (PREAMBLE.name, RAW.name):
-            return len(preamble_of(self.scheme.form))
-        return None
+        return None if self._preamble is None else len(self._preamble)
 
     def places(self, chips: ByteArray) -> tuple[int, ...]:
         """Return the places of a frame's first chip in the period that its headers allow.
@@ -112,25 +120,19 @@ class SentPeriod:
             return ()
         if self.scheme.framing.name == c_ook.FRAMING.name:
             return self._places_of_sub_packets(chips, self.scheme.form)
-        return self._places_of_headers(chips, self.scheme.form, self.scheme.framing.name)
+        return self._places_of_headers(chips, self.scheme)
 
-    def _places_of_headers(
-        self, chips: ByteArray, form: FrameFormat, framing: str
-    ) -> tuple[int, ...]:
-        if framing == PAPER.name:
-            longest = form.line_code.longest_run
-            is_header_unique = longest is not None and longest < sum(HEADER)
-            headers = find_headers(chips) if is_header_unique else ()
+    def _places_of_headers(self, chips: ByteArray, scheme: Scheme) -> tuple[int, ...]:
+        headers: tuple[int, ...] = ()
+        if scheme.framing.name == PAPER.name:
+            if is_header_unique(scheme.line_code):
+                headers = find_headers(chips)
             # A run of ones at the end of the view may continue beyond it.
             headers = tuple(header for header in headers if header + len(HEADER) <= len(chips))
-        elif framing in (PREAMBLE.name, RAW.name):
-            preamble = preamble_of(form)
-            is_header_unique = (
-                is_unique(preamble, form.line_code) or len(preamble) >= _MIN_PREAMBLE_CHIPS
-            )
-            headers = find_preambles(chips, preamble) if is_header_unique else ()
-        else:
-            return ()
+        elif self._preamble is not None:
+            is_long = len(self._preamble) >= _MIN_PREAMBLE_CHIPS
+            if is_long or is_unique(self._preamble, scheme.line_code):
+                headers = find_preambles(chips, self._preamble)
         places = {-header % self.length for header in headers}
         return tuple(places) if len(places) == 1 else ()
 

@@ -1,7 +1,8 @@
 """Fit a clock to the phases of frames: a parabola of time with jumps."""
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -36,8 +37,14 @@ class FramePhases:
     step_errors: FloatArray
     period: float  # Chips after which the transmission repeats
 
+    @classmethod
+    def of(cls, frames: Iterable[tuple[float, ...]], period: float) -> "FramePhases":
+        """Make phases from the six values of each frame, in the order of the attributes."""
+        times, columns, places, errors, steps, step_errors = np.array(list(frames)).T
+        return cls(times, columns, places, errors, steps, step_errors, period)
+
     def first(self, count: int) -> "FramePhases":
-        names = ("times", "columns", "places", "errors", "steps", "step_errors")
+        names = [field.name for field in fields(self) if field.name != "period"]
         return replace(self, **{name: getattr(self, name)[:count] for name in names})
 
 

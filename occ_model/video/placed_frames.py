@@ -285,16 +285,11 @@ def _offsets(step: float, frames: Sequence[TimedFrame]) -> FloatArray:
 
 def _frame_phases(placed_frames: Sequence[tuple[TimedFrame, int]], period: int) -> FramePhases:
     """Return the phases of frames, given the places of their first chips in a period."""
-    rows = [
+    frames = (
         (
-            timed.reading.time,
-            timed.column,
-            (place + timed.middle) % period,
-            timed.middle_error,
-            timed.step,
-            timed.step_error,
+            timed.reading.time, timed.column, (place + timed.middle) % period, timed.middle_error,
+            timed.step, timed.step_error,
         )
         for timed, place in placed_frames
-    ]
-    times, columns, places, errors, steps, step_errors = np.array(rows).T
-    return FramePhases(times, columns, places, errors, steps, step_errors, float(period))
+    )  # fmt: skip
+    return FramePhases.of(frames, float(period))

@@ -143,17 +143,14 @@ def _describe_blinking(times: FloatArray, levels: FloatArray) -> str:
 
 
 def _half_cycle_phases(frames: Sequence[_FrameStripes]) -> FramePhases:
-    return FramePhases(
-        times=np.array([frame.time for frame in frames]),
-        columns=np.array([frame.column for frame in frames]),
-        places=np.array([frame.place for frame in frames]),
-        errors=np.array([frame.place_error for frame in frames]),
-        steps=np.array([HALF_CYCLES / frame.period for frame in frames]),
-        step_errors=np.array(
-            [HALF_CYCLES / frame.period**2 * frame.period_error for frame in frames]
-        ),
-        period=float(HALF_CYCLES),
-    )
+    phases = (
+        (
+            frame.time, frame.column, frame.place, frame.place_error, HALF_CYCLES / frame.period,
+            HALF_CYCLES / frame.period**2 * frame.period_error,
+        )
+        for frame in frames
+    )  # fmt: skip
+    return FramePhases.of(phases, float(HALF_CYCLES))
 
 
 def _select_pulses(frames: Sequence[_FrameStripes]) -> list[_FrameStripes]:

@@ -5,13 +5,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from occ_model.arrays import BoolArray, ByteArray, IndexArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.errors import inflect
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.raw import FRAMING as RAW, count_length_bits
-from occ_model.video.joining import JoinedChips
 from occ_model.video.period import SentPeriod
 from occ_model.video.read_frame import TimedFrame
 
@@ -22,13 +21,15 @@ _MIN_CERTAINTY = 0.9  # minimum probability that all bits are correct for a payl
 NO_CLOCK = "The film gives no clock"
 
 
-def known_bits(joined: JoinedChips, period: SentPeriod) -> IndexArray:
-    """Return the payload's bits according to the chips in view: 0, 1, or -1 if unknown."""
+def known_bits(ratios: FloatArray, known: BoolArray, period: SentPeriod) -> IndexArray:
+    """Return the payload's bits according to the chips in view: 0, 1, or -1 if unknown.
+
+    ``ratios``: the log-likelihood ratios of the period's chips. ``known``: which of them are known.
+    """
     scheme = period.scheme
     if scheme is None or scheme.correction != "none":
         return np.full(0 if scheme is None else scheme.bits, -1, dtype=np.int64)
-    chips = (joined.ratios > 0.0).astype(np.uint8)
-    known = joined.known
+    chips = (ratios > 0.0).astype(np.uint8)
     if period.parts > 1:
         return _bits_of_parts(chips, known, period)
     return _bits_of_blocks(chips, known, period)
@@ -117,12 +118,12 @@ def explain_unplaced(frames: Sequence[TimedFrame]) -> str:
     )
 
 
-def explain_unread(soft: SoftFrame | None, joined: JoinedChips, period: SentPeriod) -> str | None:
+def explain_unread(soft: SoftFrame | None, known: BoolArray, period: SentPeriod) -> str | None:
     """Explain why the joined chips of all frames yield no payload; None if they do."""
     if period.scheme is None:
         return "A raw chip pattern is sent, which contains no packets."
     if soft is None:
-        return _explain_incomplete(joined, period)
+        return _explain_incomplete(known, period)
     if soft.framed.failure is not None:
         return soft.framed.failure
     certainty = certainty_of(soft, period)
@@ -134,8 +135,8 @@ def explain_unread(soft: SoftFrame | None, joined: JoinedChips, period: SentPeri
     return None
 
 
-def _explain_incomplete(joined: JoinedChips, period: SentPeriod) -> str:
-    unknown = ~joined.known
+def _explain_incomplete(known: BoolArray, period: SentPeriod) -> str:
+    unknown = ~known
     text = (
         f"{int(unknown.sum())} of {period.length} chips are in no frame whose place in the packet "
         "is known; a longer film may show them."

@@ -224,7 +224,8 @@ class VideoReader:
             if self._completing_frame is None:
                 self._completing_frame = len(self._placed.frames) - 1
         else:
-            self._payload = format_bits(known_bits(self._joined, self._period), self._scene)
+            bits = known_bits(self._joined.ratios, self._joined.known, self._period)
+            self._payload = format_bits(bits, self._scene)
 
     def _read_soft_frame(self) -> SoftFrame | None:
         scheme = self._period.scheme
@@ -245,7 +246,7 @@ class VideoReader:
             return f"{description} No frame contains packets as the scene sends them."
         if self._placed.part_unknown:
             return PART_UNKNOWN
-        return explain_unread(soft, self._joined, self._period)
+        return explain_unread(soft, self._joined.known, self._period)
 
     def _format_payload(self, bits: ByteArray) -> str:
         payload = self._scene.transmitter.payload

@@ -1,8 +1,5 @@
 """Headers determine at which places of the sent period a sequence of chips can be."""
 
-from types import SimpleNamespace
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -61,15 +58,14 @@ def test_a_whole_period_gives_all_bits_and_a_part_fewer(framing: str) -> None:
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     chips = period.scheme.encode(sent)
     ratios = np.where(chips == 1, 9.0, -9.0)
-    whole: Any = SimpleNamespace(ratios=ratios, known=np.ones(len(chips), dtype=bool))
-    assert known_bits(whole, period).tolist() == sent.tolist()
-    half: Any = SimpleNamespace(ratios=ratios, known=np.arange(len(chips)) < 0.5 * len(chips))
-    found = known_bits(half, period)
+    whole = np.ones(len(chips), dtype=bool)
+    assert known_bits(ratios, whole, period).tolist() == sent.tolist()
+    found = known_bits(ratios, np.arange(len(chips)) < 0.5 * len(chips), period)
     assert 0 < np.count_nonzero(found >= 0) < len(sent)
     assert (found[found >= 0] == sent[found >= 0]).all()
     lost = 0
     for place in range(len(chips)):
-        one: Any = SimpleNamespace(ratios=ratios, known=np.arange(len(chips)) != place)
-        lost += int(np.count_nonzero(known_bits(one, period) < 0))
+        all_but_one = np.arange(len(chips)) != place
+        lost += int(np.count_nonzero(known_bits(ratios, all_but_one, period) < 0))
     # A bit needs its own two chips and those of the bit before, or the last chip of a header.
     assert lost == 4 * len(sent) - (framing != "raw")

@@ -1,6 +1,6 @@
 """Answers to lessons while the window is open, and their check on a thread."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QObject, Signal
 
@@ -12,18 +12,11 @@ from occ_model.teaching.answers import check_answer
 
 
 @dataclass(frozen=True, slots=True)
-class MatchedPhoto:
-    name: str = ""
-    match: Match | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class _Question:
     lesson: Lesson
     place: int
     text: str
-    scene: Scene
-    photo: MatchedPhoto
+    asked: AnsweredStep  # with a provisional answer
 
 
 class LessonAnswers(QObject):
@@ -34,7 +27,7 @@ class LessonAnswers(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self._records: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
+        self._records: dict[tuple[str, int], AnsweredStep] = {}
         self._queue: list[_Question] = []  # the one being checked, then those that wait
         self.runner: Task[_Question, tuple[_Question, CheckedAnswer]] = Task(
             lambda question, _: _check(question), "lesson"
@@ -44,15 +37,15 @@ class LessonAnswers(QObject):
         self.runner.idle.connect(self._check_next)
 
     def check(
-        self, lesson: Lesson, place: int, text: str, scene: Scene, photo: MatchedPhoto
+        self, lesson: Lesson, place: int, text: str, scene: Scene, match: Match | None, photo: str
     ) -> None:
-        """Check an answer to a step, given while ``scene`` was shown and ``photo`` open."""
-        if not lesson.steps[place].own_photo:
-            photo = MatchedPhoto()
-        scene = lesson.steps[place].scene_to_judge(scene)
-        pending = CheckedAnswer(text, None, "The model computes…")
-        self._records[lesson.name, place] = (pending, scene, photo)  # in place of an earlier one
-        self._queue.append(_Question(lesson, place, text, scene, photo))
+        """Check an answer given while a scene was shown, and the photo of this name was open."""
+        step, pending = lesson.steps[place], CheckedAnswer(text, None, "The model computes…")
+        asked = AnsweredStep(step, pending, step.scene_to_judge(scene))
+        if step.own_photo:
+            asked = replace(asked, match=match, photo=photo)
+        self._records[lesson.name, place] = asked  # in place of an earlier one
+        self._queue.append(_Question(lesson, place, text, asked))
         if self.runner.is_idle:
             self._check_next()
 
@@ -61,22 +54,20 @@ class LessonAnswers(QObject):
 
     def find_answer(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
         record = self._records.get((lesson.name, place))
-        return None if record is None else record[0]
+        return None if record is None else record.answer
 
     def is_valid_for(self, lesson: Lesson, place: int, scene: Scene) -> bool:
         """Return whether an answer was checked for this scene, or depends on none."""
         record, step = self._records.get((lesson.name, place)), lesson.steps[place]
         if record is None or step.check is None or step.own_photo:
             return True
-        return record[1] == step.scene_to_judge(scene)
+        return record.scene == step.scene_to_judge(scene)
 
     def list_steps(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
-        steps = []
-        for place, step in enumerate(lesson.steps):
-            unanswered = None, step.question_scene, MatchedPhoto()
-            answer, scene, photo = self._records.get((lesson.name, place), unanswered)
-            steps.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
-        return tuple(steps)
+        return tuple(
+            self._records.get((lesson.name, place), AnsweredStep(step, None, step.question_scene))
+            for place, step in enumerate(lesson.steps)
+        )
 
     def _check_next(self) -> None:
         if self._queue:
@@ -91,10 +82,10 @@ class LessonAnswers(QObject):
         del self._queue[0]
         key = (question.lesson.name, question.place)
         if key not in {(later.lesson.name, later.place) for later in self._queue}:
-            self._records[key] = (answer, question.scene, question.photo)
+            self._records[key] = replace(question.asked, answer=answer)
             self.checked.emit(question.lesson, question.place)
 
 
 def _check(question: _Question) -> tuple[_Question, CheckedAnswer]:
-    step = question.lesson.steps[question.place]
-    return question, check_answer(step, question.text, question.photo.match, question.scene)
+    asked = question.asked
+    return question, check_answer(asked.step, question.text, asked.match, asked.scene)

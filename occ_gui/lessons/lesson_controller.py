@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.file_controller import sample_photos
-from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
+from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.shown_photo import find_match
 from occ_gui.scene.scene_store import new_gesture
@@ -89,8 +89,8 @@ class LessonController(QObject):
             self._list_lessons(failure)
 
     def _list_lessons(self, failure: str = "") -> None:
-        reached = self._places | self._finished_steps
-        self._view.list_lessons(self._loaded.lessons, reached, failure, self._loaded.problems)
+        self._view.list.show_lessons(self._loaded, self._places | self._finished_steps, failure)
+        self._view.setCurrentWidget(self._view.list)
 
     def begin_first(self) -> None:
         self.set_visible(True)
@@ -125,8 +125,10 @@ class LessonController(QObject):
     def _show_end(self, lesson: Lesson) -> None:
         answers = [step.answer for step in self._answers.list_steps(lesson)]
         next_lesson = self._find_next()
-        self._view.show_end(lesson, answers, "" if next_lesson is None else next_lesson.title)
-        self._view.end.report.setEnabled(not self._answers.is_checking(lesson))
+        end = self._view.end
+        end.show_answers(lesson, answers, "" if next_lesson is None else next_lesson.title)
+        end.report.setEnabled(not self._answers.is_checking(lesson))
+        self._view.setCurrentWidget(end)
 
     def _find_next(self) -> Lesson | None:
         """Return the next lesson in the list; None after the last, or if its file is gone."""
@@ -180,7 +182,8 @@ class LessonController(QObject):
         self._places[lesson.name] = place
         self._finished_steps.pop(lesson.name, None)
         step = lesson.steps[place]
-        self._view.show_step(lesson, place, self._answers.find_answer(lesson, place))
+        self._view.step.show_step(lesson, place, self._answers.find_answer(lesson, place))
+        self._view.setCurrentWidget(self._view.step)
         self.equation_wanted.emit(step.equation)
         self._set_step(lesson, place)
         self.control_wanted.emit(step.control)
@@ -257,11 +260,10 @@ class LessonController(QObject):
             self._view.step.answer_field.show_waiting()
             results = self._results_store.results
             name = "" if results.photo is None else one_line(results.photo.path.name)
-            match = find_match(results)
-            photo = MatchedPhoto(name, None if match is None else match.match)
-            self._answers.check(
-                lesson, self._places[lesson.name], text, self._store.workspace.scene, photo
-            )
+            outcome = find_match(results)
+            match = None if outcome is None else outcome.match
+            scene = self._store.workspace.scene
+            self._answers.check(lesson, self._places[lesson.name], text, scene, match, name)
 
     def _show_answer(self, lesson: Lesson, place: int) -> None:
         answer = self._answers.find_answer(lesson, place)

@@ -16,7 +16,7 @@ from occ_gui.lessons.step_page import LEAST_SIZE, StepPage, heading, paragraph
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_model.errors import inflect
-from occ_model.results.teaching import CheckedAnswer, Lesson
+from occ_model.results.teaching import CheckedAnswer, Lesson, LoadedLessons
 
 _LONGEST_NAME = 120  # characters
 
@@ -72,14 +72,15 @@ class EndPage(QWidget):
 _CHOICE_STYLE = "text-align: left; padding: 8px;"
 
 
-class LessonList(QWidget):
+class LessonList(ScrollPane):
     """A button for each lesson, with its summary below."""
 
     chosen = Signal(str)  # the name of the lesson to begin or continue
     folder_asked = Signal()  # to open the folder of the user's own lessons
 
     def __init__(self) -> None:
-        super().__init__()
+        content = QWidget()
+        super().__init__(content, LEAST_SIZE)
         self.choices: list[QPushButton] = []
         self._boxes: list[QWidget] = []
         self.message = paragraph()
@@ -93,28 +94,24 @@ class LessonList(QWidget):
         )
         foot = fill(QHBoxLayout(), None, self.folder)
         parts = (heading("Lessons"), self.message, self._rows, self.problems, None, foot)
-        fill(QVBoxLayout(self), *parts, margins=8, spacing=8)
+        fill(QVBoxLayout(content), *parts, margins=8, spacing=8)
 
     def show_lessons(
-        self,
-        lessons: Sequence[Lesson],
-        done_steps: Mapping[str, int],
-        failure: str,
-        problems: Mapping[str, str],
+        self, loaded: LoadedLessons, done_steps: Mapping[str, int], failure: str
     ) -> None:
         introduction = (
             "Each step sets a scene and asks a question that you answer by trying. At the end "
             "your own scene returns."
         )
         self.message.setText(failure or introduction)
-        self.problems.setText("\n".join(problems.values()))
-        self.problems.setVisible(bool(problems))
+        self.problems.setText("\n".join(loaded.problems.values()))
+        self.problems.setVisible(bool(loaded.problems))
         for box in self._boxes:
             self._rows.removeWidget(box)
             box.deleteLater()
         self.choices, self._boxes = [], []
         has_sheets = False
-        for lesson in sorted(lessons, key=lambda lesson: lesson.is_sheet):
+        for lesson in sorted(loaded.lessons, key=lambda lesson: lesson.is_sheet):
             if lesson.is_sheet and not has_sheets:
                 has_sheets = True
                 self._add_box(heading("Lab sheets"))
@@ -158,34 +155,12 @@ class LessonList(QWidget):
 _PREFERRED_HEIGHT = 320  # pixels
 
 
-class LessonView(QWidget):
+class LessonView(QStackedWidget):
     def __init__(self) -> None:
         super().__init__()
         self.list, self.step, self.end = LessonList(), StepPage(), EndPage()
-        self._pages = QStackedWidget()
-        for page in (ScrollPane(self.list, LEAST_SIZE), self.step, self.end):
-            self._pages.addWidget(page)
-        fill(QVBoxLayout(self), self._pages, margins=0)
-
-    def list_lessons(
-        self,
-        lessons: Sequence[Lesson],
-        done_steps: Mapping[str, int],
-        failure: str,
-        problems: Mapping[str, str],
-    ) -> None:
-        self.list.show_lessons(lessons, done_steps, failure, problems)
-        self._pages.setCurrentIndex(0)
-
-    def show_step(self, lesson: Lesson, index: int, answer: CheckedAnswer | None) -> None:
-        self.step.show_step(lesson, index, answer)
-        self._pages.setCurrentIndex(1)
-
-    def show_end(
-        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], next_title: str
-    ) -> None:
-        self.end.show_answers(lesson, answers, next_title)
-        self._pages.setCurrentIndex(2)
+        for page in (self.list, self.step, self.end):
+            self.addWidget(page)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(super().sizeHint().width(), _PREFERRED_HEIGHT)

@@ -1,8 +1,8 @@
 """Connects the lessons with their pane, the controls and the equations, and writes reports."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from datetime import date
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QUrl, Signal
@@ -28,21 +28,15 @@ _AUTHOR = "lessons/author"
 _SUFFIX = ".pdf"
 
 
-@dataclass(frozen=True, slots=True)
-class _Job:
-    path: Path
-    lesson: Lesson
-    steps: Sequence[AnsweredStep]
-    author: str
-
-
 class LessonReports(QObject):
     status_message = Signal(str)
 
     def __init__(self, window: QWidget | None, preferences: Preferences) -> None:
         super().__init__()
         self._window, self._preferences = window, preferences
-        self.runner: Task[_Job, Path] = Task(lambda job, _: _write(job), "lesson report")
+        self.runner: Task[Callable[[], Path], Path] = Task(
+            lambda write, _: write(), "lesson report"
+        )
         self.runner.finished.connect(self._announce)
         self.runner.failed.connect(self.status_message)
 
@@ -64,24 +58,20 @@ class LessonReports(QObject):
         if name:
             path = Path(name)
             path = path if path.suffix else path.with_suffix(_SUFFIX)
-            self.write(path, lesson, steps, self.author)
-
-    def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
-        self.status_message.emit("Drawing…")
-        self.runner.ask(_Job(path, lesson, tuple(steps), author))
+            self.status_message.emit("Drawing…")
+            self.runner.ask(partial(_write, path, lesson, steps, self.author))
 
     def _announce(self, path: Path) -> None:
         self._preferences.visit_export(path)
         self.status_message.emit(f"Saved {one_line(path.name)}")
 
 
-def _write(job: _Job) -> Path:
+def _write(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> Path:
     # matplotlib takes half a second to import.
     from occ_model.figures.lesson_report import write_lesson_report
 
-    today = date.today().isoformat()
-    write_lesson_report(job.path, job.lesson, job.steps, author=job.author, date=today)
-    return job.path
+    write_lesson_report(path, lesson, steps, author=author, date=date.today().isoformat())
+    return path
 
 
 class LessonPane(Pane[None]):

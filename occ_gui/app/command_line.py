@@ -27,7 +27,7 @@ from occ_model.commands.options import (
     simulation_settings_of,
 )
 from occ_model.errors import one_line, quote
-from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.files.writing import write_whole
 from occ_model.program import EXIT_MISUSE, run_program, say
 from occ_model.scene.from_text import DEFAULT_PRESET
 
@@ -197,7 +197,6 @@ def _prepare(options: argparse.Namespace) -> None:
         from occ_model.commands.files import check_files
 
         check_files(options)
-        check_replaceable(options.screenshot)  # before a window is drawn
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
         # A photo that cannot be read is refused here, and not drawn as an empty pane.
         if options.photo:

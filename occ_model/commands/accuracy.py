@@ -4,12 +4,12 @@ import argparse
 import sys
 from pathlib import Path
 
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.files import folder_of_figures
 from occ_model.commands.options import (
     Commands,
     add_scene_options,
     add_simulation_options,
-    progress_bar,
     scene_of,
     simulation_settings_of,
 )

@@ -3,8 +3,9 @@
 import argparse
 from pathlib import Path
 
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands, add_option, decoder_name, number, progress_bar
+from occ_model.commands.options import Commands, add_option, decoder_name, number
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decode import decoders
 from occ_model.results.bit_errors import FRAMES_A_SECOND, BenchPoint, BenchRequest

@@ -5,7 +5,8 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.options import Commands, add_option, fraction_bar
+from occ_model.commands.bars import fraction_bar
+from occ_model.commands.options import Commands, add_option
 from occ_model.errors import ParameterError
 from occ_model.photo.camera.flash import measure_flash
 from occ_model.photo.camera.measure import MOST_PICTURES, measure_camera

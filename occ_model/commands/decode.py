@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from occ_model.arrays import ByteArray
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.film_lines import (
     Tolerances,
     add_tolerances,
@@ -19,7 +20,6 @@ from occ_model.commands.options import (
     Commands,
     add_scene_options,
     decoder_name,
-    progress_bar,
     scene_of,
 )
 from occ_model.errors import ParameterError, inflect, one_line

@@ -5,8 +5,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands, add_option, progress_bar
+from occ_model.commands.options import Commands, add_option
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo

@@ -1,4 +1,4 @@
-"""Check the files of a command line: no output may overwrite another file that it names."""
+"""Check the files of a command line before its work: each output can be written safely."""
 
 import argparse
 from collections.abc import Callable, Iterator
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from occ_model.errors import OutputError, one_line
+from occ_model.files.writing import check_replaceable, format_of_image
 from occ_model.scene.from_text import check_scene_path
 from occ_model.scene.presets import user_folder
 
@@ -34,7 +35,7 @@ class OutputFiles:
     """The files that a command writes at the path of an option."""
 
     # Refuses a path with a wrong ending
-    check: Callable[[Path], object] = lambda _path: None
+    check_ending: Callable[[Path], object] = lambda _path: None
     # Names of the files, if the path is their folder
     names: tuple[str, ...] = ()
 
@@ -44,6 +45,7 @@ def _check_table_path(path: Path) -> None:
         raise OutputError(f"{one_line(str(path))} does not have the ending of a table; use .csv.")
 
 
+PICTURE = OutputFiles(format_of_image)
 SCENE_FILE = OutputFiles(check_scene_path)
 TABLE = OutputFiles(_check_table_path)
 
@@ -55,33 +57,31 @@ def folder_of_figures(*names: str) -> OutputFiles:
 
 
 def check_files(options: argparse.Namespace) -> None:
-    """Refuse a command line that would overwrite a file that it names.
+    """Refuse a command line that would overwrite a file that it names, or cannot write one.
 
     ``options.writes`` maps an option to its :class:`OutputFiles`, or to a function of the parsed
     command line that returns them. It is an OutputError if an output is one of the inputs, by its
-    path or by a link, if two outputs are one file, or if a file has a wrong ending.
+    path or by a link, if two outputs are one file, or if a file has a wrong ending or cannot be
+    written.
     """
     inputs, outputs = list(_list_inputs(options)), list(_list_outputs(options))
-    for place, (name, path) in enumerate(outputs):
+    files = [each for output in outputs for each in _list_files(*output)]
+    for place, (name, path) in enumerate(files):
         for other, input_path in inputs:
             if is_same_file(path, input_path):
                 raise OutputError(
                     f"{name} is {one_line(str(path))}, the same file as {other}; name another file "
                     "to write to."
                 )
-        for other, written in outputs[:place]:
+        for other, written in files[:place]:
             if is_same_file(path, written):
                 raise OutputError(
                     f"{other} and {name} are the same file, {one_line(str(path))}; name two."
                 )
-    _check_endings(options)
-
-
-def _check_endings(options: argparse.Namespace) -> None:
-    for option in vars(options).get("writes", {}):
-        path: Path | None = getattr(options, option)
-        if path is not None:
-            _outputs_of(options, option).check(path)
+    for _, path, output in outputs:
+        output.check_ending(path)
+        if not output.names:
+            check_replaceable(path)
 
 
 def _list_inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
@@ -94,23 +94,19 @@ def _list_inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
         yield "the file of --preset", user_folder() / f"{options.preset}.toml"
 
 
-def _list_outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
+def _list_outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path, OutputFiles]]:
     values = vars(options)
     for option, name in OUTPUTS.items():
         path: Path | None = values.get(option)
-        if path is None:
-            continue
-        written = _outputs_of(options, option)
-        if written.names:
-            yield from ((f"{name}, where {file} goes,", path / file) for file in written.names)
-        else:
-            yield name, path
+        if path is not None:
+            output = values.get("writes", {}).get(option, OutputFiles())
+            yield name, path, output if isinstance(output, OutputFiles) else output(options)
 
 
-def _outputs_of(options: argparse.Namespace, option: str) -> OutputFiles:
-    written: OutputFiles | Callable[[argparse.Namespace], OutputFiles]
-    written = vars(options).get("writes", {}).get(option, OutputFiles())
-    return written if isinstance(written, OutputFiles) else written(options)
+def _list_files(name: str, path: Path, output: OutputFiles) -> list[tuple[str, Path]]:
+    if not output.names:
+        return [(name, path)]
+    return [(f"{name}, where {file} goes,", path / file) for file in output.names]
 
 
 def is_same_file(path: Path, other: Path) -> bool:

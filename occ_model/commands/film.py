@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.options import (
     EFFECTS,
     Commands,
     add_option,
     add_scene_options,
     add_simulation_options,
-    progress_bar,
     scene_of,
     simulation_settings_of,
 )

@@ -5,13 +5,13 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.options import (
     Commands,
     add_option,
     add_scene_options,
     decoder_name,
     number,
-    progress_bar,
     scene_of,
 )
 from occ_model.errors import inflect

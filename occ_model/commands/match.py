@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from occ_model.commands.bars import fraction_bar
 from occ_model.commands.film_lines import add_tolerances
 from occ_model.commands.match_film import match_film
 from occ_model.commands.match_many import add_many_options, outputs_of_match, run_many
@@ -13,7 +14,6 @@ from occ_model.commands.options import (
     Commands,
     add_option,
     add_scene_options,
-    fraction_bar,
     is_stated,
     scene_of,
 )

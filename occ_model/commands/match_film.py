@@ -2,6 +2,7 @@
 
 import argparse
 
+from occ_model.commands.bars import progress_bar
 from occ_model.commands.film_lines import (
     Tolerances,
     describe_slow_motion,
@@ -9,7 +10,6 @@ from occ_model.commands.film_lines import (
     print_problems,
     tolerances_of,
 )
-from occ_model.commands.options import progress_bar
 from occ_model.errors import ParameterError
 from occ_model.program import EXIT_FAILURE
 from occ_model.results.clock import Clock

@@ -1,15 +1,15 @@
 """The command ``occ-model match`` with several photos, which give one readout time."""
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 
+from occ_model.commands.bars import run_with_bar
 from occ_model.commands.files import SCENE_FILE, TABLE, OutputFiles
-from occ_model.commands.options import is_stated, progress_bar, whole_number
+from occ_model.commands.options import is_stated, whole_number
 from occ_model.errors import ParameterError, inflect, one_line
-from occ_model.files.writing import check_replaceable, write_whole
-from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
+from occ_model.files.writing import write_whole
+from occ_model.photo.many.match_photos import MOST_JOBS, Progress, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import format_lines, frame_readout_time
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.results.match import known_parameter, known_value
@@ -55,9 +55,22 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     jobs = usual_jobs() if options.jobs is None else options.jobs
     check_count("jobs", jobs, 1, MOST_JOBS)
     own_values = _parse_known(paths, scene, options)
-    if options.out:
-        check_replaceable(options.out)  # before minutes of work
-    table = _match_with_bar(paths, scene, own_values, options, jobs)
+
+    def run(progress: Progress) -> PhotoTable:
+        return match_photos(
+            paths,
+            scene,
+            estimate=options.estimate,
+            sent=options.sent,
+            fit_gamma=options.fit_gamma,
+            scan_axis=options.scan_axis,
+            channel=options.channel,
+            known=own_values,
+            jobs=jobs,
+            progress=progress,
+        )
+
+    table = run_with_bar(run, "photo", "nothing was written.", leave=False)
     if table is None:
         return EXIT_INTERRUPTED
     is_assumed = table.rests_on_the_scene and not is_stated(table.known, options)
@@ -99,44 +112,6 @@ def _find_photo(name: str, paths: list[Path]) -> list[int]:
         f"--known {one_line(name) or '(nothing)'} is not exactly one of the photos; allowed: "
         f"PHOTO=VALUE with the path of one, such as {one_line(str(paths[0]))}=1kHz."
     )
-
-
-def _match_with_bar(
-    paths: list[Path],
-    scene: Scene,
-    known: dict[int, float],
-    options: argparse.Namespace,
-    jobs: int,
-) -> PhotoTable | None:
-    """Match photos with a progress bar; None after Ctrl-C."""
-    finished_count = 0
-    try:
-        with progress_bar(total=len(paths), unit="photo", leave=False) as bar:
-
-            def progress(done: int, _total: int) -> None:
-                nonlocal finished_count
-                finished_count = done
-                bar.update(done - bar.n)
-
-            return match_photos(
-                paths,
-                scene,
-                estimate=options.estimate,
-                sent=options.sent,
-                fit_gamma=options.fit_gamma,
-                scan_axis=options.scan_axis,
-                channel=options.channel,
-                known=known,
-                jobs=jobs,
-                progress=progress,
-            )
-    except KeyboardInterrupt:
-        pass
-    print(
-        f"occ-model: stopped after {finished_count} of {len(paths)} photos; nothing was written.",
-        file=sys.stderr,
-    )
-    return None
 
 
 def _report_lines(table: PhotoTable, known: str) -> list[str]:

@@ -1,9 +1,8 @@
-"""Common options of commands (scene, simulated effects, noise), their parser, and their bars."""
+"""Common options of commands (scene, simulated effects, files of studies), and their parser."""
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NoReturn, TypeAlias
 
@@ -193,22 +192,14 @@ def is_stated(name: str, options: argparse.Namespace) -> bool:
     return name in names or (name == "lamp_frequency" and options.led_frequency is not None)
 
 
-def progress_bar(**options: Any) -> Any:
-    """Return a tqdm bar, shown on a terminal."""
-    from tqdm import tqdm  # slow to import, and needed only by long commands
-
-    return tqdm(file=sys.stderr, **{"disable": None, **options})
-
-
-@contextmanager
-def fraction_bar() -> Iterator[Callable[[float], object]]:
-    """Show a bar from 0 to 1; yield the function that sets it."""
-    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
-        yield lambda fraction: bar.update(fraction - bar.n)
-
-
-def print_above_bar(sentence: str) -> None:
-    """Print a line on standard error, above the bar if one is shown."""
-    from tqdm import tqdm
-
-    tqdm.write(sentence, file=sys.stderr)
+def add_work_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options for where a study runs, and where its results go."""
+    add_option(parser, "--jobs", 1, "processes", metavar="N")
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE.csv",
+        help="file of results, point by point; if it has a part of them, only the rest is measured",
+    )  # fmt: skip
+    parser.epilog = (
+        "If it is stopped, by Ctrl-C or otherwise, the results so far are in the file of --out; "
+        "the same command continues from there."
+    )

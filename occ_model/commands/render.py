@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from occ_model.commands.files import SCENE_FILE
+from occ_model.commands.files import PICTURE, SCENE_FILE
 from occ_model.commands.options import (
     EFFECTS,
     Commands,
@@ -16,7 +16,7 @@ from occ_model.commands.options import (
 )
 from occ_model.effects.plan import plan_with
 from occ_model.errors import inflect, one_line
-from occ_model.files.writing import check_image_path, write_image
+from occ_model.files.writing import write_image
 from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
 from occ_model.scene.colour_scenes import is_colour
@@ -46,14 +46,13 @@ def add_to(commands: Commands) -> None:
     )
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
-    parser.set_defaults(command=_run, writes={"save_scene": SCENE_FILE})
+    parser.set_defaults(command=_run, writes={"out": PICTURE, "save_scene": SCENE_FILE})
     _add_plan(commands)
 
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options, may_have_colours=True)
     settings = simulation_settings_of(options, EFFECTS)
-    check_image_path(options.out)  # before seconds of work
     if is_colour(scene):
         colours = render_colour_with(scene, settings)
         image, title, step, timings = colours.image, colours.title, 1, colours.timings

@@ -8,17 +8,18 @@ from pathlib import Path
 
 import numpy as np
 
-from occ_model.commands.files import TABLE
+from occ_model.commands.bars import run_study
+from occ_model.commands.files import PICTURE, TABLE
 from occ_model.commands.options import (
     Commands,
     add_option,
     add_simulation_options,
+    add_work_options,
     number,
     simulation_settings_of,
 )
-from occ_model.commands.sweep import add_work_options, run_with_bar
 from occ_model.errors import inflect, one_line
-from occ_model.files.writing import check_image_path, write_image
+from occ_model.files.writing import write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.room.locate import RoomReading, read_room
@@ -50,7 +51,7 @@ def add_to(commands: Commands) -> None:
     _add_room(render)
     add_simulation_options(render)
     render.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
-    render.set_defaults(command=_run_render)
+    render.set_defaults(command=_run_render, writes={"out": PICTURE})
     locate = kinds.add_parser(
         "locate", help="name the lamps in a picture and say where it was taken"
     )
@@ -67,22 +68,14 @@ def add_to(commands: Commands) -> None:
     floor = kinds.add_parser(
         "map",
         help="measure across the floor how many lamps are read, and how well the place is known",
-        epilog="If it is stopped, by Ctrl-C or otherwise, the results so far are in the file of "
-        "--out; the same command continues from there.",
-    )  # fmt: skip
+    )
     _add_room(floor, AXES[2:])  # x and y are those of places on the floor
-    _add_floor(floor, 5)
+    add_option(floor, "--side", 5, "places on each side of the floor below the lamps", metavar="N")
+    add_option(floor, "--images", 1, "a place")
+    add_option(floor, "--seed", 1)
+    floor.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
     add_work_options(floor)
     floor.set_defaults(command=_run_map, writes={"out": TABLE})
-
-
-def _add_floor(parser: argparse.ArgumentParser, side: int) -> None:
-    add_option(
-        parser, "--side", side, "places on each side of the floor below the lamps", metavar="N"
-    )
-    add_option(parser, "--images", 1, "a place")
-    add_option(parser, "--seed", 1)
-    parser.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
 
 
 def _add_room(parser: argparse.ArgumentParser, axes: Sequence[str] = AXES) -> None:
@@ -111,7 +104,6 @@ def _room_of(options: argparse.Namespace) -> Room:
 
 def _run_render(options: argparse.Namespace) -> int:
     room, settings = _room_of(options), simulation_settings_of(options)
-    check_image_path(options.out)
     frame = _render_with_settings(room, settings)
     write_image(options.out, frame.camera_image, "Camera's picture")
     shown = [result.lamp.name + (" (cut)" if result.is_cut else "") for result in frame.lamps]
@@ -130,19 +122,15 @@ def _render_with_settings(room: Room, settings: SimulationSettings) -> RoomFrame
     )  # fmt: skip
 
 
-def _request_of(options: argparse.Namespace) -> RoomMapRequest:
+def _run_map(options: argparse.Namespace) -> int:
     room = _room_of(options)
     places = places_under(room, options.side)
-    return RoomMapRequest(room, *places, options.images, options.seed, options.tolerance)
-
-
-def _run_map(options: argparse.Namespace) -> int:
-    request = _request_of(options)
+    request = RoomMapRequest(room, *places, options.images, options.seed, options.tolerance)
 
     def run(progress: Progress) -> tuple[RoomPoint, ...]:
         return room_map(request, jobs=options.jobs, progress=progress, results=options.out)
 
-    points = run_with_bar(run, options)
+    points = run_study(run, options)
     if points is None:
         return EXIT_INTERRUPTED
     if not options.out:

@@ -2,27 +2,23 @@
 
 import argparse
 import sys
-import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, TypeVar
 
-from occ_model.commands.files import TABLE
+from occ_model.commands.bars import run_study
+from occ_model.commands.files import TABLE, OutputFiles
 from occ_model.commands.options import (
     Commands,
     add_option,
     add_scene_options,
     add_switches,
+    add_work_options,
     decoder_name,
     forced_effects,
-    print_above_bar,
-    progress_bar,
     scene_of,
 )
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.errors import ParameterError, inflect, one_line
-from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
@@ -42,18 +38,11 @@ from occ_model.study.sweep.sweep import run_sweep
 
 BOTH, ALL = "both", "all"
 
-Study = TypeVar("Study")
-
 PLOT_ENDINGS = (".png", ".pdf", ".svg")  # of the file of a plot
 
 
 def add_to(commands: Commands) -> None:
-    parser = commands.add_parser(
-        "sweep",
-        help="measure the success rate against any parameters",
-        epilog="If it is stopped, by Ctrl-C or otherwise, the results so far are in the file of "
-        "--out; the same command continues from there.",
-    )
+    parser = commands.add_parser("sweep", help="measure the success rate against any parameters")
     add_scene_options(parser)
     parser.add_argument(
         "--vary", action="append", required=True, metavar="NAME=VALUES",
@@ -92,16 +81,13 @@ def add_to(commands: Commands) -> None:
         "success rates in the plot, or bits a second",
         choices=SHOWN_QUANTITIES,
     )
-    parser.set_defaults(command=_run, writes={"out": TABLE})
+    parser.set_defaults(
+        command=_run, writes={"out": TABLE, "plot": OutputFiles(_check_plot_ending)}
+    )
 
 
-def add_work_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for where a study runs, and where its results go."""
-    add_option(parser, "--jobs", 1, "processes", metavar="N")
-    parser.add_argument(
-        "--out", type=Path, metavar="FILE.csv",
-        help="file of results, point by point; if it has a part of them, only the rest is measured",
-    )  # fmt: skip
+def _check_plot_ending(path: Path) -> None:
+    check_choice("the plot's ending", path.suffix.lower(), PLOT_ENDINGS)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -118,13 +104,15 @@ def _run(options: argparse.Namespace) -> int:
     # All arguments are checked before minutes of work begin.
     request = build_request(scene, axes, settings)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
-    if options.plot:
-        _check_plot(options.plot, len(axes))
+    if options.plot and len(axes) > 2:
+        raise ParameterError(
+            f"--plot draws one axis or two, not {len(axes)}; leave it out, or vary less."
+        )
 
     def run(progress: Progress) -> SweepTable:
         return run_sweep(request, jobs=options.jobs, progress=progress, results=options.out)
 
-    table = run_with_bar(run, options)
+    table = run_study(run, options)
     if table is None:
         return EXIT_INTERRUPTED
     if table.faults:
@@ -155,51 +143,3 @@ def decoders_of(names: Sequence[str]) -> tuple[str, ...]:
     if ALL in names:
         return tuple(DECODERS)
     return QUICK_DECODERS if BOTH in names else tuple(dict.fromkeys(names))
-
-
-def _check_plot(path: Path, axes: int) -> None:
-    check_choice("the plot's ending", path.suffix.lower(), PLOT_ENDINGS)
-    if axes > 2:
-        raise ParameterError(
-            f"--plot draws one axis or two, not {axes}; leave it out, or vary less."
-        )
-    check_replaceable(path)
-
-
-def run_with_bar(run: Callable[[Progress], Study], options: argparse.Namespace) -> Study | None:
-    """Run a study with a progress bar that shows the time left; None after Ctrl-C."""
-    progress_text = "before the first point"
-    with ExitStack() as stack:
-        bar: Any = None
-
-        def progress(done: int, total: int, _left: float) -> None:
-            nonlocal bar, progress_text
-            if bar is None:  # only after the first point, so that a refused study shows no bar
-                bar = stack.enter_context(progress_bar(total=total, unit="point"))
-            progress_text = f"after {done} of {total} points"
-            bar.update(done - bar.n)
-
-        try:
-            stack.enter_context(_print_warnings_as_sentences())
-            return run(progress)
-        except KeyboardInterrupt:
-            pass
-    outcome = "with --out FILE.csv the results would be kept."
-    if options.out:
-        out = one_line(str(options.out))
-        outcome = f"the results are in {out}, and the same command continues from there."
-    print(f"occ-model: stopped {progress_text}; {outcome}", file=sys.stderr)
-    return None
-
-
-@contextmanager
-def _print_warnings_as_sentences() -> Iterator[None]:
-    """Print warnings as plain sentences, above the progress bar if there is one."""
-
-    def show(message: Warning | str, *_others: object, **_options: object) -> None:
-        print_above_bar(f"occ-model: {message}")
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("always", RuntimeWarning)
-        warnings.showwarning = show
-        yield

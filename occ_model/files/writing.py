@@ -85,13 +85,8 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
     write_whole(path, _encode(path, image, description))
 
 
-def check_image_path(path: Path) -> None:
-    """Refuse a path to which no image can be written, before the image is made."""
-    check_replaceable(path)
-    _format_of(path)
-
-
-def _format_of(path: Path) -> str:
+def format_of_image(path: Path) -> str:
+    """Return the format of an image file by its ending; OutputError for any other ending."""
     format_name = _FORMATS.get(path.suffix.lower())
     if format_name is None:
         *endings, last = PICTURE_ENDINGS
@@ -205,7 +200,7 @@ def write_folder(folder: Path, contents: Mapping[str, bytes]) -> None:
 
 
 def _encode(path: Path, image: ByteArray, description: str) -> bytes:
-    format_name = _format_of(path)
+    format_name = format_of_image(path)
     longest = LONGEST_SIDE.get(format_name)
     if longest is not None and max(image.shape) > longest:
         raise OutputError(

@@ -8,6 +8,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.commands.command_line import read_command_line, run_command
+from occ_model.errors import OutputError
 from occ_model.files.writing import write_image
 
 WITHOUT_FILES = {
@@ -200,14 +202,12 @@ def test_a_name_of_any_length_is_shortened_in_a_sentence(
 
 
 @pytest.mark.parametrize(
-    ("line", "simulation"),
-    [
-        ("render -o out.xyz", "occ_model.commands.render.render_with"),
-        ("room render -o out.xyz", "occ_model.commands.room._render_with_settings"),
-    ],
-)
-def test_a_picture_that_cannot_be_written_is_not_simulated(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, line: str, simulation: str
-) -> None:
-    monkeypatch.setattr(simulation, lambda *_: pytest.fail("simulated"))
-    assert main(line.split()) == 2
+    "line",
+    ["render -o out.xyz", "room render -o missing/out.png", "film -o folder.png",
+     "match p.png --out missing/fit.toml"],
+)  # fmt: skip
+def test_what_cannot_be_written_is_refused_before_the_work(folder: Path, line: str) -> None:
+    options = read_command_line(line.split())
+    options.command = lambda _: pytest.fail("work was done")
+    with pytest.raises(OutputError):
+        run_command(options)

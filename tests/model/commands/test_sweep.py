@@ -15,7 +15,8 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands.sweep import decoders_of, run_with_bar
+from occ_model.commands.bars import run_study
+from occ_model.commands.sweep import decoders_of
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
 from occ_model.figures.sweep import write_sweep_figure
@@ -168,7 +169,7 @@ def test_a_stopped_study_says_how_far_it_came(
             progress(done, 27, 1.0)
         raise KeyboardInterrupt
 
-    assert run_with_bar(run, Namespace(out=None)) is None
+    assert run_study(run, Namespace(out=None)) is None
     assert capsys.readouterr().err.endswith(
         f"occ-model: {said}; with --out FILE.csv the results would be kept.\n"
     )

@@ -75,9 +75,9 @@ class PhotoController(QObject):
         self.edit(lambda choice: choice.open(path, match=match))
 
     def list_files(self, paths: Sequence[Path]) -> None:
-        """List these photos in place of the previous ones, without confirmed values."""
+        """List these photos in place of the previous ones, without assumptions about them."""
         listed = tuple(paths)
-        self.edit(lambda each: replace(each.clear_certain() if listed else each, listed=listed))
+        self.edit(lambda each: replace(each.drop_assumptions() if listed else each, listed=listed))
 
     def cancel(self) -> None:
         """Cancel the loading of a photo; the previous photo stays."""
@@ -103,7 +103,7 @@ class PhotoController(QObject):
         shown = self._shown_choice
         changes = {
             name: getattr(shown, name)
-            for name in ("path", "load_options", "opening", "certain", "forgotten", "parts")
+            for name in ("path", "load_options", "opening", "form", "certain", "forgotten", "parts")
         }
         self._shown_choice = replace(self.choice, **changes, is_match_wanted=False)
         self._store.put(replace(self._store.workspace, photo=self._shown_choice))

@@ -160,21 +160,22 @@ class PhotoChoice:
         return parts[-1] if isinstance(parts[-1], Region) else parts[-1].region
 
     def open(self, path: Path, *, match: bool = False) -> Self:
-        """Open a photo; a value that is certain for one photo of the table is certain for all."""
+        """Open a photo; what is assumed of one photo of the table is assumed of all."""
         opened = replace(self, path=path, opening=next(_openings), is_match_wanted=match)
         is_listed = path in self.listed and self.path in (None, *self.listed)
-        return opened if is_listed or path == self.path else opened.clear_certain()
+        return opened if is_listed or path == self.path else opened.drop_assumptions()
 
     def close(self) -> Self:
-        return replace(self, path=None, parts={}).clear_certain()
+        return replace(self, path=None, parts={}).drop_assumptions()
 
     def with_known(self, name: str, value: float) -> Self:
         """Reset the form, with one known value, in SI units, that is certain."""
         return replace(self, form=MatchChoice(), certain={name: value}, forgotten={})
 
-    def clear_certain(self) -> Self:
-        """Treat no value as certain any more, but remember those that were."""
-        return replace(self, certain={}, forgotten={**self.forgotten, **self.certain})
+    def drop_assumptions(self) -> Self:
+        """Assume neither what was sent nor that a value is certain; remember those that were."""
+        form, forgotten = replace(self.form, sent="auto"), {**self.forgotten, **self.certain}
+        return replace(self, form=form, certain={}, forgotten=forgotten)
 
     def with_certain(self, name: str, value: float | None) -> Self:
         others = {key: known for key, known in self.certain.items() if key != name}

@@ -96,7 +96,8 @@ class LiveView(PhotoView):
     def __init__(self) -> None:
         super().__init__()
         self.shown = ShownPhoto(Scene())
-        self.form.chosen.connect(lambda form: self.choose(replace(self.choice, form=form)))
+        for signal in (self.form.chosen, self.form.asked):
+            signal.connect(lambda form: self.choose(replace(self.choice, form=form)))
         self.form.certain_chosen.connect(
             lambda name, value: self.choose(self.choice.with_certain(name, value))
         )
@@ -111,7 +112,7 @@ class LiveView(PhotoView):
         self.show_photo(self.shown)
 
     def _list(self) -> None:
-        self.choose(replace(self.choice.clear_certain(), listed=self.many.rows.paths))
+        self.choose(replace(self.choice.drop_assumptions(), listed=self.many.rows.paths))
 
     def choose(self, choice: PhotoChoice) -> None:
         self.change(choice=choice)

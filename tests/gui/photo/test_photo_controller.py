@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import ResultsStore
+from occ_gui.values.choices import MatchChoice
 from occ_model.photo.reading.load import Photo, load_photo
 
 
@@ -97,14 +99,18 @@ def test_an_unreadable_photo_says_why_and_the_last_photo_stays(
     bench: Bench, photo_file: Path, tmp_path: Path
 ) -> None:
     bench.open(photo_file)
-    bench.controller.edit(lambda choice: choice.with_certain("switching_frequency", 2e3))
+    form = MatchChoice("lamp")
+    bench.controller.edit(
+        lambda choice: replace(choice.with_certain("switching_frequency", 2e3), form=form)
+    )
     damaged = tmp_path / "damaged.png"
     damaged.write_bytes(photo_file.read_bytes()[:60])
     for path in (damaged, tmp_path / "missing.png", tmp_path):
         bench.open(path)
         assert str(path) in bench.failures[-1]
         assert bench.failures[-1].endswith(".")
-        assert bench.controller.choice.certain == {"switching_frequency": 2e3}
+        choice = bench.controller.choice
+        assert (choice.form, choice.certain) == (form, {"switching_frequency": 2e3})
     assert len(bench.failures) == 3
     assert len(bench.shown) == 1
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.background.task import Task
+from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.files.preferences import Preferences
 from occ_gui.shell.feature import Draw, NothingToDraw, Service
@@ -62,10 +62,10 @@ class ExportResult:
     png: bytes = b""
 
 
-def export(job: ExportJob) -> ExportResult:
-    """Write figures, each complete or not at all."""
+def export(job: ExportJob, report: Report) -> ExportResult:
+    """Write figures, each complete or not at all; several of them all or none."""
     if job.folder is not None:
-        return ExportResult(job, _write_all(job.folder, job.requests))
+        return ExportResult(job, _write_all(job.folder, job.requests, report))
     (request,) = job.requests
     if job.path is not None:  # refused before the figure is drawn, which takes a second
         check_replaceable(job.path)
@@ -81,7 +81,7 @@ def export(job: ExportJob) -> ExportResult:
         )
 
 
-def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
+def _write_all(folder: Path, requests: Sequence[FigureRequest], report: Report) -> list[Path]:
     from occ_model.figures.drawing import files_of, write_all
 
     is_new = not folder.exists()
@@ -92,7 +92,12 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
         for drawing in drawings:
             for path in files_of(drawing, folder):
                 check_replaceable(path)
-        return write_all(folder, drawings, lambda each: drawings[each].provenance(each))
+
+        def find_provenance(drawing: "Drawing") -> Provenance:
+            report(None)  # ends here if the window was closed
+            return drawings[drawing].provenance(drawing)
+
+        return write_all(folder, drawings, find_provenance)
     finally:
         if is_new and not any(folder.iterdir()):
             folder.rmdir()
@@ -127,7 +132,7 @@ class ExportController(Service):
         self._omissions = ""
         # A lambda looks up `export` at each call, so that tests can replace it.
         self.runner: Task[ExportJob, ExportResult] = Task(
-            lambda request, _: export(request), "export"
+            lambda request, report: export(request, report), "export"
         )
         self.tasks = (self.runner,)
         self.runner.finished.connect(self._report)

@@ -4,10 +4,13 @@ import sys
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
+from threading import Event, Timer
+from typing import Any
 
 import pytest
 from gui.pane_bench import PaneBench
 from gui.photo.photo_bench import no_actions
+from gui.user import PATIENCE_S
 from PIL import Image
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog
@@ -15,6 +18,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.panes import accuracy, bands, decoding, detection_map, photo, picture, profile
+from occ_gui.background.task import Report
 from occ_gui.detection_map.map_schedule import SHAPE, MapRequest
 from occ_gui.detection_map.rate_map import RateMap, make_lattice
 from occ_gui.export import export_controller
@@ -253,6 +257,30 @@ def test_a_disk_full_midway_leaves_no_part_of_any_figure(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_window_that_is_closed_ends_the_export_of_all_figures_and_no_part_stays(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, go_on, texts = Event(), Event(), list[str]()
+    table_text = drawing.table_text
+
+    def wait(*asked: Any) -> str:
+        begun.set()
+        assert go_on.wait(PATIENCE_S)
+        texts.append(table_text(*asked))
+        return texts[-1]
+
+    monkeypatch.setattr(drawing, "table_text", wait)
+    monkeypatch.setattr(drawing, "ENDINGS", (".csv",))
+    folder = tmp_path / "report"
+    bench.exporter.export_all(folder)
+    assert begun.wait(PATIENCE_S)
+    assert folder.exists()
+    Timer(0.1, go_on.set).start()
+    bench.exporter.stop()
+    assert len(texts) == 1
+    assert not folder.exists()
+
+
 def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -272,7 +300,7 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(_job: object) -> None:
+    def broken(_job: object, _report: object) -> None:
         raise ZeroDivisionError("a mistake")
 
     with monkeypatch.context() as patched:
@@ -326,9 +354,9 @@ def test_the_drawing_is_done_off_the_windows_thread_and_exports_that_come_quickl
     threads: list[bool] = []
     work = export_controller.export
 
-    def note(job: export_controller.ExportJob) -> export_controller.ExportResult:
+    def note(job: export_controller.ExportJob, report: Report) -> export_controller.ExportResult:
         threads.append(QThread.currentThread() is bench.window.thread())
-        return work(job)
+        return work(job, report)
 
     monkeypatch.setattr("occ_gui.export.export_controller.export", note)
     bench.export("profile", tmp_path / "a.csv")

@@ -70,24 +70,34 @@ class BarsFit:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Search:
-    """Lines weighted by what the best number of bars leaves, and that number.
-
-    Parameters
-    ----------
-    gap_to_none
-        Natural logarithm of its likelihood over that of no bars.
-    """
+class _BarsSearch:
+    """Lines weighted by what the best number of bars so far does not explain, and that number."""
 
     given: LineValues
     lines: Lines
     scales: Scales
-    bars: float
-    gap_to_none: float
+    bars: float = math.nan
 
-    def weighted_anew(self, shape: Shape) -> "Search":
-        """Fit the scales, and weight the lines by what this number of bars does not explain."""
-        model = BarsModel(self.lines, self.bars, shape)
+    def evidence(self, bars: float, shape: Shape, bend: float = 0.0) -> float:
+        """Return the log-likelihood of a number of bars."""
+        return BarsModel(self.lines, bars, shape, bend).log_evidence(self.scales)
+
+    def evidences(self, grid: FloatArray) -> FloatArray:
+        """Return the log-likelihoods of numbers of bars, coarsely."""
+        return np.array([self.evidence(bars, COARSE) for bars in grid])
+
+    def refine(self, bars: float, shape: Shape) -> tuple[float, float]:
+        """Find the most likely number of bars near one; return it with its log-likelihood."""
+        step = 1.0 / _STEPS_A_BAR
+        found = minimize_scalar(
+            lambda tried: -self.evidence(tried, shape),
+            bounds=(max(bars - step, FEWEST_BARS), bars + step), options={"xatol": 2e-3},
+        )  # fmt: skip
+        return float(found.x), -float(found.fun)
+
+    def weighted_for(self, bars: float, shape: Shape) -> "_BarsSearch":
+        """Fit the scales, and weight the lines by what a number of bars does not explain."""
+        model = BarsModel(self.lines, bars, shape)
         scales = _fit_scales(model, _first_scales(self.given))
         fitted = model.fitted(scales)
         away = (self.given.values - fitted)[np.isfinite(self.given.deviations)]
@@ -96,20 +106,7 @@ class Search:
         factors, inflation = _weights(lines, fitted)
         if shape is COARSE:  # what it does not explain is mostly the wave's higher harmonics
             inflation = 1.0
-        return replace(self, lines=lines.weighted(factors / inflation), scales=scales)
-
-
-def search_bars(given: LineValues) -> Search:
-    """Find the number of bars a frame that explains a quotient's lines best, coarsely."""
-    start = _first_scales(given)
-    search = Search(given, Lines.of(given, start.slow), start, math.nan, 0.0)
-    grid = _grid(given.values.shape[1])
-    for _ in range(_ROUNDS):
-        logs = _evidences(search, grid)
-        bars, _ = _refine(search, float(grid[int(np.argmax(logs))]), COARSE)
-        search = replace(search, bars=bars).weighted_anew(COARSE)
-    gap = BarsModel(search.lines, bars, COARSE).log_evidence(search.scales) - _fit_none(search)
-    return replace(search, gap_to_none=gap)
+        return replace(self, lines=lines.weighted(factors / inflation), scales=scales, bars=bars)
 
 
 def _first_scales(given: LineValues) -> Scales:
@@ -118,24 +115,25 @@ def _first_scales(given: LineValues) -> Scales:
     return Scales(spread, 1.5, 0.15, 0.5 * spread, 1.0)
 
 
-def _evidences(search: Search, grid: FloatArray) -> FloatArray:
-    return np.array([
-        BarsModel(search.lines, bars, COARSE).log_evidence(search.scales) for bars in grid
-    ])  # fmt: skip
+def fit_bars(given: LineValues) -> BarsFit:
+    """Fit the bars that explain a quotient's lines best, and compare them with other explanations.
 
-
-def fit_bars(search: Search) -> BarsFit:
-    """Fit the bars of a search, and compare them with other numbers of bars, none and bent ones."""
-    search = search.weighted_anew(FINE)
-    search = replace(search, bars=_refine(search, search.bars, FINE)[0]).weighted_anew(FINE)
-    grid = _grid(search.given.values.shape[1])
-    tops = [search.bars, *_maxima(grid, _evidences(search, grid))]
+    These are other numbers of bars, no bars, and bent ones.
+    """
+    start, grid = _first_scales(given), _grid(given.values.shape[1])
+    search = _BarsSearch(given, Lines.of(given, start.slow), start)
+    for _ in range(_ROUNDS):
+        top = float(grid[int(np.argmax(search.evidences(grid)))])
+        search = search.weighted_for(search.refine(top, COARSE)[0], COARSE)
+    search = search.weighted_for(search.bars, FINE)
+    search = search.weighted_for(search.refine(search.bars, FINE)[0], FINE)
+    tops = [search.bars, *_maxima(grid, search.evidences(grid))]
     tried = {*tops, *(search.bars * factor for factor in (1 / 3, 0.5, 2.0, 3.0))}
-    found = [_refine(search, bars, FINE) for bars in tried if FEWEST_BARS <= bars <= grid[-1]]
+    found = [search.refine(bars, FINE) for bars in tried if FEWEST_BARS <= bars <= grid[-1]]
     bars, evidence = max(found, key=lambda each: each[1])
     for factor in (2, 3):
         if factor * bars <= grid[-1] and _share_of_others(search, bars, factor) < _LEAST_SHARE:
-            bars, evidence = _refine(search, factor * bars, FINE)
+            bars, evidence = search.refine(factor * bars, FINE)
     others = [each for each in found if abs(each[0] / bars - 1.0) > _APART]
     other, next_best = max(others, key=lambda each: each[1], default=(math.nan, -math.inf))
     search = replace(search, bars=bars)
@@ -196,33 +194,20 @@ def _maxima(grid: FloatArray, values: FloatArray) -> list[float]:
     return [float(each) for each in grid[tops]]
 
 
-def _refine(search: Search, bars: float, shape: Shape) -> tuple[float, float]:
-    """Find the most likely number of bars near one; return it with its log-likelihood."""
-
-    def cost(bars: float) -> float:
-        return -BarsModel(search.lines, bars, shape).log_evidence(search.scales)
-
-    step = 1.0 / _STEPS_A_BAR
-    found = minimize_scalar(
-        cost, bounds=(max(bars - step, FEWEST_BARS), bars + step), options={"xatol": 2e-3}
-    )
-    return float(found.x), -float(found.fun)
-
-
-def _share_of_others(search: Search, bars: float, factor: int) -> float:
+def _share_of_others(search: _BarsSearch, bars: float, factor: int) -> float:
     """Return the share of a wave's energy in harmonics that are no multiples of a factor."""
     energies = BarsModel(search.lines, bars, FINE).harmonic_energies(search.scales)
     return 1.0 - float(energies[factor - 1 :: factor].sum() / max(energies.sum(), 1e-12))
 
 
-def _fit_none(search: Search) -> float:
+def _fit_none(search: _BarsSearch) -> float:
     """Return the log-likelihood without bars, with the slow change that suits it best."""
     model, scales = BarsModel(search.lines, search.bars, COARSE), search.scales
     slow = [scales.slow * factor for factor in (0.3, 1.0, 3.0, 10.0)]
     return max(model.log_evidence(replace(scales, wave=1e-9, slow=each)) for each in slow)
 
 
-def _posterior(search: Search) -> tuple[float, float]:
+def _posterior(search: _BarsSearch) -> tuple[float, float]:
     """Return mean and deviation of the number of bars, over it and the modulation."""
     scales, width = search.scales, _width(search)
     near = search.bars + width * np.linspace(-4.0, 4.0, 25)
@@ -240,7 +225,7 @@ def _posterior(search: Search) -> tuple[float, float]:
     return mean, math.sqrt(_widen_variance(search, mean, variance))
 
 
-def _widen_variance(search: Search, bars: float, variance: float) -> float:
+def _widen_variance(search: _BarsSearch, bars: float, variance: float) -> float:
     """Widen a variance by what tiles have in common, and by how far they disagree.
 
     Modulations are independent in the model's tiles, but the same lamps light all of them: their
@@ -265,27 +250,23 @@ def _curvature(logs: list[FloatArray], step: float) -> float:
     return max((2.0 * at - above - below) / step**2, 1e-9)
 
 
-def _width(search: Search) -> float:
+def _width(search: _BarsSearch) -> float:
     """Return about the standard deviation of the number of bars, by the curvature at its best."""
-
-    def evidence(bars: float) -> float:
-        return BarsModel(search.lines, bars, FINE).log_evidence(search.scales)
-
-    step, top = 2e-3, evidence(search.bars)
+    step, top = 2e-3, search.evidence(search.bars, FINE)
     while True:
-        drop = top - 0.5 * (evidence(search.bars + step) + evidence(search.bars - step))
+        beside = (search.evidence(search.bars + side * step, FINE) for side in (1, -1))
+        drop = top - 0.5 * sum(beside)
         if drop > 0.5 or step > 0.1:
             return step / math.sqrt(2.0 * max(drop, 0.1)) * 1.3
         step *= 2.0
 
 
-def _bend(search: Search) -> tuple[float, float]:
+def _bend(search: _BarsSearch) -> tuple[float, float]:
     """Return the most likely bend, and the logarithm of its likelihood over that of none."""
 
     def best(bend: float) -> float:
         near = search.bars * (1.0 - np.array([-0.1, 0.1, 0.3, 0.5]) * bend)
-        models = (BarsModel(search.lines, each, FINE, bend) for each in near)
-        return max(model.log_evidence(search.scales) for model in models)
+        return max(search.evidence(bars, FINE, bend) for bars in near)
 
     values = [best(float(bend)) for bend in _BENDS]
     top = int(np.argmax(values))

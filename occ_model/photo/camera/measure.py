@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from occ_model.errors import MatchError, ParameterError, inflect
-from occ_model.photo.camera.bars_fit import BarsFit, fit_bars, search_bars
+from occ_model.photo.camera.bars_fit import BarsFit, fit_bars
 from occ_model.photo.camera.quotient import TILES, LineValues, quotient_of_lines
 from occ_model.photo.camera.verdict import (
     LEAST_FOR_ANY,
@@ -76,7 +76,7 @@ def measure_camera(
     for number, axis in enumerate(axes, 1):
         lines = quotient_of_lines(loaded, axis)
         refuse_unseen(lines)
-        found.append(_Along(axis, lines, fit_bars(search_bars(lines)), len(loaded) == 1))
+        found.append(_Along(axis, lines, fit_bars(lines), len(loaded) == 1))
         report(0.2 + 0.7 * number / len(axes))
     best = max(found, key=_Along.credit)
     refuse(loaded, axes, best.lines, best.fit)

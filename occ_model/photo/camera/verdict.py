@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.errors import MatchError
-from occ_model.photo.camera.bars_fit import MOST_BARS, BarsFit, fit_bars, search_bars
+from occ_model.photo.camera.bars_fit import MOST_BARS, BarsFit, fit_bars
 from occ_model.photo.camera.quotient import LineValues, quotient_of_lines
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.units import PERCENT
@@ -104,7 +104,7 @@ def _why_none(photos: list[Photo], axes: list[str]) -> list[str]:
 def _count_alone(photo: Photo, axis: str) -> float | None:
     """Return the number of bars in one picture by itself, None if they may be the room's."""
     lines = quotient_of_lines([photo], axis)
-    fit = fit_bars(search_bars(lines))
+    fit = fit_bars(lines)
     is_strong = fit.gap_to_none > _LEAST_FOR_SURE
     return fit.bars if is_strong and tilt_of(lines, fit).is_level else None
 

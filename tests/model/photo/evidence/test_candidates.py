@@ -34,10 +34,10 @@ class Case:
         told = told or scene
         stripes = occ.find_stripes(take(scene), (0, 60, 0, columns))
         low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
+        cameras = camera_responses(told, ("light",), low, high)
         self.candidates = Candidates(
-            stripes, told, camera_responses(told, ("light",), low, high), False, "readout_time", None,
-            self._count,
-        )  # fmt: skip
+            stripes, told, cameras, False, "readout_time", None, self._count
+        )
 
     def _count(self) -> None:
         self.checks += 1

@@ -28,6 +28,7 @@ from occ_model.photo.lamp_fit.wave import Wave
 from occ_model.products import least_squares, row_products, two_factors
 
 _MULTIPLES = (1.0, 2.0, 3.0, 0.5)
+_LEAST_PERIOD, _LEAST_PERIODS = 3.0, 1.2  # columns of a period, and periods in view
 _SAME_PERIOD = 0.08  # relative difference up to which two starts are one
 _STIFFNESS, _OTHER_STIFFNESSES = 0.6, (0.25, 4.0)
 """Deviation of the envelope's bends, and factors of it; hot spots need the last."""
@@ -45,13 +46,16 @@ _MOST_CORRELATION = 0.8
 class LampFit:
     """The model's best parameters for a profile."""
 
-    profile: LampProfile
     model: LampModel
     values: FloatArray
-    inverse: FloatArray  # Inverse of the products of the slopes and beliefs
     noise: FloatArray  # Shape (columns,): standard deviation of each value
-    inflation: float = 1.0  # Factor on variances, as neighbouring columns have similar noise
-    score: float = 0.0  # Logarithm of the evidence, up to a constant
+    inverse: FloatArray  # Inverse of the products of the slopes and beliefs
+    inflation: float  # Factor on variances, as neighbouring columns have similar noise
+    score: float  # Logarithm of the evidence, up to a constant
+
+    @property
+    def profile(self) -> LampProfile:
+        return self.model.profile
 
     @property
     def wave(self) -> Wave:
@@ -72,8 +76,7 @@ class LampFit:
     @property
     def slopes(self) -> FloatArray:
         """The slopes of the levels over the parameters, in deviations, shape (columns, n)."""
-        slopes = _weighted_slopes(self.profile, self.model, self.values, self.noise)
-        return slopes[: len(self.noise)]
+        return self.model.weighted_slopes(self.values, self.noise)[: len(self.noise)]
 
     @property
     def gamma_error(self) -> float:
@@ -98,7 +101,7 @@ class LampFit:
     @property
     def residual(self) -> FloatArray:
         """The profile minus the model, in fractions of white."""
-        return -_off(self.profile, self.levels)
+        return -self.profile.excess(self.levels)
 
 
 def fit_lamp(
@@ -114,33 +117,28 @@ def fit_lamp(
     work.
     """
     starts: list[float] = []
-    longest = len(profile.values) / 1.2
-    for period in periods:
-        for multiple in _MULTIPLES:
-            tried = multiple * period
-            if 3.0 <= tried <= longest and all(
-                abs(tried / other - 1.0) > _SAME_PERIOD for other in starts
-            ):
-                starts.append(tried)
-
+    for tried in (multiple * period for period in periods for multiple in _MULTIPLES):
+        is_new = all(abs(tried / other - 1.0) > _SAME_PERIOD for other in starts)
+        if is_new and _LEAST_PERIOD <= tried <= len(profile.values) / _LEAST_PERIODS:
+            starts.append(tried)
     if not starts:
         return []
 
-    def fitted(period: float, steps: Sequence[int]) -> LampFit:
+    def fit_from(period: float, steps: Sequence[int]) -> LampFit:
         check()
-        return _from_period(profile, period, is_linear, steps)
+        return _fit_from_period(profile, period, is_linear, steps)
 
-    rough = [fitted(period, _FIRST_STEPS) for period in starts]
+    rough = [fit_from(period, _FIRST_STEPS) for period in starts]
     rough.sort(key=lambda fit: -fit.score)
     hopeful = [fit for fit in rough[:_FITTED_STARTS] if rough[0].score - fit.score < _HOPELESS]
-    found = [fitted(start.wave.period, _STEPS) for start in hopeful]
+    found = [fit_from(start.wave.period, _STEPS) for start in hopeful]
     check()
     best = max(found, key=lambda fit: fit.score)
-    found += [_with_stiffness(best, factor) for factor in _OTHER_STIFFNESSES]
+    found += [_fit_with_stiffness(best, factor) for factor in _OTHER_STIFFNESSES]
     return sorted([*found, *rough[len(hopeful) :]], key=lambda fit: -fit.score)
 
 
-def _from_period(
+def _fit_from_period(
     profile: LampProfile, period: float, is_linear: bool, steps: Sequence[int]
 ) -> LampFit:
     """Fit from a period, in as many steps in each round of noise."""
@@ -148,42 +146,43 @@ def _from_period(
     knots = int(min(max(round(count / (0.9 * period)), 2), _MOST_KNOTS))
     basis = envelope_basis(count, knots)
     deviation = _STIFFNESS * min(1.0, (6.0 / knots) ** 1.5)
-    bending = np.diff(np.eye(basis.shape[1]), 2, axis=0) / deviation
-    model = LampModel(profile.columns, basis, bending, is_linear)
-    return _fit(profile, model, _start(profile, model, period), _FIRST_NOISE, steps)
+    model = LampModel(profile, basis, _bends(basis) / deviation, is_linear)
+    return _fit(model, _start(model, period), _FIRST_NOISE, steps)
 
 
-def _with_stiffness(fit: LampFit, factor: float) -> LampFit:
+def _fit_with_stiffness(fit: LampFit, factor: float) -> LampFit:
     """Fit further, with other deviations of the envelope's bends."""
     model = replace(fit.model, bending=fit.model.bending / factor)
     parts = _noise_parts(fit.profile, fit.levels, fit.noise, len(fit.values))
-    return _fit(fit.profile, model, fit.values, parts, _STEPS[1:])
+    return _fit(model, fit.values, parts, _STEPS[1:])
 
 
 def _fit(
-    profile: LampProfile,
-    model: LampModel,
-    values: FloatArray,
-    parts: tuple[float, float],
-    steps: Sequence[int],
+    model: LampModel, values: FloatArray, parts: tuple[float, float], steps: Sequence[int]
 ) -> LampFit:
+    profile = model.profile
     for most in steps:
         noise = _noise(profile, model.levels(values), parts)
-        values = _minimize(profile, model, values, noise, most)
+        values = _minimize(model, values, noise, most)
         parts = _noise_parts(profile, model.levels(values), noise, len(values))
-    noise = _noise(profile, model.levels(values), parts)
-    return _with_evidence(LampFit(profile, model, values, np.empty(0), noise))
+    return _describe_fit(model, values, _noise(profile, model.levels(values), parts))
 
 
-def _start(profile: LampProfile, model: LampModel, period: float) -> FloatArray:
-    columns, level = profile.columns, profile.values
+def _bends(basis: FloatArray) -> FloatArray:
+    """Return the second differences of a spline's coefficients, shape (splines - 2, splines)."""
+    return np.diff(np.eye(basis.shape[1]), 2, axis=0)
+
+
+def _start(model: LampModel, period: float) -> FloatArray:
+    """Return parameters of a period, the other ones as usual or by what the profile shows."""
+    columns, level = model.profile.columns, model.profile.values
     light = np.clip(level, 1e-4, 1.0) ** (1.0 if model.is_linear else 2.2)
     turn = np.exp(-2j * math.pi * columns / period)
     place = -np.angle((level - level.mean()) @ turn) / (2.0 * math.pi) * period % period
     reach = max(3, int(period)) | 1
     padded = np.pad(light, reach, mode="edge")
     brightest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
-    bends = 0.05 * np.diff(np.eye(model.envelope.shape[1]), 2, axis=0)
+    bends = 0.05 * _bends(model.envelope)
     brightness = least_squares(
         np.vstack([model.envelope, bends]),
         np.concatenate([np.log(brightest), np.zeros(len(bends))]),
@@ -206,67 +205,46 @@ def _noise_parts(
     profile: LampProfile, levels: FloatArray, noise: FloatArray, parameters: int
 ) -> tuple[float, float]:
     """Return the noise in proportion to the level, and to the swing, that residuals have."""
-    off = _off(profile, levels)
-    count = len(off)
+    residual = profile.excess(levels)
+    count = len(residual)
     weight = 1.0 / noise**2
-    excess = np.square(off) * count / max(count - parameters + 4, 0.5 * count) - profile.variances
+    freedom = max(count - parameters + 4, 0.5 * count)
+    excess = np.square(residual) * count / freedom - profile.variances
     parts = np.stack([levels**2, np.full(count, profile.swing**2)], axis=1)
     found = two_factors(parts * weight[:, None], np.maximum(excess, 0.0) * weight)
     return max(math.sqrt(found[0]), 0.002), max(math.sqrt(found[1]), 0.002)
 
 
-def _off(profile: LampProfile, levels: FloatArray) -> FloatArray:
-    """Return the model minus the profile, 0 where a clipped column may be brighter than it says."""
-    off = levels - profile.values
-    return np.where(profile.clipped, np.minimum(off, 0.0), off)
-
-
-def _minimize(
-    profile: LampProfile, model: LampModel, values: FloatArray, noise: FloatArray, steps: int
-) -> FloatArray:
+def _minimize(model: LampModel, values: FloatArray, noise: FloatArray, steps: int) -> FloatArray:
     """Minimize the misfit and what contradicts the priors (Levenberg and Marquardt)."""
     most = np.concatenate([MOST_STEPS, np.ones(len(values) - COUNT)])
     most[PLACE] *= math.exp(values[PERIOD])
     low, high = np.full((2, len(values)), [[-math.inf], [math.inf]])
     low[list(ENDS)], high[list(ENDS)] = np.array(list(ENDS.values())).T
-
-    def residual(at: FloatArray) -> FloatArray:
-        return np.concatenate([_off(profile, model.levels(at)) / noise, model.beliefs(at)[0]])
-
-    def slopes(at: FloatArray) -> FloatArray:
-        return _weighted_slopes(profile, model, at, noise)
-
-    return minimize_squares(residual, slopes, values, steps, bounds=Bounds(low, high, most))[0]
+    return minimize_squares(
+        lambda at: model.weighted_residual(at, noise),
+        lambda at: model.weighted_slopes(at, noise),
+        values, steps, bounds=Bounds(low, high, most),
+    )[0]  # fmt: skip
 
 
-def _weighted_slopes(
-    profile: LampProfile, model: LampModel, values: FloatArray, noise: FloatArray
-) -> FloatArray:
-    """Return the slopes of the levels, and then of the beliefs, in deviations."""
-    levels, slopes = model.slopes(values)
-    slopes = slopes / noise[:, None]
-    slopes[profile.clipped & (_off(profile, levels) == 0.0)] = 0.0
-    return np.concatenate([slopes, model.beliefs(values)[1]])
-
-
-def _with_evidence(fit: LampFit) -> LampFit:
-    """Return a fit with its covariance and evidence (Laplace's approximation)."""
-    profile, model, values = fit.profile, fit.model, fit.values
-    slopes = _weighted_slopes(profile, model, values, fit.noise)
+def _describe_fit(model: LampModel, values: FloatArray, noise: FloatArray) -> LampFit:
+    """Return the fit of some parameters, with its covariance and evidence (by Laplace)."""
+    slopes = model.weighted_slopes(values, noise)
     products = row_products(slopes.T, slopes.T)
     # Before, the period is known to a factor of e, and the place to a period.
     products[PERIOD, PERIOD] += 1.0
     products[PLACE, PLACE] += math.exp(-2.0 * values[PERIOD])
     products.flat[:: len(products) + 1] += 1e-9
-    off = fit.residual / fit.noise
-    square = float(off @ off)
-    near = float(off[1:] @ off[:-1]) / max(square, 1e-300)
+    residual = -model.profile.excess(model.levels(values)) / noise
+    square = float(residual @ residual)
+    near = float(residual[1:] @ residual[:-1]) / max(square, 1e-300)
     near = min(max(near, 0.0), _MOST_CORRELATION)
     inflation = (1.0 + near) / (1.0 - near)
     beliefs = model.beliefs(values)[0]
-    likelihood = -0.5 * square - float(np.log(fit.noise).sum())
+    likelihood = -0.5 * square - float(np.log(noise).sum())
     stiff = np.linalg.slogdet(model.bending.T @ model.bending + 1e-3 * np.eye(len(values) - COUNT))
     score = likelihood / inflation - 0.5 * float(beliefs @ beliefs)
     score += 0.5 * float(stiff[1] - np.linalg.slogdet(products)[1])
     inverse = np.asarray(np.linalg.inv(products), dtype=np.float64)
-    return replace(fit, inverse=inverse, inflation=inflation, score=score)
+    return LampFit(model, values, noise, inverse, inflation, score)

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.tone import PowerTone
 from occ_model.photo.lamp_fit.wave import Wave
 
@@ -53,7 +54,7 @@ MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3, 0.1, 
 class LampModel:
     """The model of a profile's levels, as fractions of white."""
 
-    columns: FloatArray  # Shape (n,)
+    profile: LampProfile  # Of n columns
     envelope: FloatArray  # Shape (n, knots): the spline's values
     bending: FloatArray  # Shape (knots - 2, knots): of its coefficients, in standard deviations
     is_linear: bool  # Whether levels are in proportion to the light
@@ -79,12 +80,12 @@ class LampModel:
         return math.hypot(*((values[at] - mean) / off for at, (mean, off) in believed.items()))
 
     def levels(self, values: FloatArray) -> FloatArray:
-        light = self._light(values, self.wave(values).values(self.columns))[0]
+        light = self._light(values, self.wave(values).values(self.profile.columns))[0]
         return self._processed(values, self.tone(values).levels(light))
 
     def ends(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the levels where the wave is 0 and where it is 1."""
-        tone, size = self.tone(values), len(self.columns)
+        tone, size = self.tone(values), len(self.profile.columns)
         dark, lit = (
             tone.levels(self._light(values, np.full(size, wave))[0]) for wave in (0.0, 1.0)
         )
@@ -92,7 +93,7 @@ class LampModel:
 
     def slopes(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the levels and their slopes, shapes (n,) and (n, parameters)."""
-        wave, by_wave = self.wave(values).slopes(self.columns)
+        wave, by_wave = self.wave(values).slopes(self.profile.columns)
         light, brightness, scale = self._light(values, wave)
         tone = self.tone(values)
         levels = tone.levels(light)
@@ -122,6 +123,18 @@ class LampModel:
         brightness, floor = np.exp(log), self.floor(values)
         scale = 1.0 / (1.0 + abs(floor))
         return brightness * (wave + floor) * scale + values[AMBIENT], brightness, scale
+
+    def weighted_residual(self, values: FloatArray, noise: FloatArray) -> FloatArray:
+        """Return the levels less the profile, and then the beliefs, in standard deviations."""
+        excess = self.profile.excess(self.levels(values)) / noise
+        return np.concatenate([excess, self.beliefs(values)[0]])
+
+    def weighted_slopes(self, values: FloatArray, noise: FloatArray) -> FloatArray:
+        """Return the slopes of the weighted residual over the parameters."""
+        levels, slopes = self.slopes(values)
+        slopes = slopes / noise[:, None]
+        slopes[self.profile.clipped & (self.profile.excess(levels) == 0.0)] = 0.0
+        return np.concatenate([slopes, self.beliefs(values)[1]])
 
     def beliefs(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what contradicts the priors, in standard deviations, and its slopes."""

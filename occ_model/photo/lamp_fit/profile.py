@@ -61,6 +61,11 @@ class LampProfile:
         low, high = np.quantile(self.values, (0.05, 0.95))
         return float(high - low)
 
+    def excess(self, levels: FloatArray) -> FloatArray:
+        """Return levels less the values, 0 where a clipped column may be as bright."""
+        excess = levels - self.values
+        return np.where(self.clipped, np.minimum(excess, 0.0), excess)
+
     def lines_at_once(self) -> tuple[int, int]:
         """Return how many lines the sensor reads together, and the first that begins a group."""
         return next(

@@ -268,6 +268,15 @@ def test_columns_are_averaged_while_periods_keep_enough_of_them(
     assert LampProfile(flat, flat, flat > 0.0).reduction(shortest) == step
 
 
+def test_a_wide_lamp_has_the_period_of_all_its_columns() -> None:
+    random = np.random.default_rng(2)
+    light = np.tile(lit(np.arange(1600.0) / 310.7, 0.4, 0.1), (24, 1))
+    light = 0.6 * light / light.max() + random.normal(0.0, 0.004, light.shape)
+    found = occ.match_photo(photo_of_light(light), SCENE)
+    assert found.verdict == "sure"
+    assert found.readout_time == pytest.approx(readout_of(310.7), rel=1e-3)
+
+
 def test_stripes_without_a_height_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     def fit_dark_end(*known: Any, **how: Any) -> list[LampFit]:
         (fit, *_) = fit_lamp(*known, **how)

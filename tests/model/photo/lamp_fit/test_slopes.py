@@ -12,6 +12,7 @@ from occ_model.photo.lamp_fit.model import (
     LampModel,
     envelope_basis,
 )
+from occ_model.photo.lamp_fit.profile import LampProfile
 
 COLUMNS = np.arange(90.0)
 
@@ -21,7 +22,9 @@ def test_slopes_are_those_of_differences(seed: int) -> None:
     random = np.random.default_rng(seed)
     basis = envelope_basis(len(COLUMNS), 5)
     size = basis.shape[1]
-    model = LampModel(COLUMNS, basis, np.diff(np.eye(size), 2, axis=0), is_linear=False)
+    dark = np.zeros(len(COLUMNS))
+    profile = LampProfile(dark, dark, dark > 0.0)
+    model = LampModel(profile, basis, np.diff(np.eye(size), 2, axis=0), is_linear=False)
     values = np.concatenate([random.normal(0.0, 0.7, COUNT), random.normal(-0.5, 0.3, size)])
     values[PERIOD], values[PLACE] = np.log(random.uniform(6.0, 40.0)), random.uniform(0.0, 30.0)
     values[4:] = np.where(np.arange(4, len(values)) == 8, -6.0, values[4:])  # a small toe

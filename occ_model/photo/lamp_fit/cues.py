@@ -1,7 +1,4 @@
-"""What tells a lamp's stripes from other regular things, measured on a fit.
-
-Limits were set on photographs of lamps and of other regular things; see `Cues`.
-"""
+"""What tells a lamp's stripes from other regular things, measured on a fit."""
 
 import math
 from dataclasses import dataclass
@@ -40,9 +37,9 @@ class Cues:
     misfit: float  # Root mean square of the part of the residual that repeats with the period
     unexplained: float  # Root mean square of the whole residual
     dips: int  # Times that the envelope falls and rises again
-    tension: float  # Distance of the tone curve from usual ones, in standard deviations
+    unusual_tone: float  # Distance of the tone curve from usual ones, in standard deviations
     narrowest: float  # The shorter of a stripe and the gap between two
-    white: float  # Fraction of the columns in which pixels are clipped
+    white: float  # Fraction of the columns that have clipped pixels
 
     @property
     def bits(self) -> float:
@@ -58,9 +55,9 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
     blur, blur_error = _blur(fit)
     floors = np.array([one.floor for one in readings_of(wave.width, wave.ramp_part)])
     nearest = float(floors[np.argmin(np.abs(floors - fit.floor))])
-    shifts, noises = _edge_shifts(fit)
-    scatter, noise = _spread(shifts, noises)
-    drift, error, apart = _rows_shift(fit, rows)
+    shifts, deviations = _edge_shifts(fit)
+    scatter, scatter_noise = _scatter(shifts, deviations)
+    drift, drift_error, rows_scatter = _rows_shift(fit, rows)
     return Cues(
         floor=abs(fit.floor - nearest),
         floor_expected=nearest,
@@ -70,21 +67,21 @@ def cues_of(fit: LampFit, rows: FloatArray) -> Cues:
         period=wave.period,
         edges=len(shifts),
         scatter=scatter,
-        scatter_noise=noise,
+        scatter_noise=scatter_noise,
         drift=drift,
-        drift_error=error,
-        rows_scatter=apart,
+        drift_error=drift_error,
+        rows_scatter=rows_scatter,
         misfit=_periodic_misfit(fit),
         unexplained=math.sqrt(float(np.mean(fit.residual**2))) / fit.height,
         dips=_dips(fit),
-        tension=fit.model.tension(fit.values),
+        unusual_tone=fit.model.unusual_tone(fit.values),
         narrowest=min(wave.width, 1.0 - wave.width) * wave.period,
         white=float(fit.profile.clipped.mean()),
     )
 
 
 def _blur(fit: LampFit) -> tuple[float, float]:
-    """Return the deviation of all blur, 0 if sharpening outweighs it, and its error."""
+    """Return the standard deviation of all blur, 0 if sharpening outweighs it, and its error."""
     own = math.exp(2.0 * fit.values[BLUR])
     moment = own + 2.0 * fit.values[NEAR] + 8.0 * fit.values[FAR]
     slopes = np.zeros(len(fit.values))
@@ -95,7 +92,10 @@ def _blur(fit: LampFit) -> tuple[float, float]:
 
 
 def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
-    """Return how far each edge is from its place in the model, and the deviation, in columns."""
+    """Return how far each edge in view is from its place in the model, and the error of that.
+
+    Both in columns.
+    """
     wave, columns = fit.wave, fit.profile.columns
     by_place = fit.model.slopes(fit.values)[1][:, 1]
     half = 0.5 * wave.width * wave.period
@@ -105,7 +105,7 @@ def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
     reach = min(half, 0.5 * wave.period - half)
     weight = np.where(fit.profile.clipped, 0.0, 1.0 / fit.noise**2)
     residual = fit.residual
-    shifts, noises = [], []
+    shifts, deviations = [], []
     for edge in np.sort(np.concatenate([middles - half, middles + half])):
         near = np.abs(columns - edge) <= max(reach, 1.0)
         if not columns[0] <= edge <= columns[-1]:
@@ -114,15 +114,16 @@ def _edge_shifts(fit: LampFit) -> tuple[FloatArray, FloatArray]:
         # An edge that may be anywhere within a period is not seen.
         if information * (_CHANCE_SCATTER * wave.period) ** 2 > 1.0:
             shifts.append(float((weight * by_place * residual)[near].sum()) / information)
-            noises.append(1.0 / math.sqrt(information))
-    return np.array(shifts), np.array(noises)
+            deviations.append(1.0 / math.sqrt(information))
+    return np.array(shifts), np.array(deviations)
 
 
-def _spread(shifts: FloatArray, noises: FloatArray) -> tuple[float, float]:
+def _scatter(shifts: FloatArray, deviations: FloatArray) -> tuple[float, float]:
+    """Return the root mean square of shifts, and that which their noise alone would cause."""
     if len(shifts) < 2:
         return 0.0, 0.0
-    # Faint edges say little, so that each counts by how well it is known.
-    weight = 1.0 / noises**2
+    # Each edge counts by how well it is known, as faint ones say little.
+    weight = 1.0 / deviations**2
     total = float(weight.sum())
     freedom = max(1.0 - 3.0 / len(shifts), 1.0 / len(shifts))  # period, place and width are fitted
     scatter = math.sqrt(float(weight @ shifts**2) / total / freedom)
@@ -134,9 +135,9 @@ def _rows_shift(fit: LampFit, rows: FloatArray) -> tuple[float, float, float]:
     bands = len(rows)
     if bands < 2:
         return 0.0, 0.0, 0.0
+    # Of each band a shift, a brightness and an envelope of its own are fitted.
     levels, slopes = fit.model.slopes(fit.values)
-    envelope = slopes[:, COUNT:]
-    parts = np.column_stack([slopes[:, 1], levels, envelope])
+    parts = np.column_stack([slopes[:, 1], levels, slopes[:, COUNT:]])
     weight = np.where(fit.profile.clipped, 0.0, 1.0)
     system = parts * weight[:, None]
     products = row_products(system.T, system.T)
@@ -151,6 +152,7 @@ def _rows_shift(fit: LampFit, rows: FloatArray) -> tuple[float, float, float]:
 
 
 def _periodic_misfit(fit: LampFit) -> float:
+    """Return the root mean square of the residual's mean over all periods, over the height."""
     wave, columns = fit.wave, fit.profile.columns
     count = int(min(max(wave.period, 3), 24))
     bins = np.floor((columns - wave.place) / wave.period % 1.0 * count).astype(int)
@@ -162,6 +164,7 @@ def _periodic_misfit(fit: LampFit) -> float:
 
 
 def _dips(fit: LampFit) -> int:
+    """Count how often the envelope falls notably and rises again."""
     log = fit.model.envelope @ fit.values[COUNT:]
     turns, last, direction = 0, float(log[0]), 0
     for value in log:

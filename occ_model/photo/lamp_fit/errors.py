@@ -14,16 +14,16 @@ from occ_model.photo.lamp_fit.fit import LampFit
 from occ_model.photo.lamp_fit.model import PERIOD, PLACE, RAMP, WIDTH
 from occ_model.photo.lamp_fit.readings import StripeReading
 
-_SPREAD = 0.35  # weight of the variances by noise and by edges
-_FEW_EDGES = 14.0  # edges of which each tells the others' spread half as well as many do
-_LEAST_FREEDOM = 0.2  # of a column, whose residual a fit follows
+_SCATTER_WEIGHT = 0.35  # factor on the sum of the variances by noise and by the edges' scatter
+_FEW_EDGES = 14.0  # number of edges for which the variance by their scatter is doubled
+_LEAST_FREEDOM = 0.2  # least fraction of a column's residual that the fit leaves
 _EDGE_SHIFT, _RAMP_SHIFT = 11.0, 18.0
-"""Columns by which all edges alike, and a ramp's length, may be off, if the levels' misfit were all
-of the stripes' height."""
+"""Errors in columns that all edges have in common, and of a ramp's length, in proportion to the
+residual over the stripes' height."""
 _MOST_PROCESSED = 0.6
-"""Columns up to which blur is processing's. By what is more, edges and their lengths may be off: a
-lamp that is slow to light up follows no normal law, and goes out in another way."""
-_UNKNOWN = math.sqrt(1.0 / 12.0)  # deviation of what may be anything from 0 to 1
+"""Largest blur in columns that image processing causes. More blur is of a lamp that lights up and
+goes out slowly, and not alike: its edges and their lengths may be off by as much."""
+_UNKNOWN = math.sqrt(1.0 / 12.0)  # standard deviation of an unknown number from 0 to 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,14 +43,14 @@ class ReadingErrors:
 def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     """Return the errors of a fit.
 
-    ``hidden_group``: columns that may have been read together, at least 1. Edges steeper than these
-    may lie anywhere between those places within a group at which others are seen.
+    ``hidden_group``: number of columns that the sensor may have read together, at least 1. An edge
+    that is steeper may lie anywhere in the part of a group in which no other edge is seen.
     """
     wave = fit.wave
-    free = _free_part(fit, hidden_group)
+    free = _largest_gap(fit, hidden_group)
     hidden = _UNKNOWN * max(0.0, hidden_group * free - wave.ramp_columns - 2.0 * wave.blur)
     period, place, width, ramp = np.sqrt(_variances(fit))
-    of_view = math.hypot(_EDGE_SHIFT * cues.unexplained * free**2, hidden)
+    of_all_columns = math.hypot(_EDGE_SHIFT * cues.unexplained * free**2, hidden)
     slow = math.sqrt(max(cues.blur**2 - _MOST_PROCESSED**2, 0.0))
     of_edges, of_ramps = (
         math.hypot(each * cues.unexplained, hidden, slow) / wave.period
@@ -58,7 +58,7 @@ def errors_of(fit: LampFit, cues: Cues, hidden_group: float) -> ReadingErrors:
     )
     smaller = min(wave.width, 1.0 - wave.width)
     return ReadingErrors(
-        period=wave.period * math.hypot(period, of_view / len(fit.profile.values)),
+        period=wave.period * math.hypot(period, of_all_columns / len(fit.profile.values)),
         place=math.hypot(place, hidden),
         width=min(math.hypot(width, of_edges), _UNKNOWN),
         ramp=min(math.hypot(ramp, of_ramps), _UNKNOWN * smaller),
@@ -80,10 +80,11 @@ def _directions(fit: LampFit) -> FloatArray:
 
 
 def _variances(fit: LampFit) -> FloatArray:
-    """Return the variances of what `_directions` tells, by noise and by each edge's own errors.
+    """Return the variances of the quantities of `_directions`, by noise and by the edges' scatter.
 
-    What processing does to an edge, its columns share: an edge's residuals are added first (the
-    estimate of Liang and Zeger, Biometrika 73:13, 1986), as if the fit had not followed them.
+    Processing changes all columns of an edge in common: their residuals, as they would be if the
+    fit had not followed them, are added before they are squared (Liang and Zeger, Biometrika
+    73:13, 1986).
     """
     slopes, directions = fit.slopes, _directions(fit)
     followed = slopes @ fit.inverse
@@ -98,20 +99,20 @@ def _variances(fit: LampFit) -> FloatArray:
     by_noise = np.einsum("ij,jk,ik->i", directions, fit.covariance, directions)
     both = np.sum(shifts**2, axis=0) + by_noise
     of_few = np.sum(shares**2, axis=0) / np.maximum(np.sum(shares, axis=0) ** 2, 1e-300)
-    by_edges = _SPREAD * both * (1.0 + _FEW_EDGES * of_few)
+    by_edges = _SCATTER_WEIGHT * both * (1.0 + _FEW_EDGES * of_few)
     return np.asarray(np.where(of_few > 0.0, by_edges, by_noise), dtype=np.float64)
 
 
-def _free_part(fit: LampFit, group: float) -> float:
-    """Return the largest part of a group of columns in which no rising, or no falling, edge lies.
+def _largest_gap(fit: LampFit, group: float) -> float:
+    """Return the largest fraction of a group of columns in which no edge lies in any group.
 
-    The smaller of the two.
+    It is taken for the rising and for the falling edges; the smaller one is returned.
     """
     wave, last = fit.wave, len(fit.profile.values) - 1
-    found = [1.0]
+    gaps = [1.0]
     for side in (-0.5, 0.5):
         first = (wave.place + side * wave.width * wave.period) % wave.period
         places = np.sort(np.arange(first, last, wave.period) / group % 1.0)
         if len(places):
-            found.append(float(np.diff(places, append=places[0] + 1.0).max()))
-    return min(found)
+            gaps.append(float(np.diff(places, append=places[0] + 1.0).max()))
+    return min(gaps)

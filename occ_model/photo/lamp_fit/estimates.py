@@ -10,7 +10,7 @@ from occ_model.photo.lamp_fit.verdict import floor_limit
 DUTY_ERROR = 0.02  # what tone curves outside the model add to the error of a duty that is known
 _SAME = 2.0  # deviations within which two duties are the same
 _NOTE_ERROR, _FAR_NOTE = math.log(1.3), math.log(1.6)
-"""Logarithms of how far a noted exposure may be from a lamp's, and from where that is doubted."""
+"""Logarithms of the usual ratio of a noted exposure to the one found, and of a doubtful one."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -80,7 +80,8 @@ def estimate_lamp(
 ) -> LampEstimates:
     """Estimate the lamp's frequency, or the readout time, from the other one.
 
-    Of the duties and exposures that make the stripes, the floor and what is known choose.
+    Of the duties and exposures that make the stripes, that is chosen which agrees best with the
+    light between them and with a known duty, or else with the noted exposure.
     """
     if estimate == "readout_time":
         readout = 1.0 / (frequency * reading.period)
@@ -88,7 +89,7 @@ def estimate_lamp(
         estimate, frequency = "lamp_frequency", 1.0 / (readout * reading.period)
     floor, most = reading.fit.floor, floor_limit(reading.cues)
 
-    def away(one: StripeReading) -> float:
+    def distance(one: StripeReading) -> float:
         known = 0.0
         if known_duty is not None:
             error = math.hypot(reading.errors.of_shape(one)[0], DUTY_ERROR)
@@ -97,11 +98,13 @@ def estimate_lamp(
             known = math.log(one.exposure / (noted * frequency)) / _NOTE_ERROR
         return math.hypot((one.floor - floor) / most, known)
 
-    first, *rest = sorted(readings_of(reading.fit.wave.width, reading.fit.wave.ramp_part), key=away)
+    first, *rest = sorted(
+        readings_of(reading.fit.wave.width, reading.fit.wave.ramp_part), key=distance
+    )
     apart = _SAME * max(reading.errors.of_shape(first))
     others = tuple(
         one
         for one in rest
-        if away(one) < away(first) + 1.0 and abs(one.exposure - first.exposure) > apart
+        if distance(one) < distance(first) + 1.0 and abs(one.exposure - first.exposure) > apart
     )
     return LampEstimates(reading, estimate, frequency, readout, known_duty, noted, first, others)

@@ -27,19 +27,20 @@ from occ_model.photo.lamp_fit.profile import LampProfile
 from occ_model.photo.lamp_fit.wave import Wave
 from occ_model.products import least_squares, row_products, two_factors
 
-_MULTIPLES = (1.0, 2.0, 3.0, 0.5)
+_MULTIPLES = (1.0, 2.0, 3.0, 0.5)  # of a likely period, from which fits start
 _LEAST_PERIOD, _LEAST_PERIODS = 3.0, 1.2  # columns of a period, and periods in view
 _SAME_PERIOD = 0.08  # relative difference up to which two starts are one
 _STIFFNESS, _OTHER_STIFFNESSES = 0.6, (0.25, 4.0)
-"""Deviation of the envelope's bends, and factors of it; hot spots need the last."""
-_FIRST_NOISE = 0.03, 0.02  # parts of the level and of the swing
+"""Standard deviation of the envelope's second differences, and factors on it; hot spots need the
+last."""
+_FIRST_NOISE = 0.03, 0.02  # fractions of the level and of the swing
 _MOST_KNOTS = 30
-_ROUNDING = 0.15 / 255.0  # noise that no profile is below
+_ROUNDING = 0.15 / 255.0  # least noise of a profile
 
 _FITTED_STARTS, _HOPELESS = 3, 400.0
-"""Starts that are fitted to the end, and evidence behind the best from which none is."""
-_FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # of each round, after which the noise is estimated anew
-_MOST_CORRELATION = 0.8
+"""Starts that are fitted to the end, and the evidence that the best one has over hopeless ones."""
+_FIRST_STEPS, _STEPS = (8,), (10, 10, 25)  # in each round, after which the noise is estimated anew
+_MOST_CORRELATION = 0.8  # between the residuals of neighbouring columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,7 @@ class LampFit:
 
     @property
     def height(self) -> float:
-        """The height of the stripes in fractions of white, less than the swing above a floor."""
+        """The height of the stripes in fractions of white, at most the profile's swing."""
         dark, lit = self.ends
         return max(min(float(np.max(lit - dark)), self.profile.swing), 1e-6)
 
@@ -113,8 +114,8 @@ def fit_lamp(
 ) -> list[LampFit]:
     """Return fits of a profile, the most likely first, from some periods and multiples of them.
 
-    ``check`` is called every few hundredths of a second, and may raise an exception to end the
-    work.
+    ``is_linear``: whether levels are in proportion to the light. ``check`` is called every few
+    hundredths of a second, and may raise an exception to end the work.
     """
     starts: list[float] = []
     for tried in (multiple * period for period in periods for multiple in _MULTIPLES):
@@ -232,7 +233,7 @@ def _describe_fit(model: LampModel, values: FloatArray, noise: FloatArray) -> La
     """Return the fit of some parameters, with its covariance and evidence (by Laplace)."""
     slopes = model.weighted_slopes(values, noise)
     products = row_products(slopes.T, slopes.T)
-    # Before, the period is known to a factor of e, and the place to a period.
+    # Prior: the period is known to a factor of e, and the place to a period.
     products[PERIOD, PERIOD] += 1.0
     products[PLACE, PLACE] += math.exp(-2.0 * values[PERIOD])
     products.flat[:: len(products) + 1] += 1e-9

@@ -22,8 +22,8 @@ COUNT = 12  # parameters before those of the envelope
 
 _FLOOR_SCALE = 0.05
 
-# What is believed before: mean and standard deviation. Tone curves of cameras are near sRGB's or a
-# power of 2.2; processing blurs by about half a column.
+# Mean and standard deviation of each parameter's prior: tone curves of cameras are near sRGB's or a
+# power of 2.2, and processing blurs by about half a column.
 _PRIORS = {
     WIDTH: (0.0, 3.0),
     RAMP: (0.0, 3.0),
@@ -44,7 +44,7 @@ ENDS = {
     WIDTH: (-4.5, 4.5), RAMP: (-6.0, 6.0), BLUR: (-3.0, 2.0), FLOOR: (-7.5, 7.5),
     GAMMA: (-0.5, 3.0), NEAR: (-0.3, 0.3), FAR: (-0.1, 0.1),
 }  # fmt: skip
-"""Least and largest values; with a gamma below, levels of white columns are not finite."""
+"""Least and largest values; a smaller gamma would make levels of white columns infinite."""
 
 MOST_STEPS = np.array([0.1, 0.25, 1.0, 1.0, 0.7, 1.5, 0.05, 0.3, 1.0, 0.3, 0.1, 0.05])
 """Largest steps of the parameters; that of the place is in periods."""
@@ -74,8 +74,8 @@ class LampModel:
     def tone(self, values: FloatArray) -> PowerTone:
         return PowerTone(math.exp(values[GAMMA]), math.exp(values[TOE]), values[BEND])
 
-    def tension(self, values: FloatArray) -> float:
-        """Return how far the tone curve is from what was believed before, in deviations."""
+    def unusual_tone(self, values: FloatArray) -> float:
+        """Return how far the tone curve is from its prior's mean, in standard deviations."""
         believed = {each: self.priors[each] for each in (GAMMA, TOE, BEND)}
         return math.hypot(*((values[at] - mean) / off for at, (mean, off) in believed.items()))
 
@@ -137,7 +137,7 @@ class LampModel:
         return np.concatenate([slopes, self.beliefs(values)[1]])
 
     def beliefs(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return what contradicts the priors, in standard deviations, and its slopes."""
+        """Return how far parameters are from their priors, in standard deviations, and slopes."""
         means, slopes = self._linear_beliefs
         return slopes @ values - means, slopes
 
@@ -153,9 +153,9 @@ class LampModel:
 
 
 def _mix(levels: FloatArray, own: float, near: float, far: float) -> FloatArray:
-    """Mix each column with the two on either side; beyond the ends levels go on.
+    """Mix each column with the two on either side; beyond the ends the outermost level goes on.
 
-    Of shape as ``levels``, whose last axis counts the columns.
+    The last axis of ``levels`` counts the columns; the result has the same shape.
     """
     kernel = np.array([[far, near, own, near, far]])
     rows = levels.reshape(-1, levels.shape[-1])
@@ -170,7 +170,7 @@ def envelope_basis(count: int, knots: int) -> FloatArray:
     """
     ends = np.concatenate([np.zeros(3), np.linspace(0.0, 1.0, knots + 1), np.ones(3)])
     places = np.linspace(0.0, 1.0, count)[:, None]
-    last = places == 1.0  # it belongs to the last interval, which would end before it
+    last = places == 1.0  # belongs to the last interval, whose end is else excluded
     within = (ends[:-1] <= places) & ((places < ends[1:]) | (last & (ends[1:] == 1.0)))
     splines = (within & (ends[:-1] < ends[1:])).astype(np.float64)
     for degree in (1, 2, 3):

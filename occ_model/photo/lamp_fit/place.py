@@ -13,8 +13,8 @@ from occ_model.results.decoding import Region
 _DARK = 0.02  # quantile of the pixels that counts as dark
 _BRIGHT = 0.99  # quantile of the light, with stripes closed, that counts as the lamp's light
 _RIM = 0.25  # least light of a lamp's pixel, as a fraction of the lamp's light
-_CLOSED_PART = 0.4  # most columns between two stripes, as a fraction of the picture's
-_LEAST_PART = 0.3  # least pixels of a column of the lamp, as a fraction of the highest column's
+_CLOSED_PART = 0.4  # largest gap between two stripes, as a fraction of the picture's columns
+_LEAST_PART = 0.3  # least height of a column of the lamp, as a fraction of the highest one
 _SMOOTHING = 0.7  # pixels of blur, so that noise does not look like a lamp's light
 _RIM_PIXELS = 2  # width of the rim that blur darkens
 _MOST_COLUMNS = 512  # size to which a picture is reduced for the search
@@ -24,7 +24,7 @@ _LEAST_COLUMNS = 16
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampPlace:
-    """The pixels of a lamp within the smallest rectangle around them."""
+    """The pixels of a lamp, in the smallest rectangle around them."""
 
     region: Region
     pixels: FloatArray  # Shape (rows, columns of the region): fractions of white
@@ -39,7 +39,7 @@ class LampPlace:
 def find_place(photo: Photo, region: Region) -> LampPlace | None:
     """Find the brightest lamp within a region; None without pixels brighter than the rest.
 
-    Dark stripes are closed along the columns, so that the lamp is one patch of light.
+    Dark stripes are filled along the columns (a closing), so that the lamp is one patch of light.
     """
     while True:
         part = region.crop(photo.samples)

@@ -1,4 +1,4 @@
-"""The profile of a place in a photo, as the fit takes it."""
+"""The profile of a lamp in a photo, which the model is fitted to."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,13 +11,13 @@ from occ_model.arrays import BoolArray, FloatArray
 _CLIPPED = 0.98  # least value of a clipped sample, as a fraction of white
 _CLIPPED_PART = 0.02  # fraction of clipped samples above which a column's mean is too dark
 _GROUPS = (8, 4, 3, 2)  # lines that a sensor may read together
-_LEAST_STEP_RATIO = 0.35  # steps within a group over steps between groups; below, lines form groups
+_MOST_STEP_RATIO = 0.35  # largest ratio of steps within groups of lines to steps between groups
 _NOTABLE_STEP, _LEAST_RAMPS = 0.1, 4
-"""Part of the largest step from which one is notable, and how many must follow another one: edges
-without ramps can be whole groups apart by chance."""
+"""Least ratio of a notable step to the largest one, and how many notable steps must follow another
+one: edges without ramps can be whole groups apart by chance."""
 _MOST_COLUMNS = 640  # columns of a profile that is fitted
 _ROWS_AT_ONCE = 32  # rows that are averaged at once
-_LEAST_PERIOD = 48.0  # columns that a period keeps
+_LEAST_PERIOD = 48.0  # columns that a period has at least after columns are averaged
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,9 @@ class LampProfile:
         The noise is estimated from neighbouring rows, which show the same stripes.
         """
         sums, squares, whole, pairs, bright = np.zeros((5, pixels.shape[1]))
-        for first in range(0, len(pixels), _ROWS_AT_ONCE):  # as many as a processor keeps at hand
+        for first in range(
+            0, len(pixels), _ROWS_AT_ONCE
+        ):  # as many as fit into a processor's cache
             rows = slice(first, first + _ROWS_AT_ONCE + 1)
             part, seen = pixels[rows], shown[rows]
             both = seen[1:] & seen[:-1]
@@ -93,7 +95,7 @@ class LampProfile:
             between = steps[largest:whole:count]
             notable = between > _NOTABLE_STEP**2 * between.max()
             has_ramps = int(np.count_nonzero(notable[1:] & notable[:-1])) >= _LEAST_RAMPS
-            if others.max() < _LEAST_STEP_RATIO**2 * means[largest]:
+            if others.max() < _MOST_STEP_RATIO**2 * means[largest]:
                 yield count, (largest + 1) % count, has_ramps
 
     def averaged(self, count: int, first: int) -> "LampProfile":

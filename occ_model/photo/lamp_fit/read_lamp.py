@@ -27,10 +27,10 @@ class LampReading:
     """A lamp's stripes as they were read."""
 
     place: LampPlace
-    profile: LampProfile  # Of all of the place
-    lines_at_once: int  # that the sensor reads together
-    step: int  # columns of the photo for each of the fit
-    first: int  # the first of them, in the place's region
+    profile: LampProfile  # Of all columns of the place
+    lines_at_once: int  # Number of lines that the sensor reads together
+    step: int  # Columns of the photo in each column of the fit
+    first: int  # First column of the place's region that is in the fit
     fit: LampFit
     cues: Cues
     errors: ReadingErrors  # Those in columns are in columns of the fit
@@ -58,7 +58,7 @@ class LampReading:
 
     @property
     def ends(self) -> tuple[FloatArray, FloatArray]:
-        """The levels of dark and of lit columns, there."""
+        """The levels of dark and of lit columns in every column of the place's region."""
         dark, lit = self.fit.ends
         return self._spread(dark), self._spread(lit)
 
@@ -70,12 +70,12 @@ class LampReading:
 def read_lamp(
     place: LampPlace, *, is_linear: bool, check: Callable[[], object] = lambda: None
 ) -> LampReading:
-    """Fit a lamp's stripes; ``check`` as in :func:`fit_lamp`.
+    """Fit a lamp's stripes; ``is_linear`` and ``check`` as in :func:`fit_lamp`.
 
     Raises
     ------
     MatchError
-        There are none, or they are no lamp's.
+        There are no stripes, or they are not a lamp's.
     """
     whole = LampProfile.of(place.pixels, place.shown)
     together, first = whole.lines_at_once()
@@ -120,7 +120,7 @@ def read_lamp(
 def _bands(place: LampPlace, step: int, first: int) -> FloatArray:
     """Return profiles of bands of rows, all columns of which show the lamp, shape (bands, n)."""
     whole = np.flatnonzero(place.shown.all(axis=1))
-    # A lamp's place is convex: rows all of whose columns show it lie beside each other.
+    # A lamp's place is convex, so that the rows in which all columns show it are adjacent.
     rows = slice(whole[0], whole[-1] + 1) if len(whole) >= _BANDS else slice(None)
     groups = np.array_split(place.pixels[rows], _BANDS)
     bands = np.stack([group.mean(axis=0, dtype=np.float64) for group in groups if len(group)])

@@ -7,10 +7,10 @@ from occ_model.photo.lamp_fit.cues import Cues
 from occ_model.photo.lamp_fit.estimates import DUTY_ERROR, LampEstimates
 from occ_model.scene.units import PERCENT, SECOND
 
-_MOST_DEVIATIONS = 3.0  # between a known duty and that of the stripes, above which it is doubtful
+_MOST_DEVIATIONS = 3.0  # standard deviations between a known duty and that of the stripes
 _LEAST_RAMP, _LEAST_PERIOD = 1.0, 10.0  # columns from which duty and exposure are sure
-_RAMP_BY_NOISE = 200.0  # columns, for columns that differ from the model by the stripes' height
-_MOST_WHITE = 0.15  # of the columns, up to which duty and exposure are sure
+_RAMP_BY_NOISE = 200.0  # least ramp in columns, over the residual relative to the stripes' height
+_MOST_WHITE = 0.15  # largest fraction of the columns with which duty and exposure are sure
 
 
 def doubts_by_duty(found: LampEstimates) -> list[str]:
@@ -44,7 +44,7 @@ def doubts_by_columns(cues: Cues) -> list[str]:
 
 
 def doubts_by_readings(found: LampEstimates) -> list[str]:
-    """Doubt an exposure beside which others make the same stripes, or another one is noted."""
+    """Doubt an exposure if others make the same stripes, or the camera noted another one."""
     doubts, noted, seconds = [], found.noted, SECOND.format(found.exposure_time, 3)
     if found.others:
         words = [

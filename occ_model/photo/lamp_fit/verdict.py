@@ -11,32 +11,33 @@ from occ_model.errors import distinct_texts
 from occ_model.photo.lamp_fit.cues import Cues
 
 _MOST_FLOOR, _FLOOR_PART, _REFUSED_FLOOR = 0.06, 0.15, 0.25
-"""Most light between the stripes that nothing explains, relative to their height, what an expected
-floor adds to it, and the light above which a fit is refused. Lamps have up to 0.05."""
-_MOST_MISFIT, _REFUSED_MISFIT = 0.06, 0.12  # relative to the swing
-_MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # relative to the swing; lamps have up to 0.06
+"""Most unexplained light between the stripes, relative to their height; the part of the expected
+light that is added to it; and the limit above which a fit is refused. Lamps have up to 0.05."""
+_MOST_MISFIT, _REFUSED_MISFIT = 0.06, 0.12  # relative to the stripes' height
+_MOST_UNEXPLAINED, _REFUSED_UNEXPLAINED = 0.1, 0.25  # the same; lamps have up to 0.06
 _MOST_BLUR, _BLUR_PART = 0.85, 0.25  # columns, parts of the ramp; lamps have up to 0.76 and 0.24
 _USUAL_BLUR, _USUAL_BLUR_PART, _BLUR_DEVIATIONS = 0.62, 0.07, 2.0
-"""Blur that processing may cause, in columns, parts of the ramp, and deviations beside these. A
-lens blurs things, but not a lamp's stripes. 98 % of simulated lamps have less than 0.60."""
+"""Largest blur that processing causes: in columns, as a part of the ramp, and the standard
+deviations of its error that are added. A lens blurs things, but not a lamp's stripes. 98 % of
+simulated lamps have less than 0.60."""
 _MOST_DRIFT, _DRIFT_DEVIATIONS, _MOST_ROWS_SCATTER = 0.2, 2.5, 0.35  # columns, deviations, columns
 _MOST_SCATTER, _SCATTER_PART, _SCATTER_DEVIATIONS, _REFUSED_SCATTER = 0.12, 0.002, 2.6, 0.1
-"""Most deviation of edges from even spacing: columns, parts of the period, multiples of what noise
-causes; and the part of a period from which a fit is refused."""
+"""Largest deviation of edges from even spacing: columns plus parts of the period, or a multiple of
+what noise causes; and the part of a period above which a fit is refused."""
 _LEAST_BITS, _REFUSED_BITS = 7.0, 4.0
 _LEAST_STRIPE, _REFUSED_STRIPE = 1.0, 0.5  # columns of the shorter of a stripe and a gap
 _LEAST_PERIOD = 4.0  # columns
 _LEAST_EXPOSURE, _LEAST_TOLD = 0.005, 16.0
-"""Least ramp as a part of the period, and columns of a period from which it counts: exposures make
-ramps, edges of things have only blur. Lamps have at least 0.009."""
-_USUAL_TENSION, _MOST_TENSION = 5.0, 6.0
-"""Deviations of the tone curve from usual ones above which it is a doubt; the second limit holds
-with a noted exposure time or a known duty. 97 % of simulated lamps have less than 5."""
+"""Least ramp as a part of the period, and columns of a period from which it is needed: exposures
+make ramps, edges of things have only blur. Lamps have at least 0.009."""
+_USUAL_TONE, _MOST_UNUSUAL_TONE = 5.0, 6.0
+"""Largest distance of the tone curve from usual ones, in standard deviations; the second one with a
+noted exposure time or a known duty. 97 % of simulated lamps have less than 5."""
 _LEAST_GAP = 6.0  # natural logarithms between the best period and the next
-_FEW_EDGES = 8  # below which a dip of the light can be a dark stripe
+_FEW_EDGES = 8  # number of edges below which a dip of the envelope can be a dark stripe
 _LIT_GAPS, _FEW_LOW_EDGES, _MOST_WHITE = 0.9, 8, 0.2
-"""Light between the stripes, relative to their height, from which stripes count as low; most edges
-of low stripes that a lamp's shape can imitate, and part of white columns that may hide more."""
+"""Light between the stripes, relative to their height, from which stripes count as low; number of
+edges of low stripes that a lamp's shape can imitate, and largest fraction of white columns."""
 
 
 def floor_limit(cues: Cues) -> float:
@@ -51,7 +52,7 @@ def refusals(cues: Cues) -> list[str]:
 def doubts(cues: Cues, gap: float, other: float | None, *, is_confirmed: bool) -> list[str]:
     """Return why a fit is doubtful; empty if it is sure.
 
-    ``gap``: evidence over that of the next best period, ``other`` in columns.
+    ``gap``: evidence over that of the next best period, which has ``other`` columns.
     ``is_confirmed``: whether a noted exposure or a known duty agrees with the stripes.
     """
     found = [sentence for value, most, _, sentence in _measures(cues) if value > most]
@@ -122,11 +123,11 @@ def _measures(cues: Cues) -> Iterator[_Measure]:
 
 def _doubts_by_light(cues: Cues, *, is_confirmed: bool) -> list[str]:
     found = []
-    blur, tension = max(_MOST_BLUR, _BLUR_PART * cues.ramp), _MOST_TENSION
+    blur, tone = max(_MOST_BLUR, _BLUR_PART * cues.ramp), _MOST_UNUSUAL_TONE
     if not is_confirmed:
         usual = max(_USUAL_BLUR, _USUAL_BLUR_PART * cues.ramp)
         blur = min(blur, usual + _BLUR_DEVIATIONS * cues.blur_error)
-        tension = _USUAL_TENSION
+        tone = _USUAL_TONE
     if cues.blur > blur:
         found.append(
             "The stripes are blurred over {} columns, as lenses blur things, but no stripes of a "
@@ -142,10 +143,10 @@ def _doubts_by_light(cues: Cues, *, is_confirmed: bool) -> list[str]:
             f"{cues.edges} are in view, and at most {most} % white columns, of which "
             f"there are {white} %."
         )
-    if cues.tension > tension:
+    if cues.unusual_tone > tone:
         found.append(
             "The camera's tone curve would differ by {} standard deviations from usual ones; at "
-            "most {}.".format(*distinct_texts(cues.tension, tension))
+            "most {}.".format(*distinct_texts(cues.unusual_tone, tone))
         )
     if cues.dips > 1 or (cues.dips and cues.edges < _FEW_EDGES):
         found.append("The lamp is darker in its middle than at its ends, as by a wide dark stripe.")

@@ -13,10 +13,11 @@ _REACH = 4.0  # deviations of the blur beyond which it is not computed
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """Pulses of a width at half height, with ramps, blurred.
+    """Pulses with ramps, blurred.
 
-    A lamp that is lit for d of each period P, exposed for t, is a trapezoid: the integral of a box
-    of length d P over a box of length t. The one is the width, the other the ramp, in either order.
+    The light of a lamp that is lit for a fraction d of each period P, gathered for t, is a
+    trapezoid: the integral of a box of length d P over a box of length t. The longer of the two is
+    its width at half height, the shorter one the length of its ramps.
     """
 
     period: float  # Columns
@@ -35,7 +36,7 @@ class Wave:
         return self.ramp_columns / self.period
 
     def values(self, columns: FloatArray) -> FloatArray:
-        """Return the light, 0 between the pulses and 1 on them, where these are not blurred."""
+        """Return the light of columns: 0 between the pulses and 1 on them, but for the blur."""
         _, off = self._places(columns)
         away, total = np.abs(off), np.zeros(len(columns))
         ramps = self._ramps()
@@ -78,15 +79,19 @@ class Wave:
         return values, np.stack([by_period, by_place, by_width, by_shape, by_blur])
 
     def _places(self, columns: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the number of the pulse nearest to each column, and how far off its middle is."""
+        """Return the number of the pulse nearest to each column, and the distance from its middle.
+
+        The distance is in columns, and positive right of the middle.
+        """
         pulses = np.rint((columns - self.place) / self.period)
         return pulses, columns - self.place - pulses * self.period
 
     def _ramps(self) -> list[tuple[float, float, float]]:
         """Return the ramps that reach columns within half a period of a pulse's middle.
 
-        Each by its side of a pulse (-1 falls away from the middle of the nearest pulse, 1 rises),
-        the pulses that it is away, and its light there without it, which is taken off.
+        Each is stated by its direction (-1: the light falls away from the middle of the nearest
+        pulse, 1: it rises), by the number of pulses to its own one, and by the 0 or 1 that has to be
+        subtracted from the sum of all ramps.
         """
         half, period = 0.5 * self.width * self.period, self.period
         reach = 0.5 * self.ramp_columns + _REACH * self.blur
@@ -100,9 +105,9 @@ class Wave:
     def _bends(
         self, side: float, pulse: float, away: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the two bent lines whose difference is a ramp, shapes (2, n).
+        """Return what makes up the two bent lines whose difference is a ramp, shapes (2, n).
 
-        Distances past each bend, and the normal distribution and its density there.
+        These are the distances past each bend, and the normal distribution and its density there.
         """
         from scipy.special import ndtr  # slow to import, and needed only for photos
 

@@ -17,7 +17,7 @@ from occ_model.photo.lamp_fit.verdict import doubts
         ({"floor_expected": 1.2, "white": 0.203}, "at most 20.0 % white columns, of which there"),
         ({"misfit": 0.0604}, "by 6.04 % of their height from a lamp's; at most 6.00 %."),
         ({"blur": 0.903}, "a lamp; at most 0.85."),
-        ({"tension": 6.04}, "by 6.04 standard deviations from usual ones; at most 6.00."),
+        ({"unusual_tone": 6.04}, "by 6.04 standard deviations from usual ones; at most 6.00."),
         ({"floor": 6.1}, "Between the stripes there is 610 % of their height"),
     ],
 )

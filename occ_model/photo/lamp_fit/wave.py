@@ -90,7 +90,7 @@ class Wave:
         """Return the ramps that reach columns within half a period of a pulse's middle.
 
         Each is stated by its direction (-1: the light falls away from the middle of the nearest
-        pulse, 1: it rises), by the number of pulses to its own one, and by the 0 or 1 that has to be
+        pulse, 1: it rises), by the number of pulses to its own one, and by the 0 or 1 that must be
         subtracted from the sum of all ramps.
         """
         half, period = 0.5 * self.width * self.period, self.period

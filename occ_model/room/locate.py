@@ -138,38 +138,42 @@ def _locate(
     if not measured:
         problem = "No lamp was found" if not lamp_count else "No rectangular lamp was named"
         return [], (f"{problem}: nothing determines the place.",)
-    complete_lamps = [measured_lamp for measured_lamp in measured if not measured_lamp.is_cut]
-    if not complete_lamps:
+    complete = [each for each in measured if not each.is_cut]
+    if not complete:
         return [], ("Every named lamp is cut by the picture's edge; at least one must be whole.",)
-    edges = sum(len(measured_lamp.edges) for measured_lamp in measured)
+    edges = sum(len(each.edges) for each in measured)
     if edges < _MIN_EDGES:
         return [], (
             f"Only {inflect(edges, 'edge')} of the named lamps can be measured, because the others "
             f"are too faint; at least {_MIN_EDGES} are needed.",
         )
-    table = LampEdges.of(
-        [(measured_lamp.lamp, measured_lamp.edges) for measured_lamp in measured], room, focal_share
-    )
-    starts = [start for anchor in complete_lamps[:_MAX_ANCHORS] for start in _starts(anchor, room)]
+    table = LampEdges.of([(each.lamp, each.edges) for each in measured], room, focal_share)
+    starts = [start for anchor in complete[:_MAX_ANCHORS] for start in _starts(anchor, room)]
     places = find_places(table, [*extra_starts, *starts])
     if not places:
         return [], (
             "No place of the camera explains the edges of the named lamps: the bright edges are "
             "all parallel, the lamps are not where the room states, or the picture is mirrored.",
         )
-    places.sort(key=lambda measured_lamp: measured_lamp.deviations)
+    return select_places(places, len(measured))
+
+
+def select_places(places: list[Located], lamps: int) -> tuple[list[Located], tuple[str, ...]]:
+    """Return the distinct places that explain a picture best, and why they are not sure.
+
+    ``lamps``: the number of lamps whose edges gave the places, of which there is at least one.
+    """
+    places = sorted(places, key=lambda place: place.deviations)
     best = places[0]
-    limit = best.deviations + _MAX_DEVIATION_EXCESS * max(
-        1.0, best.deviations / max(best.freedom, 1)
-    )
+    scale = max(1.0, best.deviations / max(best.freedom, 1))
+    limit = best.deviations + _MAX_DEVIATION_EXCESS * scale
     distinct: list[Located] = []
-    for measured_lamp in places:
-        if measured_lamp.deviations <= limit and not any(
-            _is_same(measured_lamp, other) for other in distinct
-        ):
-            distinct.append(measured_lamp)
+    for place in places:
+        is_known = any(_is_same(place, other) for other in distinct)
+        if place.deviations <= limit and not is_known:
+            distinct.append(place)
     if len(distinct) == 1:
-        reasons = (_ONE_LAMP,) if len(measured) == 1 else ()
+        reasons = (_ONE_LAMP,) if lamps == 1 else ()
         return distinct, reasons if distinct[0].is_linear else (*reasons, _POOR_FIT)
     return distinct, (
         f"{len(distinct)} places explain the picture equally well: a panel looks the same when it "

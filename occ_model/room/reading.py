@@ -102,16 +102,6 @@ def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     )
 
 
-def _settings(room: Room) -> tuple[Scene, ...]:
-    """Return a scene for each combination of settings with which lamps of the room send."""
-    return tuple(
-        room.scene.replace(**dict(zip(_DECODER_SETTINGS, sent, strict=True)), light="code", code=0)
-        for sent in dict.fromkeys(
-            settings_of(lamp) for lamp in room.lamps if has_chips(lamp.transmitter)
-        )
-    )
-
-
 def settings_of(lamp: RoomLamp) -> tuple[Any, ...]:
     """Return what a decoder must know about a lamp besides its code."""
     return tuple(getattr(lamp.transmitter, name) for name in _DECODER_SETTINGS)
@@ -143,9 +133,8 @@ def _full_columns(region: Region, hull: FloatArray, shape: tuple[int, ...]) -> s
     first, last = column_spans(hull, *shape)
     height = (last - first)[region.first_column : region.last_column]
     full_columns = np.flatnonzero(height >= height.max() / 2)
-    return slice(
-        int(full_columns[0]) + 1, int(full_columns[-1])
-    )  # the outermost columns are only partly lit
+    # The outermost columns are only partly lit.
+    return slice(int(full_columns[0]) + 1, int(full_columns[-1]))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -198,17 +187,17 @@ def _read_lamp(
 def _read_codes(signal: FloatArray, region: Region, room: Room) -> tuple[list[_Light], str]:
     """Return the codes read with the settings of the room's lamps, and why no lamp is named."""
     lights, failure = [], ""
-    for scene in _settings(room):
+    with_code = [lamp for lamp in room.lamps if has_chips(lamp.transmitter)]
+    for settings in dict.fromkeys(map(settings_of, with_code)):
+        named = dict(zip(_DECODER_SETTINGS, settings, strict=True))
+        scene = room.scene.replace(**named, light="code", code=0)
         result = decode(signal, scene, "matched")
         if result.code is None:
             failure = failure or f"No code was read: {result.failure}"
             continue
-        settings = tuple(getattr(scene.transmitter, name) for name in _DECODER_SETTINGS)
         names = [
-            lamp.name for lamp in room.lamps
-            if has_chips(lamp.transmitter)
-            and settings_of(lamp) == settings
-            and code_sent(lamp) == result.code
+            lamp.name for lamp in with_code
+            if settings_of(lamp) == settings and code_sent(lamp) == result.code
         ]  # fmt: skip
         lit = None if result.model is None else _expected_light(result.model, scene, region)
         lights.append(_Light(result.code, names, lit))

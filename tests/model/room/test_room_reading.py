@@ -8,8 +8,8 @@ from amount import amount
 from small_rooms import small_room
 
 import occ_model as occ
-from occ_model.room import locate
 from occ_model.room.edge_lines import Edge
+from occ_model.room.locate import RoomReading, select_places
 from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import lamp_scene
@@ -275,13 +275,9 @@ def test_a_picture_of_another_size_is_refused() -> None:
         occ.read_room(np.zeros((10, 10), dtype=np.uint8), _room(1, 1))
 
 
-def test_a_place_from_a_single_lamp_is_not_sure(monkeypatch: pytest.MonkeyPatch) -> None:
-    room = _room(5, 1)
-    there = Located(room.camera, np.eye(6), 1.0, 2)
-    corners = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]])
-    edge = Edge(corners[:2], np.eye(2))
-    measured = [locate._MeasuredLamp(room.lamps[0], corners, [edge] * 4, is_cut=False)]
-    monkeypatch.setattr(locate, "find_places", lambda *_: [there])
-    places, reasons = locate._locate(measured, room, 1, ())
+@pytest.mark.parametrize("lamps", [1, 2])
+def test_a_place_from_a_single_lamp_is_not_sure(lamps: int) -> None:
+    there = Located(Place(), np.eye(6), 1.0, 2)
+    places, reasons = select_places([there], lamps)
     assert places == [there]
-    assert not locate.RoomReading((), there, (), reasons).is_sure
+    assert RoomReading((), there, (), reasons).is_sure == (lamps > 1)

@@ -25,7 +25,6 @@ from occ_gui.room import jobs
 from occ_gui.room.jobs import FloorMap, RoomPicture, map_room, plan_of
 from occ_gui.room.pane import RoomPane
 from occ_gui.values.choices import FIRST_ROOM, RoomChoice
-from occ_model.figures.drawing import house_style
 from occ_model.figures.room import room_drawing
 from occ_model.room.room import Place
 from occ_model.room.rooms import load_room
@@ -211,6 +210,9 @@ def test_the_place_is_shown_with_its_errors_and_the_lamps_with_their_names(
     assert "4 of 4 lamps named" in pane.view.answer.details.text()
     shown = wait_until_read(qtbot, pane)
     located = shown.reading.located
+    rows = {row[0]: row for row in room_drawing(shown.room, shown.image, shown.reading).rows()}
+    assert rows["x"][1:3] == (0.6, pytest.approx(0.6, abs=0.02))
+    assert "L3" in rows
     # The ellipse is the covariance's, enlarged by the stated factor, around the place found.
     x, _ = pane.view.plan.ellipse.getData()
     enlarged = float(pane.view.legend.text().split("enlarged ")[1].split(" times")[0])
@@ -276,18 +278,6 @@ def test_the_first_room_is_one_of_the_program(bench: PaneBench) -> None:
     pane.stop()
     assert pane.view.rooms.currentText() == FIRST_ROOM
     assert pane.room == load_room(FIRST_ROOM)
-
-
-def test_the_figure_shows_the_true_place_and_the_estimate(pane: RoomPane, qtbot: QtBot) -> None:
-    shown = wait_until_read(qtbot, pane)
-    assert shown.reading is not None
-    drawing = room_drawing(shown.room, shown.image, shown.reading)
-    rows = {row[0]: row for row in drawing.rows()}
-    assert rows["x"][1] == 0.6
-    assert rows["x"][2] == pytest.approx(0.6, abs=0.02)
-    assert "L3" in rows
-    with house_style():
-        assert len(drawing.draw().axes) == 2
 
 
 def test_the_map_is_the_studys_and_is_removed_when_the_camera_turns(

@@ -1,6 +1,7 @@
 """Lamps are named by their codes, and the camera's place is found within its stated error."""
 
 import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -11,42 +12,21 @@ import occ_model as occ
 from occ_model.room.edge_lines import Edge
 from occ_model.room.locate import RoomReading, select_places
 from occ_model.room.pose_fit import LampEdges, Located
-from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.room import Place, Room
 from occ_model.room.view import lamp_scene
 from occ_model.study.room_map import RoomMapRequest, room_map
 
 
-def _scene() -> occ.Scene:
-    return occ.load_preset("phone-68us").replace(
-        rows=1024, columns=768, readout_time=36e-6, exposure_time=60e-6,
-        switching_frequency=8e3, averaging="light",
-    )  # fmt: skip
-
-
 def _room(seed: int, lamps: int) -> Room:
+    """Return lamps in a square, seen from about below its middle, and a camera turned at random."""
     random = np.random.default_rng(seed)
-    scene = _scene()
-    across = int(np.ceil(np.sqrt(lamps)))
-    made = tuple(
-        RoomLamp(
-            name=f"L{n}",
-            x=1.2 * (n % across - (across - 1) / 2),
-            y=1.2 * (n // across - (across - 1) / 2),
-            z=2.8,
-            roll=float(random.uniform(-0.2, 0.2)),
-            start_time=float(random.uniform(0.0, 3e-3)),
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
-            ),
-        )
-        for n in range(lamps)
-    )
+    across = math.ceil(math.sqrt(lamps))
+    middle = 0.6 * (across - 1)
     x, y, z, yaw, pitch, roll = random.uniform(
         (-0.2, -0.2, -0.4, -0.2, -0.2, -3.0), (0.2, 0.2, 0.2, 0.2, 0.2, 3.0)
     ).tolist()
-    return Room(
-        lamps=made, scene=scene, camera=Place(x=x, y=y, z=z, yaw=yaw, pitch=pitch, roll=roll)
-    )
+    camera = Place(x=middle + x, y=middle + y, z=z, yaw=yaw, pitch=pitch, roll=roll)
+    return small_room(lamps, across=across, camera=camera, rows=1024)
 
 
 def _off(place: Place, true: Place) -> np.ndarray:
@@ -207,11 +187,9 @@ def test_a_lamp_with_long_dark_runs_is_found_as_one() -> None:
 # In the last case a single column of the next lit chip is in the picture.
 @pytest.mark.parametrize("chips", [*range(0, 24, amount(12, 2)), 10 / 7])
 def test_a_lamp_cut_at_dark_chips_is_reported_as_cut(chips: float) -> None:
-    room = _room(5, 1).replace(
-        x=0.0, y=0.0, yaw=0.0, pitch=0.0, roll=0.0, switching_frequency=4e3
-    )  # fmt: skip
-    sent = room.lamps[0].transmitter.replaced({"panel_width": 1.3, "switching_frequency": 4e3})
-    lamp = dataclasses.replace(room.lamps[0], roll=0.0, start_time=chips / 4e3, transmitter=sent)
+    room = small_room(1, camera=Place(z=-0.56764158), rows=1024, switching_frequency=4e3)
+    sent = room.lamps[0].transmitter.replaced({"panel_width": 1.3})
+    lamp = dataclasses.replace(room.lamps[0], start_time=chips / 4e3, transmitter=sent)
     # A chip has 7 columns, and a metre 243 columns.
     for shift, is_cut in ((0.0, False), (-0.83, False), (-1.1, True), (1.1, True)):
         here = room.replace(lamps=(dataclasses.replace(lamp, x=shift),))

@@ -107,11 +107,11 @@ def test_rounding_errors_of_a_gif_films_times_do_not_add_up(tmp_path: Path) -> N
 
 def test_a_film_of_odd_size_keeps_it_if_the_codec_can(tmp_path: Path) -> None:
     odd = [stripes(n, 45, 63) for n in range(2)]
-    for ending, shape in [(".png", (45, 63)), (".gif", (45, 63)), (".mkv", (45, 63))]:
+    for ending in LOSSLESS:
         path = tmp_path / f"film{ending}"
         write_frames(path, odd, 25.0, "")
         image = occ.load_video(path, "columns").frame(1).image
-        np.testing.assert_array_equal(image, odd[1][: shape[0], : shape[1]])
+        np.testing.assert_array_equal(image, odd[1])
 
 
 @pytest.mark.parametrize("ending", FILM_ENDINGS)

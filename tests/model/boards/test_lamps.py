@@ -23,7 +23,7 @@ from occ_model.boards.transmission import (
     flicker_sentence,
     prepare_transmission,
 )
-from occ_model.boards.waveform_files import choose_wav_timing, edge_rows, vcd_text, wav_bytes
+from occ_model.boards.waveform_files import choose_wav_timing, wav_bytes
 
 PAPER = occ.load_preset("phone-68us").replace(light="lamp")
 FLASHES = PAPER.replace(light="pulses")
@@ -110,37 +110,6 @@ def test_a_flash_keeps_its_length(board: TransmitterBoard) -> None:
     sent = send(FLASHES.replace(pulse_frequency=59.9, pulse_length=250e-6), board)
     assert abs(float(sent.timing.lit_time) - 250e-6) <= sent.timing.prescaler / board.clock / 2
     assert sent.sent_values.keys() == {"pulse_frequency", "pulse_length"}
-
-
-@every_scene
-@every_board
-def test_the_value_change_dump_is_the_light_that_is_simulated(
-    board: TransmitterBoard, name: str
-) -> None:
-    """Integrate the dump's waveform over each column's exposure."""
-    sent = send(SCENES[name], board)
-    text = vcd_text(sent)
-    ((number, unit),) = re.findall(r"\$timescale (\d+) (\w+) \$end", text)
-    tick = Fraction(int(number), 1000 ** ("s", "ms", "us", "ns", "ps").index(unit))
-    changes = re.findall(r"^#(\d+)\n([01])!$", text, re.MULTILINE)
-    assert [level for _, level in changes] == ["1", "0"]
-    lit, period = int(changes[1][0]) * tick, int(text.split("#")[-1]) * tick
-    assert (lit, period) == (sent.timing.lit_time, sent.timing.period)
-    scene = sent.sent_scene.replace(columns=200, start_time=1e-3)
-    camera = scene.camera
-    starts = [Fraction(1e-3) + column * Fraction(camera.readout_time) for column in range(200)]
-
-    def light_until(time: Fraction) -> Fraction:
-        return time // period * lit + min(time % period, lit)
-
-    wanted = [
-        float(light_until(start + Fraction(camera.exposure_time)) - light_until(start))
-        for start in starts
-    ]
-    # The scene's floats differ from the exact values by 1e-16 of the time since 0.
-    np.testing.assert_allclose(occ.on_time(scene), wanted, atol=1e-12)
-    cycles = [row[1] for row in edge_rows(sent)]
-    assert [Fraction(each, board.clock) for each in cycles] == [0, lit, period]
 
 
 @every_scene

@@ -51,21 +51,46 @@ def test_the_packet_can_be_read_from_the_table(board: str, pattern: str) -> None
         assert abs(Fraction(time) - chip * sent.timing.period) <= Fraction(1, 2 * 10**18)
 
 
-@each_case(product(BOARDS, ("", "0011", "10", "1", "0110"), (100.0, 4e3, 14.7e3)))
-def test_the_value_change_dump_has_exact_edges(board: str, pattern: str, frequency: float) -> None:
-    sent = sent_by(board, switching_frequency=frequency, pattern=pattern)
+LIGHTS: list[dict[str, float | str]] = [
+    *(
+        {"pattern": pattern, "switching_frequency": frequency}
+        for pattern in ("", "0011", "10", "1", "0110")
+        for frequency in (100.0, 4e3, 14.7e3)
+    ),
+    {"light": "lamp", "lamp_frequency": 239.0, "duty": 0.3},
+    {"light": "lamp", "lamp_frequency": 100e3, "duty": 0.9},
+    {"light": "lamp", "lamp_frequency": 0.5, "duty": 0.01},
+    {"light": "pulses", "pulse_frequency": 60.0, "pulse_length": 500e-6},
+]
+
+
+@each_case(product(BOARDS, LIGHTS))
+def test_the_value_change_dump_is_the_light_that_is_simulated(
+    board: str, light: dict[str, float | str]
+) -> None:
+    """Integrate the dump's waveform over each column's exposure."""
+    sent = sent_by(board, **light)
     text = vcd_text(sent)
     ((number, unit),) = re.findall(r"\$timescale (\d+) (\w+) \$end", text)
     tick = Fraction(int(number), 10 ** _UNITS[unit])
-    changes = re.findall(r"^#(\d+)\n([01])!$", text, re.MULTILINE)
-    found = [(int(time) * tick / sent.timing.period, int(level)) for time, level in changes]
-    rows = list(edge_rows(sent))[:-1]
-    assert found == [(chip, level) for chip, _, _, level in rows]
-    assert int(re.findall(r"^#(\d+)$", text, re.MULTILINE)[-1]) * tick == (
-        len(sent.chips) * sent.timing.period
-    )
-    coarser = 10 * tick / sent.timing.period
-    assert any((chip / coarser).denominator > 1 for chip in (*sent.edges, len(sent.chips)))
+    times = [int(time) * tick for time in re.findall(r"^#(\d+)$", text, re.MULTILINE)]
+    levels = [int(level) for level in re.findall(r"^([01])!$", text, re.MULTILINE)]
+    assert times == [Fraction(row[1], sent.timing.clock) for row in edge_rows(sent)]
+    assert any((time / (10 * tick)).denominator > 1 for time in times)  # no coarser tick would do
+
+    def light_until(time: Fraction) -> Fraction:
+        whole, rest = divmod(time, times[-1])
+        lit = Fraction(0)
+        for (start, end), level in zip(pairwise(times), levels, strict=True):
+            lit += level * (whole * (end - start) + min(end, rest) - min(start, rest))
+        return lit
+
+    scene = sent.sent_scene.replace(columns=200, start_time=1e-3)
+    exposure, readout = Fraction(scene.camera.exposure_time), Fraction(scene.camera.readout_time)
+    starts = [Fraction(1e-3) + column * readout for column in range(200)]
+    wanted = [float(light_until(start + exposure) - light_until(start)) for start in starts]
+    # The scene's floats differ from the exact values by 1e-16 of the time since 0.
+    np.testing.assert_allclose(occ.on_time(scene), wanted, atol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -46,9 +46,10 @@ def test_a_lamp_out_of_the_picture_changes_nothing() -> None:
 
 
 def test_a_lamp_that_only_distortion_brings_into_the_picture_is_drawn_and_bounded() -> None:
-    camera = Place(z=0.0)
-    lens = {"equivalent_focal_length": 0.0181, "radial_k1": -0.25, "radial_k2": 0.03}
-    room = small_room(1, camera=camera, illuminance=0.0, **lens)
+    room = small_room(
+        1, camera=Place(z=0.0), illuminance=0.0, equivalent_focal_length=0.0181,
+        radial_k1=-0.25, radial_k2=0.03,
+    )  # fmt: skip
     corner = np.array([740.0, 490.0])
     x, y = image_rays(undistort(corner, room.scene), room.scene.camera) * 2.6
     lamp = dataclasses.replace(room.lamps[0], x=float(x) + 0.4, y=float(y) + 0.35, roll=0.0)

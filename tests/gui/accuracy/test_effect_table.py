@@ -229,6 +229,17 @@ def test_a_click_on_a_title_sorts_rows_and_switches(
     assert click_on(table, STAGE, qtbot) == light
 
 
+def test_only_a_row_that_has_changed_is_drawn_again_however_rows_are_sorted(
+    table: EffectTable, frame: Frame, qtbot: QtBot
+) -> None:
+    names = click_on(table, EFFECT, qtbot)
+    changed: list[str] = []
+    table.effects.dataChanged.connect(lambda first, *_: changed.append(names[first.row()]))
+    measured = costs_of(frame, led_edges=difference("led-edges", 0.71))
+    table.show_rows(make_rows(frame, measured, switched=()))
+    assert changed == ["led-edges"]
+
+
 def test_repeated_measurements_do_not_shuffle_rows(
     table: EffectTable, frame: Frame, qtbot: QtBot
 ) -> None:

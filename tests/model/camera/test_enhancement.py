@@ -79,6 +79,12 @@ def test_rounding_stays_within_the_range_of_a_byte(values: list[float], levels: 
     assert to_bytes(np.array(values)).tolist() == levels
 
 
+@pytest.mark.parametrize("lowest", [126.5, 127.5])
+def test_values_that_differ_by_rounding_errors_become_one_level(lowest: float) -> None:
+    values = np.array([lowest, lowest + 3e-10, lowest + 6e-10])
+    assert len(set(enhance(values, "none").tolist())) == 1
+
+
 @settings(max_examples=amount(30, 100))
 @given(st.lists(st.integers(0, 40), min_size=2, max_size=256), st.integers(0, 255))
 def test_a_histogram_is_equalized_as_the_library_does(counts: list[int], start: int) -> None:

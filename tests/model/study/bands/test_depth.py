@@ -146,6 +146,26 @@ def test_of_a_lamp_that_blinks_at_the_line_rate_the_columns_see_nothing() -> Non
     assert beside.period == pytest.approx(320.0)
 
 
+@pytest.mark.parametrize(
+    "light",
+    [{"light": "mains", "mains_depth": 0.008, "edge_time": 3e-3},
+     {"light": "lamp", "lamp_frequency": 200.0, "duty": 0.5, "depth": 0.008}],
+)  # fmt: skip
+def test_hidden_bars_are_those_that_columns_at_all_phases_would_show(light: dict[str, Any]) -> None:
+    """The tone curve is that of the display, so that contrasts are proportional to the swing."""
+    scene = _PHONE.replace(
+        **light, exposure_time=1e-3, illuminance=9000.0, flicker_depth=0.004, luminance=1000.0,
+        averaging="light", gamma=2.2, iso=5.0, full_well=1e9, readout_time=0.01, columns=2000,
+    )  # fmt: skip
+    name = "mains_depth" if light["light"] == "mains" else "depth"
+    for contrast in (0.0099, 0.0101):  # bars are visible from 1 %
+        factor = contrast / light_depth(scene).peak_to_peak
+        changes = {name: factor * light[name], "flicker_depth": factor * 0.004}
+        found = occ.band_depth(scene.replace(**changes))
+        assert found.columns.peak_to_peak < 1e-9
+        assert ("same phase" in found.hidden) == (contrast > 0.01)
+
+
 def test_the_period_is_that_of_the_columns_where_they_do_not_see_the_strongest_sine() -> None:
     # The strongest of eight, the fourth, is seen at the same phase by all columns.
     scene = _PHONE.replace(pattern="10101000", switching_frequency=2.0 * 2**16,

@@ -31,7 +31,6 @@ from occ_gui.widgets.colours import REGION
 
 _Index = QModelIndex | QPersistentModelIndex
 
-
 _TINT = QColor(REGION)
 _TINT.setAlpha(48)
 

@@ -14,8 +14,6 @@ from occ_model.camera.photometry import FLAT_SPAN, WHITE
 
 _LEVEL_TOLERANCE = 1e-9  # difference of column values in grey levels that is only rounding
 _SEEN_PIXELS = 0.5  # expected pixels of a grey level below which a picture hardly has one
-
-
 _NEGLIGIBLE_TAIL = 5.0  # standard deviations beyond which a normal distribution has less than 1e-6
 
 

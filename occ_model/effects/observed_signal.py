@@ -32,7 +32,6 @@ _LARGE_STEP = 32.0
 
 _MOST_GAIN = 8.0  # largest contrast gain of an enhancement that noise smooths
 
-
 _CLIPPED_NOISE = 8.0  # noise in grey levels above which clipping matters
 
 

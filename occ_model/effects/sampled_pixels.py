@@ -171,14 +171,15 @@ class SampledPixels:
     @cached_property
     def drawn_changes(self) -> dict[str, RandomSquare]:
         """What drawing whole grey levels adds to the mean square change of pixels, by effect."""
-        return self.random_squares(GREY_LEVELS)
+        return self.random_squares()
 
     def random_squares(
-        self, curve: FloatArray, inside: BoolArray | None = None
+        self, enhancing: FloatArray | None = None, inside: BoolArray | None = None
     ) -> dict[str, RandomSquare]:
         """Return what differs from pixel to pixel in the change without each effect.
 
-        ``curve`` is a curve of the grey levels ``inside`` the panel, or everywhere.
+        ``enhancing`` is the enhancement's curve for the pixels ``inside`` the panel, or for all;
+        None for pixels that are not enhanced.
         """
         names = (*self.moving, *self.variances)
         if not self.noisy.is_drawn(self.names):
@@ -189,19 +190,20 @@ class SampledPixels:
             if self.files:
                 squares += rounding_growth_by_noise(np.sqrt(squares))
         else:
-            squares, steps = self._drawn_squares(curve)
+            squares, steps = self._drawn_squares(enhancing)
             if inside is not None:
-                squares, steps = np.where(
-                    inside, (squares, steps), self._drawn_squares(GREY_LEVELS)
-                )
+                squares, steps = np.where(inside, (squares, steps), self._drawn_squares(None))
         parts = np.stack([squares, squares**2, squares * steps**2])
         means = np.einsum("pecn,cn->ep", parts, self.sample.pixel_weights)
         return {name: RandomSquare(*own) for name, own in zip(names, means.tolist(), strict=True)}
 
-    def _drawn_squares(self, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
-        is_rounded = curve is not GREY_LEVELS or bool(self.files)
+    def _drawn_squares(self, enhancing: FloatArray | None) -> tuple[FloatArray, FloatArray]:
         return self.noisy.drawn_squares(
-            self._sets, self._exposed_places, self.variances, curve, is_rounded=is_rounded
+            self._sets,
+            self._exposed_places,
+            self.variances,
+            GREY_LEVELS if enhancing is None else enhancing,
+            is_rounded=enhancing is not None or bool(self.files),
         )
 
     @cached_property

@@ -9,7 +9,6 @@ from occ_model.scene.scene import Scene
 
 FRAMES_A_SECOND = FRAME_RATE.default  # default frame rate of a camera, in frames a second
 
-
 _WHY_ABOVE_HALF = "Above 0.5, because all bits of an unread payload count as wrong."
 
 

@@ -19,7 +19,6 @@ from occ_model.scene.units import HERTZ, SECOND
 
 _DIGITS = 4  # significant digits, as the ends of a range are found to a few thousandths
 
-
 _LONGEST_PAYLOAD = 24  # characters of a payload in a sentence
 
 

@@ -73,25 +73,17 @@ def export(job: ExportJob, report: Report) -> ExportResult:
     if job.path is not None:
         drawing.write(job.path, request.provenance(drawing))
         return ExportResult(job, (job.path,))
-    from occ_model.figures.drawing import figure_bytes, house_style
-
-    with house_style():
-        return ExportResult(
-            job, png=figure_bytes(drawing.draw(), "png", request.provenance(drawing))
-        )
+    (png,) = drawing.encode((".png",), request.provenance(drawing))
+    return ExportResult(job, png=png)
 
 
 def _write_all(folder: Path, requests: Sequence[FigureRequest], report: Report) -> list[Path]:
-    from occ_model.figures.drawing import files_of, write_all
+    from occ_model.figures.drawing import write_all
 
     is_new = not folder.exists()
     make_folder(folder)
     try:
         drawings = {request.draw(): request for request in requests}
-        # Refused at once: drawing takes seconds.
-        for drawing in drawings:
-            for path in files_of(drawing, folder):
-                check_replaceable(path)
 
         def find_provenance(drawing: "Drawing") -> Provenance:
             report(None)  # ends here if the window was closed

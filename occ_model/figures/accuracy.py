@@ -12,7 +12,7 @@ from matplotlib.ticker import LogFormatterMathtext
 from matplotlib.transforms import Bbox
 
 from occ_model import colours
-from occ_model.figures.drawing import Drawing, settings_notes
+from occ_model.figures.drawing import PRINT_ENDINGS, Drawing, settings_notes, write_all
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene, SimulationSettings
@@ -37,8 +37,7 @@ def write_accuracy_figure(
     drawing = accuracy_drawing(points)
     notes = settings_notes(settings)
     provenance = Provenance(drawing.title, {"of this file": scene}, settings.seed, notes)
-    for ending in (".pdf", ".png", ".csv"):
-        drawing.write(folder / f"{drawing.name}{ending}", provenance)
+    write_all(folder, [drawing], lambda _: provenance, PRINT_ENDINGS)
 
 
 def accuracy_drawing(points: Sequence[AccuracyPoint]) -> Drawing:

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from occ_model import colours
 from occ_model.errors import inflect
-from occ_model.figures.drawing import Drawing
+from occ_model.figures.drawing import PRINT_ENDINGS, Drawing, write_all
 from occ_model.results.bit_errors import HEADER, BenchBounds, BenchPoint, BenchRequest, table_rows
 from occ_model.scene.provenance import Provenance
 from occ_model.study.bench.bench import bench_bounds, bench_scene
@@ -36,8 +36,7 @@ def write_bench(
 ) -> None:
     drawing = bench_drawing(request, points, frames_a_second)
     provenance = bench_provenance(request, frames_a_second)
-    for ending in (".pdf", ".png", ".csv"):
-        drawing.write(folder / f"{drawing.name}{ending}", provenance)
+    write_all(folder, [drawing], lambda _: provenance, PRINT_ENDINGS)
 
 
 def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = "") -> Provenance:

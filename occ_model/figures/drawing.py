@@ -1,10 +1,11 @@
 """Drawings, which are figures with tables of their numbers: style, tables, and files."""
 
 import csv
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from io import BytesIO, StringIO
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,13 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
-from occ_model.files.writing import make_folder, write_atomically, write_whole
-from occ_model.scene.provenance import Provenance
+from occ_model.files.writing import (
+    check_replaceable,
+    make_folder,
+    write_atomically,
+    write_whole,
+)
+from occ_model.scene.provenance import ENDINGS, Provenance
 from occ_model.scene.scene import SimulationSettings, unit_of
 
 # The line styles differ too, so that the lines can be distinguished in grey.
@@ -24,9 +30,8 @@ BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
 THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "linewidth": 0.9}
 
-FORMATS = ("png", "svg", "pdf")  # the file formats of a figure
-
-ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")  # of a drawing's file
+TABLE_ENDING = ".csv"
+PRINT_ENDINGS = (".pdf", ".png", TABLE_ENDING)  # of the files of a figure for print
 
 STYLE: dict[Any, Any] = {
     "font.size": 9,
@@ -47,21 +52,18 @@ def house_style() -> AbstractContextManager[None]:
     return rc_context(parameters)
 
 
-def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
-    """Write a figure that was drawn in :func:`house_style`, in the format of the file's ending."""
-    write_whole(path, figure_bytes(figure, figure_format(path), provenance))
-
-
 def figure_format(path: Path) -> str:
-    ending = path.suffix.lower().removeprefix(".")
-    if ending not in FORMATS:
+    """Return the format of a figure's file by its ending; an OutputError refuses any other."""
+    ending = path.suffix.lower()
+    if ending not in ENDINGS or ending == TABLE_ENDING:
         raise OutputError(
             f"{one_line(path.name)} does not have the ending of a figure; use .png, .svg or .pdf."
         )
-    return ending
+    return ending.removeprefix(".")
 
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
+    """Fit a figure that was drawn in :func:`house_style` to its page, and return its file."""
     fit_texts(figure)
     return encode_figure(figure, format_name, provenance)
 
@@ -78,13 +80,6 @@ def encode_figure(figure: Figure, format_name: str, provenance: Provenance) -> b
     return buffer.getvalue()
 
 
-def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
-    """Write a figure that was drawn in :func:`house_style` as PDF and PNG."""
-    fit_texts(figure)
-    for ending in ("pdf", "png"):
-        write_whole(folder / f"{name}.{ending}", encode_figure(figure, ending, provenance))
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawing:
     name: str  # The file's name without ending
@@ -95,6 +90,19 @@ class Drawing:
     # Returns the provenance for a date, for a figure that is not of a single scene
     provenance: Callable[[str], Provenance] | None = None
 
+    def encode(self, endings: Iterable[str], provenance: Provenance) -> Iterator[bytes]:
+        """Yield the file of each ending: the figure, which is drawn once, or its table as CSV."""
+        figure: Figure | None = None
+        for ending in endings:
+            if ending == TABLE_ENDING:
+                yield table_text(self.header, self.rows(), provenance).encode("utf-8")
+                continue
+            with house_style():
+                if figure is None:
+                    fit_texts(figure := self.draw())
+                content = encode_figure(figure, ending.removeprefix("."), provenance)
+            yield content
+
     def write(self, path: Path, provenance: Provenance) -> None:
         """Write the figure, or its table as CSV, by the file's ending."""
         ending = path.suffix.lower()
@@ -103,37 +111,31 @@ class Drawing:
                 f"{one_line(path.name)} does not have the ending of a figure or table; "
                 f"use {', '.join(ENDINGS)}."
             )
-        if ending == ".csv":
-            write_table(path, self.header, self.rows(), provenance)
-            return
-        with house_style():
-            write_figure(path, self.draw(), provenance)
-
-
-def files_of(drawing: Drawing, folder: Path) -> list[Path]:
-    return [folder / f"{drawing.name}{ending}" for ending in ENDINGS]
+        (content,) = self.encode((ending,), provenance)
+        write_whole(path, content)
 
 
 def write_all(
-    folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
+    folder: Path,
+    drawings: Iterable[Drawing],
+    provenance: Callable[[Drawing], Provenance],
+    endings: Sequence[str] | None = None,
 ) -> list[Path]:
-    """Write figures and their tables into a folder, either all of them or none."""
+    """Write figures and their tables into a folder, either all of them or none.
+
+    ``endings``: those of each drawing's files; None for all that there are.
+    """
     make_folder(folder)
-    paths: list[Path] = []
+    endings = ENDINGS if endings is None else endings
+    paths = {each: [folder / f"{each.name}{ending}" for ending in endings] for each in drawings}
+    for path in chain(*paths.values()):
+        check_replaceable(path)  # before any is drawn, which takes seconds
     with ExitStack() as stack:
-        for drawing in drawings:
-            origin = provenance(drawing)
-            with house_style():
-                fit_texts(figure := drawing.draw())
-                for path in files_of(drawing, folder):
-                    content = (
-                        table_text(drawing.header, drawing.rows(), origin).encode("utf-8")
-                        if path.suffix == ".csv"
-                        else encode_figure(figure, figure_format(path), origin)
-                    )
-                    stack.enter_context(write_atomically(path)).write_bytes(content)
-                    paths.append(path)
-    return paths
+        for drawing, files in paths.items():
+            contents = drawing.encode(endings, provenance(drawing))
+            for path, content in zip(files, contents, strict=True):
+                stack.enter_context(write_atomically(path)).write_bytes(content)
+    return list(chain(*paths.values()))
 
 
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
@@ -146,17 +148,10 @@ def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
     )
 
 
-def write_table(
-    path: Path, header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
-) -> None:
-    """Write a table as CSV; None becomes an empty cell."""
-    write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
-
-
 def table_text(
     header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
 ) -> str:
-    """Format a table as CSV text; the arguments are those of :func:`write_table`."""
+    """Format a table as CSV text; None becomes an empty cell."""
     text = StringIO()
     for line in provenance.lines():
         text.write(f"# {line}".rstrip() + "\n")

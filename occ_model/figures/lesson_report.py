@@ -11,7 +11,13 @@ from matplotlib.font_manager import FontProperties
 
 from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError, one_line, printable
-from occ_model.figures.drawing import PHOTO, SIMULATION, house_style, write_figure
+from occ_model.figures.drawing import (
+    PHOTO,
+    SIMULATION,
+    figure_bytes,
+    figure_format,
+    house_style,
+)
 from occ_model.figures.page import break_lines, replace_missing_letters
 from occ_model.figures.window_panes import caption
 from occ_model.files.writing import write_whole
@@ -47,10 +53,12 @@ def write_lesson_report(
             draw_page(lesson.title, about, _footer(place, len(parts)), part, first)
             for place, (first, part) in enumerate(parts, 1)
         ]
-        if len(pages) == 1:
-            write_figure(path, pages[0], provenance)
-        else:
-            write_whole(path, _write_pdf(pages, provenance))
+        content = (
+            _pdf_bytes(pages, provenance)
+            if len(pages) > 1
+            else figure_bytes(pages[0], figure_format(path), provenance)
+        )
+    write_whole(path, content)
 
 
 def _footer(page: int, pages: int) -> str:
@@ -58,7 +66,7 @@ def _footer(page: int, pages: int) -> str:
     return f"occ-explorer {__version__}{number}"
 
 
-def _write_pdf(pages: Sequence[Figure], provenance: Provenance) -> bytes:
+def _pdf_bytes(pages: Sequence[Figure], provenance: Provenance) -> bytes:
     content = BytesIO()
     about = {"Title": provenance.title, "Subject": provenance.text(), "CreationDate": None}
     with PdfPages(content, metadata=about) as pdf:

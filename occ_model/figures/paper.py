@@ -1,7 +1,7 @@
 """Draw the paper's figures 2 to 6 from the simulation."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,7 @@ from matplotlib.patches import Polygon
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import row_spans
 from occ_model.errors import BandModelUndefined, inflect, one_line
-from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure, write_table
+from occ_model.figures.drawing import BAND, PHOTO, PRINT_ENDINGS, SIMULATION, Drawing, write_all
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import Frame
 from occ_model.results.sweep import SweepTable
@@ -53,7 +53,6 @@ def write_process_figure(folder: Path) -> None:
     places = "; ".join(f"column {x:.2f}, row {y:.2f}" for x, y in frame.corners.tolist())
     title = "Figure 2: from the panel's corners to the picture"
     provenance = Provenance(title, {"phone-68us": scene}, notes=(f"corners: {places}",))
-    save_figure(figure, folder, "figure-2", provenance)
     is_lit = mask > 0
     header = (
         "column", "calculated value (grey level)", "first row of the mask", "rows of the mask",
@@ -62,7 +61,19 @@ def write_process_figure(folder: Path) -> None:
     table = np.stack(
         [np.arange(columns), calculated, is_lit.argmax(axis=0), is_lit.sum(axis=0)], axis=1
     )
-    write_table(folder / "figure-2.csv", header, table.tolist(), provenance)
+    _write(folder, "figure-2", figure, header, table.tolist(), provenance)
+
+
+def _write(
+    folder: Path,
+    name: str,
+    figure: Figure,
+    header: Sequence[str],
+    rows: Sequence[Sequence[object]],
+    provenance: Provenance,
+) -> None:
+    drawing = Drawing(name, provenance.title, lambda: figure, header, lambda: rows)
+    write_all(folder, [drawing], lambda _: provenance, PRINT_ENDINGS)
 
 
 def _show_picture(ax: Axes, picture: np.ndarray | None, rows: int, columns: int) -> None:
@@ -114,16 +125,12 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = METRE.format(scene.pose.distance)
     title = f"Figure {number}: pixel values, {preset} at {frequency} and {distance}"
-    photo_note = f"photo {one_line(photo.path.name)}, drawn from column {first}" if photo else ""
-    notes = (photo_note,) if photo_note else ()
+    notes = (f"photo {one_line(photo.path.name)}, drawn from column {first}",) if photo else ()
     provenance = Provenance(title, {preset: scene}, notes=notes)
-    save_figure(figure, folder, f"figure-{number}", provenance)
-    names = [name for name, values in profiles.items() if values is not None]
-    table = np.stack(
-        [column, *(values for values in profiles.values() if values is not None)], axis=1
-    )
-    header = ("column", *(f"{name} (grey level)" for name in names))
-    write_table(folder / f"figure-{number}.csv", header, table.tolist(), provenance)
+    drawn = {name: values for name, values in profiles.items() if values is not None}
+    table = np.stack([column, *drawn.values()], axis=1)
+    header = ("column", *(f"{name} (grey level)" for name in drawn))
+    _write(folder, f"figure-{number}", figure, header, table.tolist(), provenance)
 
 
 def choose_columns(scene: Scene, frame: Frame) -> tuple[int, int]:
@@ -144,7 +151,6 @@ def write_rate_figure(
     title = f"Figure {number}: success rate, {device}, {inflect(settings.images, 'image')} a point"
     scenes = {preset: table.request.scene for preset, table in tables.items()}
     provenance = Provenance(title, scenes, settings.seed)
-    save_figure(rate_maps(tables), folder, f"figure-{number}", provenance)
     header = (
         "preset", "decoder", "switching frequency (Hz)", "distance (m)", "images", "seed",
         "success rate (%)", "95 % from (%)", "95 % to (%)",
@@ -157,7 +163,7 @@ def write_rate_figure(
         for preset, table in tables.items()
         for row in table.each_row()
     ]  # fmt: skip
-    write_table(folder / f"figure-{number}.csv", header, rows, provenance)
+    _write(folder, f"figure-{number}", rate_maps(tables), header, rows, provenance)
 
 
 def rate_maps(tables: Mapping[str, SweepTable]) -> Figure:

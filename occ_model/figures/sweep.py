@@ -16,7 +16,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError, inflect
-from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
+from occ_model.figures.drawing import Drawing
 from occ_model.results.sweep import SweepTable, column_title, format_value
 from occ_model.results.sweep_request import ShownQuantity, SweepPoint
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
@@ -49,14 +49,12 @@ def write_sweep_figure(path: Path, table: SweepTable, quantity: ShownQuantity = 
     map for each decoder, with the first axis from left to right; points that the model refuses are
     grey.
     """
-    figure_format(path)  # refuse an unknown ending before drawing
     names = list(table.axes)
     if len(names) > 2:
         raise ParameterError(
             f"The sweep varies {', '.join(names)}; allowed in a figure: one or two parameters."
         )
-    with house_style():
-        write_figure(path, sweep_drawing(table, quantity).draw(), _provenance(table, quantity))
+    sweep_drawing(table, quantity).write(path, _provenance(table, quantity))
 
 
 def sweep_drawing(table: SweepTable, quantity: ShownQuantity = "rate") -> Drawing:

@@ -213,6 +213,6 @@ def table_of(**axes: object) -> occ.SweepTable:
 def test_a_figure_that_is_impossible_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed in a figure: one"):
         write_sweep_figure(tmp_path / "f.png", table_of(iso=[100.0], bits=[10], rows=[100]))
-    with pytest.raises(OutputError, match=r"not have the ending of a figure; use \.png, "):
+    with pytest.raises(OutputError, match=r"not have the ending of a figure or table; use \.png, "):
         write_sweep_figure(tmp_path / "f.gif", table_of(iso=[100.0]))
     assert list(tmp_path.iterdir()) == []

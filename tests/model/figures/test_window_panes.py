@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 
 import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
-from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
+from occ_model.figures.drawing import Drawing, house_style, write_all
 from occ_model.figures.page import fit_texts
 from occ_model.figures.window_panes import caption, picture_drawing, profile_drawing
-from occ_model.scene.provenance import Provenance, scene_inside
+from occ_model.scene.provenance import ENDINGS, Provenance, scene_inside
 from occ_model.study.cause.cause import cause_of
 
 SCENE = occ.load_preset("phone-68us").replace(rows=60, panel_height=2.0)

@@ -17,7 +17,8 @@ from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError, inflect
 from occ_model.figures.drawing import Drawing
-from occ_model.results.sweep import SweepTable, column_title, format_value
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_csv import column_title, format_value
 from occ_model.results.sweep_request import ShownQuantity, SweepPoint
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS

@@ -1,12 +1,12 @@
 """A table of several matched photos with their combined estimates, and its CSV."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from occ_model.errors import inflect, one_line, printable
 from occ_model.results.match import Match, known_parameter
-from occ_model.results.sweep import csv_row
+from occ_model.results.sweep_csv import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -195,21 +195,25 @@ def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
         in_mean = (
             "outlier" if table.is_outlier(index) else "yes" if table.is_counted(index) else "no"
         )
-        estimates: list[object] = []
-        for name in ("readout_time", "switching_frequency", "exposure_time"):
-            estimates += [getattr(row, name), _format_error(row.uncertainty(name))]
         basis = rests_on if row.given is None else _given_text(known, row.given)
-        estimates += [row.exposure_verdict, None if row.match is None else basis]
         texts.append(
             csv_row(
-                [_quote_text(str(row.path)), row.verdict, in_mean, *estimates, row.noted_exposure,
-                 row.correlation, row.pattern, row.lines or None, _quote_text(row.camera or ""),
-                 _quote_text(row.note), row.lamp_frequency,
-                 _format_error(row.uncertainty("lamp_frequency")), row.duty,
-                 _format_error(row.uncertainty("duty"))]
+                [_quote_text(str(row.path)), row.verdict, in_mean,
+                 *_estimates(row, "readout_time", "switching_frequency", "exposure_time"),
+                 row.exposure_verdict, None if row.match is None else basis, row.noted_exposure,
+                 row.correlation, row.pattern, row.lines or None,
+                 _quote_text(row.camera or ""), _quote_text(row.note),
+                 *_estimates(row, "lamp_frequency", "duty")]
             )
         )  # fmt: skip
     return texts
+
+
+def _estimates(row: PhotoRow, *names: str) -> Iterator[object]:
+    """Yield some estimates of a photo, each before its error."""
+    for name in names:
+        yield getattr(row, name)
+        yield _format_error(row.uncertainty(name))
 
 
 def _given_text(known: Quantity, value: float) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from occ_model.errors import OccError, ParameterError, quote
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
-from occ_model.results.sweep import csv_row, join_lines, read_count
+from occ_model.results.sweep_csv import csv_row, join_lines, read_count
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room

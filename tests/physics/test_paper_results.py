@@ -9,7 +9,8 @@ from amount import amount
 
 import occ_model as occ
 from occ_model.commands.figures import detection_sentence
-from occ_model.results.sweep import SweepRow, SweepTable
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_csv import SweepRow
 from occ_model.scene.scene import Scene
 from occ_model.study.paper_grid import (
     DEVICES,

@@ -10,7 +10,7 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match, known_parameter
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow
-from occ_model.results.sweep import join_lines
+from occ_model.results.sweep_csv import join_lines
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 

@@ -16,14 +16,8 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.decoding import PAPER_DECODER
-from occ_model.results.sweep import (
-    TITLE,
-    PointReader,
-    SweepTable,
-    header_text,
-    join_lines,
-    point_text,
-)
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_csv import TITLE, PointReader, header_text, join_lines, point_text
 from occ_model.results.sweep_request import (
     RateSettings,
     SignalPath,

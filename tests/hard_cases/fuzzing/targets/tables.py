@@ -16,7 +16,7 @@ from hard_cases.fuzzing.target import FuzzTarget
 from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results.photo_table import csv_text
-from occ_model.results.sweep import csv_row
+from occ_model.results.sweep_csv import csv_row
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.request_check import build_request

@@ -102,14 +102,18 @@ class BandDepth:
 
 
 @dataclass(frozen=True, slots=True)
-class SpeedDepth:
-    """Depth of the bars at a marked shutter speed."""
-
+class ShutterSpeed:
     name: str  # As marked on the camera, such as 1/125 s
     # The marked time and that of a camera whose speeds are powers of two, in seconds
     nominal: float
     real: float
-    # Peak-to-peak depth of the light at each
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedDepth(ShutterSpeed):
+    """Depth of the bars at a marked shutter speed."""
+
+    # Peak-to-peak depth of the light at the marked time and at the other
     at_nominal: float
     at_real: float
 
@@ -270,14 +274,6 @@ class EyeFlicker:
             f"by IEEE 1789-2015: {self.risk} as a whole, repeated at "
             f"{HERTZ.format(self.frequency, 4)}; {self.parts_risk} by each of its sines.",
         )
-
-
-@dataclass(frozen=True, slots=True)
-class ShutterSpeed:
-    name: str  # As marked on the camera
-    # The marked time and that of a camera whose speeds are powers of two, in seconds
-    nominal: float
-    real: float
 
 
 @dataclass(frozen=True, slots=True)

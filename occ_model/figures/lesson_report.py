@@ -126,7 +126,7 @@ def _draw_step(
     answer = answered.answer
     answer_text = _NO_ANSWER if answer is None else answered.step.with_unit(answer.text)
     outcome = "" if answer is None else answer.sentence
-    matched = "" if answered.match is None else _describe_match(answered.match, answered.photo)
+    matched = "" if answered.match is None else describe_match(answered.match, answered.photo)
     texts = (
         (f"{number}. {answered.step.question}", 10, "bold", "0.0"),
         (f"Answer: {answer_text}", 10, "normal", "0.0"),
@@ -170,26 +170,20 @@ def _draw_result(figure: Figure, answered: AnsweredStep, top: float, bottom: flo
     draw_match((profile_axes, residual_axes), answered.match)
 
 
-def _describe_match(match: Match, photo: str) -> str:
-    lines, reasons = match_lines(match, photo), match.all_reasons
-    facts = "; ".join(lines[: len(lines) - len(reasons)])
-    return " ".join((f"{facts}.", *reasons))
-
-
-def match_lines(match: Match, photo: str) -> list[str]:
-    """Describe a match: values with standard deviations, the verdict, and its reasons."""
-    lines = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
+def describe_match(match: Match, photo: str) -> str:
+    """Describe a match: its verdict, values with standard deviations, and reasons to doubt it."""
+    facts = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
     for name in ("readout_time", "exposure_time"):
         parameter = quantity(name)
         deviation = match.uncertainties.get(name)
         value = parameter.unit.format_estimate(getattr(match, name), deviation)
         doubt = " (doubtful)" if name in match.doubtful_alone else ""
-        lines.append(f"{parameter.in_sentence} {value}{doubt}")
+        facts.append(f"{parameter.in_sentence} {value}{doubt}")
     exposure = f"{match.exposure_in_chips:.3g} chips"
     if match.lamp is not None:
         exposure = f"{match.exposure_in_periods:.3g} periods of a {match.lamp.words}"
-    lines.append(f"{exposure} an exposure, residual {match.rmse:.2g} levels")
-    return [*lines, *match.all_reasons]
+    facts.append(f"{exposure} an exposure, residual {match.rmse:.2g} levels")
+    return " ".join((f"{'; '.join(facts)}.", *match.all_reasons))
 
 
 def draw_profile(ax: Axes, scene: Scene) -> None:

@@ -10,8 +10,8 @@ from matches import match_with
 from occ_model.errors import OutputError
 from occ_model.figures.drawing import house_style
 from occ_model.figures.lesson_report import (
+    describe_match,
     draw_page,
-    match_lines,
     split_into_pages,
     write_lesson_report,
 )
@@ -110,9 +110,9 @@ def test_a_report_has_author_and_date_apart_and_a_match_in_sentences_with_whole_
 
 def test_a_match_is_described_with_verdict_errors_and_reasons(match: Match) -> None:
     doubtful = replace(match, reasons=("Only 2 periods are in view.",))
-    assert match_lines(match, "")[0] == "sure"
-    assert match_lines(doubtful, "a.jpg")[0] == "photo a.jpg: doubtful"
-    assert match_lines(doubtful, "a.jpg")[-1] == "Only 2 periods are in view."
+    assert describe_match(match, "").startswith("sure; readout time ")
+    assert describe_match(doubtful, "a.jpg").startswith("photo a.jpg: doubtful; readout time ")
+    assert describe_match(doubtful, "a.jpg").endswith(" levels. Only 2 periods are in view.")
 
 
 def test_every_axis_of_a_report_names_its_unit_and_covers_no_text(match: Match) -> None:

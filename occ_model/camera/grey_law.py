@@ -60,19 +60,6 @@ class GreyLaw:
         """Whether all brighter pixels are those of the last level."""
         return not self.below[-1].any()
 
-    def mean(self, values: FloatArray, curve: FloatArray) -> FloatArray:
-        """Return the mean of ``curve``, given for each of 256 grey levels, over pixels.
-
-        ``values`` are the pixels' mean values before saturation.
-        """
-        return self.interpolate(self.mean_of(curve), values)
-
-    def moments(self, values: FloatArray, curve: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return mean and standard deviation of ``curve`` over pixels, as :meth:`mean` does."""
-        places = self.places(values)
-        mean, square = (interpolate_at(self.mean_of(each), places) for each in (curve, curve**2))
-        return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
-
     @cached_property
     def means(self) -> FloatArray:
         """The mean grey level of a pixel at each level, shape (levels,)."""

@@ -9,7 +9,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.grey_law import GreyLaw, grey_law
 from occ_model.camera.photometry import white_electrons
-from occ_model.camera.pixel_noise import GREY_LEVELS, PixelNoise
+from occ_model.camera.pixel_noise import PixelNoise
 from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.registry import effects_named
 from occ_model.effects.sensor_effects import FullWell
@@ -56,4 +56,4 @@ def enhancement_of(
     if law is None:
         return Enhancement(profile, method)
     counts = law.histogram(panel, np.full(len(panel), float(scene.camera.rows)))
-    return Enhancement(law.mean(panel, GREY_LEVELS), method, counts)
+    return Enhancement(law.interpolate(law.means, panel), method, counts)

@@ -34,11 +34,6 @@ class LevelHistogram:
         return float(self.fractions[_WHITE])
 
     @property
-    def black(self) -> float:
-        """Fraction of pixels that are black."""
-        return float(self.fractions[0])
-
-    @property
     def is_saturated(self) -> bool:
         """Whether many pixels are white, so that light is lost."""
         return self.white >= SATURATED_FROM

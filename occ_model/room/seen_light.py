@@ -57,7 +57,7 @@ class ApparentLight:
             self._of_byte = self._mean_light(curve, values)
         law = _law_of(scene, _LEVELS)
         self._outside, self._inside = (
-            np.maximum.accumulate(law.mean(_LEVELS, self._of_byte[tone_curve]))
+            np.maximum.accumulate(law.interpolate(law.mean_of(self._of_byte[tone_curve]), _LEVELS))
             for tone_curve in (_IDENTITY, curve)
         )
         slope = np.diff(self._inside) / np.diff(self._true)

@@ -17,8 +17,6 @@ from functools import partial
 from itertools import count
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from scene_values import presets_of_codes
@@ -87,7 +85,7 @@ def with_noise(scene: Scene, levels: float) -> Scene:
     for _ in range(40):
         middle = (low * high) ** 0.5
         law = law_of(of_pitch(middle), NAMES, lit)
-        found = 0.0 if law is None else float(law.moments(lit, np.arange(256.0))[1][0])
+        found = 0.0 if law is None else float(law.interpolate(law.deviations, lit)[0])
         low, high = (middle, high) if found > levels else (low, middle)
     return of_pitch(high)
 

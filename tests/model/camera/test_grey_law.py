@@ -52,7 +52,7 @@ def test_the_law_is_the_enumerated_one(changes: dict[str, float], gain: float) -
         # Between levels the table is sharpened: right on average, and nearly so at each value.
         assert np.abs(np.cumsum(found - exact)).max() < 3e-4
     at = np.array([5.0, 20.0, 100.0, 240.0])
-    mean, deviation = table.moments(at, GREYS)
+    mean, deviation = (table.interpolate(each, at) for each in (table.means, table.deviations))
     for value, own_mean, own_deviation in zip(at.tolist(), mean, deviation, strict=True):
         exact = enumerate_greys(scene, value, gain)
         true = exact @ GREYS
@@ -73,7 +73,7 @@ def test_a_converter_of_few_bits_leaves_as_few_levels(bits: int) -> None:
 def test_a_quantity_at_a_mean_is_that_at_its_value(changes: dict[str, float]) -> None:
     table = law(scene_of(changes))
     values = np.linspace(8.0, 0.9 * 255.0 * min(1.0, _full(scene_of(changes))), 40)
-    means = table.mean(values, GREYS)
+    means = table.interpolate(table.means, values)
     np.testing.assert_allclose(table.at_means(table.means, means), means, atol=1e-6)
     squares = table.mean_of(GREYS**2)
     np.testing.assert_allclose(
@@ -88,8 +88,7 @@ def _full(scene: Scene) -> float:
 def test_a_full_well_that_is_left_out_limits_nothing() -> None:
     scene = scene_of({"iso": 25.0, "full_well": 3000.0, "luminance": 1e5})
     bright = np.array([240.0])
-    limited, free = (
-        law(scene, names).mean(bright, GREYS)[0] for names in ((*SENSOR, "full-well"), SENSOR)
-    )
+    laws = (law(scene, names) for names in ((*SENSOR, "full-well"), SENSOR))
+    limited, free = (each.interpolate(each.means, bright)[0] for each in laws)
     assert limited == pytest.approx(255.0 * _full(scene), abs=0.5)
     assert free == pytest.approx(240.0, abs=1.0)

@@ -71,6 +71,6 @@ def test_the_fractions_of_a_histogram_add_up_and_show_what_is_clipped() -> None:
     image = np.array([[0, 0, 7, 255], [255, 9, 9, 255]], dtype=np.uint8)
     found = level_histogram(image)
     assert found.fractions.sum() == pytest.approx(1.0)
-    assert (found.black, found.white, found.is_saturated) == (0.25, 0.375, True)
+    assert (found.fractions[0], found.white, found.is_saturated) == (0.25, 0.375, True)
     assert not level_histogram(image[:, 2:3]).is_saturated
     assert level_histogram(image[:0]).fractions.sum() == 0.0

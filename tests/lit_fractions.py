@@ -1,6 +1,7 @@
 """Lit fractions of exposures by the running sum of chips, computed apart from the program."""
 
 import numpy as np
+from photo_world.exposures import mean_light
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.seen_stripes import BLUR_REACH, BlurShape, blur_kernel, blur_rows
@@ -21,9 +22,7 @@ def lit_fractions(chips: ByteArray, starts: np.ndarray, exposure: float) -> Floa
 def light_of(chips: ByteArray, timing: Timing, columns: int) -> FloatArray:
     """Return the lit fraction of each column, of chips that are sent again and again."""
     starts = timing.start(columns) + timing.step * np.arange(columns)
-    first = len(chips) * np.floor(starts.min() / len(chips))
-    periods = int((starts.max() - first + timing.exposure) // len(chips)) + 1
-    return lit_fractions(np.tile(chips, periods), starts - first, timing.exposure)
+    return mean_light(chips, starts, timing.exposure)
 
 
 def blurred_light(

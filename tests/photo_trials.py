@@ -1,10 +1,8 @@
 """Simulated photos, matched: how far off what is found is, and what is said of them."""
 
-from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from both_cores import on_both_cores
 from photo_world.negatives import negative
 from simulated_photos import random_scene, take
 
@@ -61,11 +59,6 @@ def round_trip(seed: int) -> Found:
     )
 
 
-def round_trips(seeds: Sequence[int]) -> Iterator[Found]:
-    """Match many photos."""
-    return on_both_cores(round_trip, seeds)
-
-
 @dataclass(frozen=True)
 class Said:
     """What a match says of one picture."""
@@ -113,11 +106,6 @@ def said_of_unknown_chips(seed: int) -> Said:
     photo = take(scene, seed)
     what = "saturated" if seed % 2 else "not saturated"
     return _said(seed, what, photo, _told(scene), _sent(scene), sent="read")
-
-
-def said_of(say: Callable[[int], Said], seeds: Sequence[int]) -> Iterator[Said]:
-    """Match many pictures."""
-    return on_both_cores(say, seeds)
 
 
 def _told(scene: Scene) -> Scene:

@@ -28,11 +28,11 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from both_cores import on_both_cores
 from photo_trials import (
     Found,
     Said,
-    round_trips,
-    said_of,
+    round_trip,
     said_of_negative,
     said_of_other_code,
     said_of_unknown_chips,
@@ -203,10 +203,10 @@ def lamps_of(draw: Callable[[int], LampScene], seeds: Sequence[int]) -> list[str
 
 WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterable[Any]], Callable[..., list[str]]]] = {
     "coverage": (600, WORLDS["wide"], told),
-    "negatives": (400, partial(said_of, said_of_negative), tally),
-    "others": (200, partial(said_of, said_of_other_code), tally),
-    "unknown": (300, partial(said_of, said_of_unknown_chips), tally),
-    "known": (500, round_trips, report),
+    "negatives": (400, partial(on_both_cores, said_of_negative), tally),
+    "others": (200, partial(on_both_cores, said_of_other_code), tally),
+    "unknown": (300, partial(on_both_cores, said_of_unknown_chips), tally),
+    "known": (500, partial(on_both_cores, round_trip), report),
     "lamps": (200, partial(lamps_of, lamp_scene), list),
     "hot-lamps": (200, partial(lamps_of, hot_lamp_scene), list),
     "rooms": (200, partial(lamps_of, room_scene), list),

@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from photo_world.exposures import mean_light
 from photo_world.photograph import compressed
 
 Floats: TypeAlias = NDArray[np.float64]
@@ -269,19 +270,8 @@ def _surface(thing: Thing, rows: int, columns: int) -> NDArray[np.float32]:
 
 def _shutter(thing: Thing, columns: int, exposure: float) -> Floats:
     """Average a thing's light over each column's exposure, exactly."""
-    if len(thing.wave) == 1:
-        return np.ones(columns)
-    whole = np.concatenate([[0.0], np.cumsum(thing.wave)])
-
-    def until(column: Floats) -> Floats:
-        chips = column / thing.chip
-        rounds = np.floor(chips / len(thing.wave))
-        rest = chips - rounds * len(thing.wave)
-        part = np.interp(rest, np.arange(len(whole)), whole)
-        return np.asarray((rounds * whole[-1] + part) * thing.chip)
-
-    start = np.arange(columns, dtype=np.float64) + thing.phase
-    return np.asarray((until(start + exposure) - until(start)) / exposure, dtype=np.float64)
+    begin = (np.arange(columns, dtype=np.float64) + thing.phase) / thing.chip
+    return mean_light(thing.wave, begin, exposure / thing.chip)
 
 
 def _photographed(random: np.random.Generator, light: Floats) -> NDArray[np.uint8]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from photo_world.exposures import mean_light
 from photo_world.tone_curves import any_camera_curve
 
 _SAMPLES = 4096  # of a period
@@ -132,14 +133,7 @@ def _seen_light(time: np.ndarray, recipe: _Recipe) -> np.ndarray:
     # Lit from 0 to the duty, with straight flanks.
     off = np.abs((instant - 0.5 * recipe.duty + 0.5) % 1.0 - 0.5)
     wave = np.clip((0.5 * recipe.duty - off) / steep + 0.5, 0.0, 1.0)
-    gathered = np.concatenate([[0.0], np.cumsum(wave)]) / _SAMPLES
-    grid = np.arange(_SAMPLES + 1) / _SAMPLES
-
-    def until(at: np.ndarray) -> np.ndarray:
-        whole = np.floor(at)
-        return np.asarray(whole * gathered[-1] + np.interp(at - whole, grid, gathered))
-
-    return np.asarray((until(time + recipe.exposure) - until(time)) / recipe.exposure)
+    return mean_light(wave, time * _SAMPLES, recipe.exposure * _SAMPLES)
 
 
 def _light(random: np.random.Generator, recipe: _Recipe) -> np.ndarray | None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from photo_world.exposures import mean_light
 from photo_world.photograph import compressed
 from photo_world.tone_curves import Curve, unknown_curve
 
@@ -146,15 +147,7 @@ def _exposed(
     rows = room.size[0]
     begin = start + room.frame_readout * np.arange(rows) / rows
     frequency = 2.0 * room.mains_frequency
-    integral = np.concatenate([[0.0], np.cumsum(lamp)]) / _STEPS
-
-    def until(times: np.ndarray) -> np.ndarray:
-        cycles = times * frequency + phase
-        return np.floor(cycles) + np.interp(
-            cycles % 1.0, np.linspace(0.0, 1.0, _STEPS + 1), integral
-        )
-
-    return np.asarray((until(begin + exposure) - until(begin)) / (exposure * frequency))
+    return mean_light(lamp, (begin * frequency + phase) * _STEPS, exposure * frequency * _STEPS)
 
 
 def _moved(picture: np.ndarray, shift: tuple[float, float]) -> np.ndarray:

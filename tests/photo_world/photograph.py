@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from photo_world.exposures import mean_light
 from photo_world.lamps import Lamp, random_lamp
 from photo_world.tone_curves import Curve, power, unknown_curve
 
@@ -127,19 +128,10 @@ def _random_shape(seed: int) -> str:
 
 
 def lit_fraction(world: World) -> np.ndarray:
-    """Return the fraction of each column's exposure in which the lamp is lit, shape (columns,).
-
-    The running integral of the light at the end of an exposure less that at its start.
-    """
-    levels = np.array([int(chip) for chip in world.chips], dtype=np.float64)
+    """Return the fraction of each column's exposure in which the lamp is lit, shape (columns,)."""
+    levels = [float(chip) for chip in world.chips]
     begin = world.start_time + world.readout_time * np.arange(world.columns)
-    begin = begin * world.switching_frequency
-    end = begin + world.exposure_in_chips
-    periods = math.ceil(end[-1] / len(levels)) + 1
-    integral = np.concatenate([[0.0], np.cumsum(np.tile(levels, periods))])
-    chip = np.arange(len(integral))
-    lit = np.interp(end, chip, integral) - np.interp(begin, chip, integral)
-    return np.asarray(lit / world.exposure_in_chips)
+    return mean_light(levels, begin * world.switching_frequency, world.exposure_in_chips)
 
 
 def falloff(world: World) -> np.ndarray:

@@ -11,6 +11,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
+from photo_world.exposures import mean_light
 from photo_world.lamp_scenes import LampScene, Thing, apart
 from photo_world.photograph import compressed
 from photo_world.tone_curves import unknown_curve
@@ -88,11 +89,8 @@ def _add(light: np.ndarray, lamp: Thing, surface: np.ndarray, exposure: float) -
     top, left = max(top, 0), max(left, 0)
     part = light[top : top + high, left : left + wide]
     surface = surface[: part.shape[0], : part.shape[1]]
-    # A square wave's integral is a triangle wave, and a column's light a difference of two.
-    ends = np.arange(left, left + part.shape[1])[None, :] + np.array([[0.0], [exposure]])
-    turns = (ends + lamp.phase) / (2.0 * lamp.chip)
-    lit = np.floor(turns) * lamp.chip + np.minimum(turns % 1.0, 0.5) * 2.0 * lamp.chip
-    part += lamp.radiance * surface * (np.diff(lit, axis=0) / exposure)
+    begin = (np.arange(left, left + part.shape[1]) + lamp.phase) / lamp.chip
+    part += lamp.radiance * surface * mean_light(lamp.wave, begin, exposure / lamp.chip)
 
 
 def _photographed(random: np.random.Generator, light: np.ndarray) -> np.ndarray:

@@ -4,20 +4,16 @@ import csv
 from pathlib import Path
 
 import pytest
-
-from occ_model.cli import main
+from model.commands.conftest import Command
 
 FEW = ("--exposure", "1", "--snr", "30", "--bits", "64", "--payload-bits", "64")
 
 
 @pytest.mark.whole
-def test_the_bench_prints_and_writes_one_table(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_the_bench_prints_and_writes_one_table(run: Command, tmp_path: Path) -> None:
     folder = tmp_path / "bench"
     decoders = ("--decoder", "threshold", "--decoder", "sequence")
-    assert main(["bench", *FEW, *decoders, "--out", str(folder)]) == 0
-    printed = capsys.readouterr().out.splitlines()
+    printed = run("bench", *FEW, *decoders, "--out", folder).lines
     assert [line.split()[:4] for line in printed[1:5]] == [
         ["manchester", "threshold", "1", "30"],
         ["manchester", "sequence", "1", "30"],
@@ -32,8 +28,7 @@ def test_the_bench_prints_and_writes_one_table(
         assert (folder / f"bench.{ending}").stat().st_size > 1000
 
 
-def test_a_decoder_that_reads_nothing_says_why(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["bench", *FEW, "--decoder", "threshold"]) == 0
-    *_, reason = capsys.readouterr().out.splitlines()
+def test_a_decoder_that_reads_nothing_says_why(run: Command) -> None:
+    *_, reason = run("bench", *FEW, "--decoder", "threshold").lines
     assert reason.startswith("threshold: ")
     assert reason.endswith(".")

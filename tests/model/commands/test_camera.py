@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from model.commands.conftest import Command, Outcome
 from PIL import Image
-
-from occ_model.cli import main
 
 
 @pytest.fixture(scope="module")
@@ -21,19 +20,22 @@ def wall(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(path)
 
 
-def test_the_answer_comes_first(wall: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["camera", "--mains", "60Hz", wall]) == 0
-    first, *others = capsys.readouterr().out.splitlines()
+def test_the_answer_comes_first(wall: str, run: Command) -> None:
+    first, *others = run("camera", "--mains", "60Hz", wall).lines
     assert first.startswith("Your camera reads a line in 87.")
     assert first.endswith(": doubtful.")
     assert any("320 lines" in line for line in others)
 
 
-def test_json_holds_si_units(wall: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["camera", "--mains", "60Hz", wall, "--json"]) == 0
-    kept = json.loads(capsys.readouterr().out)
-    error = kept["uncertainties"]["readout_time"]
-    assert kept["readout_time"] == pytest.approx(28e-3 / 320, abs=3.0 * error)
+def check_readout_time(found: Outcome, expected: float) -> None:
+    """Check the readout time of a measurement as JSON, in SI units."""
+    measured = json.loads(found.out)
+    error = measured["uncertainties"]["readout_time"]
+    assert measured["readout_time"] == pytest.approx(expected, abs=3.0 * error)
+
+
+def test_json_holds_si_units(wall: str, run: Command) -> None:
+    check_readout_time(run("camera", "--mains", "60Hz", wall, "--json"), 28e-3 / 320)
 
 
 @pytest.mark.parametrize(
@@ -42,32 +44,26 @@ def test_json_holds_si_units(wall: str, capsys: pytest.CaptureFixture[str]) -> N
         (["--mains", "0"], "mains_frequency is 0 Hz"),
         (["more.png", "again.png"], "PICTURE is given 3 times"),
         (["missing.png"], "missing.png"),
+        (["again.png", "--flash", "2ms"], "one picture of a flash"),
+        (["--flash", "2 parsecs"], "--flash"),
     ],
 )
 def test_wrong_command_lines_are_refused(
-    wall: str, words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+    wall: str, words: list[str], said: str, command: Command
 ) -> None:
-    assert main(["camera", wall, *words]) == 2
-    assert said in capsys.readouterr().err
+    refused = command("camera", wall, *words)
+    assert refused.code == 2
+    assert said in refused.err
 
 
-def test_a_flash_of_known_length_measures_a_camera(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_flash_of_known_length_measures_a_camera(tmp_path: Path, run: Command) -> None:
     """Lines of 20 us, of which a flash of 2 ms and an exposure of 0.5 ms light 125."""
     line = np.arange(400)
     shared = np.minimum(line * 20e-6 + 5e-4, 4.9e-3) - np.maximum(line * 20e-6, 2.9e-3)
     light = 0.02 + 0.6 * np.maximum(shared, 0.0) / 5e-4
     values = np.rint(255.0 * light ** (1 / 2.2)).astype(np.uint8)
-    path = str(tmp_path / "flash.png")
+    path = tmp_path / "flash.png"
     Image.fromarray(np.repeat(values[:, None], 60, axis=1)).save(path)
-    assert main(["camera", "--flash", "2ms", path]) == 0
-    assert "the exposure is longer than the flash" in capsys.readouterr().out
-    assert main(["camera", "--flash", "2ms", path, "--json"]) == 0
-    kept = json.loads(capsys.readouterr().out)
-    error = kept["uncertainties"]["readout_time"]
-    assert kept["readout_time"] == pytest.approx(20e-6, abs=3.0 * error)
-    assert main(["camera", "--flash", "2ms", path, path]) == 2
-    assert "one picture of a flash" in capsys.readouterr().err
-    assert main(["camera", "--flash", "2 parsecs", path]) == 2
-    assert "--flash" in capsys.readouterr().err
+    said = run("camera", "--flash", "2ms", path).out
+    assert "the exposure is longer than the flash" in said
+    check_readout_time(run("camera", "--flash", "2ms", path, "--json"), 20e-6)

@@ -1,11 +1,11 @@
 """The command line, called in process."""
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
+from model.commands.conftest import Command, Outcome
 from PIL import Image
 
 import occ_model as occ
@@ -14,27 +14,6 @@ from occ_model.results.frame import PICTURES
 from occ_model.scene.parameters import PARAMETERS
 
 SMALL = ("--set", "rows=300")
-
-
-class Outcome(NamedTuple):
-    """The exit code and the output of a command."""
-
-    code: int
-    out: str
-    err: str
-
-
-Command = Callable[..., Outcome]
-
-
-@pytest.fixture
-def command(capsys: pytest.CaptureFixture[str]) -> Command:
-    def run(*arguments: str | Path) -> Outcome:
-        capsys.readouterr()
-        code = main([str(argument) for argument in arguments])
-        return Outcome(code, *capsys.readouterr())
-
-    return run
 
 
 def report(outcome: Outcome) -> dict[str, str]:
@@ -209,11 +188,8 @@ _LAMP = (
 )  # fmt: skip
 
 
-def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    assert main(_LAMP) == 0
-    lines = capsys.readouterr().out.splitlines()
+def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(run: Command) -> None:
+    lines = run(*_LAMP).lines
     # 0.96 of a period at 480 Hz: 0.04 of one is missing, of 0.72 that are lit.
     assert lines[0].startswith("Use 1/120 or 1/240 s: no bars. At 1/500 s they are 5.56 % of ")
     assert any(line.startswith("Bars at 2 ms: 5.56 % of the mean light") for line in lines)
@@ -234,35 +210,32 @@ def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(
       "1600 {OF}.")],
 )  # fmt: skip
 def test_bands_answers_for_a_lamp_in_its_own_words(
-    capsys: pytest.CaptureFixture[str], lamp: str, shutter: str, sentence: str
+    run: Command, lamp: str, shutter: str, sentence: str
 ) -> None:
-    assert main(("bands", "--lamp", lamp, "--shutter", shutter)) == 0
-    first, *details = capsys.readouterr().out.splitlines()
+    first, *details = run("bands", "--lamp", lamp, "--shutter", shutter).lines
     assert first == sentence.replace("{OF}", "% of the mean light from dark to bright")
     assert details[0].startswith("  Lamp o")
     assert ("rows of this panel" in details[-1]) == ("rows" in lamp)
-    assert main(("bands", "--lamp", lamp, "--shutter", shutter, "--readout", "12us")) == 0
+    known = run("bands", "--lamp", lamp, "--shutter", shutter, "--readout", "12us").lines
     lines = ", 347 lines from bar to bar." if lamp == "240Hz 30%" else "."
-    assert capsys.readouterr().out.splitlines()[0].endswith(lines)
+    assert known[0].endswith(lines)
 
 
 @pytest.mark.parametrize("lamp", ["", "lamp", "240Hz", "mains", "mains 50Hz 30%", "60Hz 2/16 rows"])
-def test_a_lamp_in_other_words_is_refused_with_examples(
-    capsys: pytest.CaptureFixture[str], lamp: str
-) -> None:
-    assert main(("bands", "--lamp", lamp)) == 2
-    assert "allowed: " in capsys.readouterr().err
+def test_a_lamp_in_other_words_is_refused_with_examples(command: Command, lamp: str) -> None:
+    refused = command("bands", "--lamp", lamp)
+    assert refused.code == 2
+    assert "allowed: " in refused.err
 
 
-def test_what_hides_the_bars_of_a_picture_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_hides_the_bars_of_a_picture_is_named(run: Command) -> None:
     pulses = "bands --set pattern=10 --set"
     for words, what, bars in (
         ("switching_frequency=64kHz --set readout_time=31.25us --set exposure_time=10us",
          "columns all start at the same phase", "196 %"),
         ("switching_frequency=240Hz --set exposure_time=10ms", "is overexposed", "32.7 %"),
     ):  # fmt: skip
-        assert main(f"{pulses} {words}".split()) == 0
-        lines = capsys.readouterr().out.splitlines()
+        lines = run(*f"{pulses} {words}".split()).lines
         place = next(at for at, line in enumerate(lines) if line.startswith("Bars at"))
         first, second, third = lines[place : place + 3]
         assert f"{bars} of the mean light from dark to bright" in first

@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
+from model.commands.conftest import Command
 
 import occ_model as occ
 from occ_model.cli import main
@@ -24,11 +25,8 @@ def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_film_is_read_and_reported_after_a_line_a_frame(
-    film: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["decode", str(film), *SCENE, "--set", "payload=text:????", "--follow"]) == 0
-    printed = capsys.readouterr().out.splitlines()
+def test_a_film_is_read_and_reported_after_a_line_a_frame(film: Path, run: Command) -> None:
+    printed = run("decode", film, *SCENE, "--set", "payload=text:????", "--follow").lines
     assert [line.split()[:2] for line in printed[:24]] == [["frame", f"{n}"] for n in range(24)]
     assert "four" in printed[23]
     lines = {line[:18].strip(): line[18:] for line in printed[24:]}
@@ -40,11 +38,10 @@ def test_a_film_is_read_and_reported_after_a_line_a_frame(
     assert "±" in lines["gap"]
 
 
-def test_a_film_of_another_scheme_fails_with_a_sentence(
-    film: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["decode", str(film), *SCENE, "--set", "framing=raw"]) == 1
-    words = capsys.readouterr().err.splitlines()[-1]
+def test_a_film_of_another_scheme_fails_with_a_sentence(film: Path, command: Command) -> None:
+    failed = command("decode", film, *SCENE, "--set", "framing=raw")
+    assert failed.code == 1
+    words = failed.err.splitlines()[-1]
     assert "not known for any of" in words
     assert "chips" in words
 
@@ -55,17 +52,14 @@ SMALL = [
 ]  # fmt: skip
 
 
-def test_the_film_is_the_recording_of_the_scene(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_film_is_the_recording_of_the_scene(tmp_path: Path, run: Command) -> None:
     path = tmp_path / "film.mkv"
     how = [
         "--frame-rate", "25 Hz", "--frame-jitter", "0.1ms", "--camera-drift", "20ppm",
         "--transmitter-drift", "-5 ppm", "--exposures", "68us,136us", "--seed", "4",
         "--waypoint", "0: roll=0", "--waypoint", "0.1s:offset_x=20cm,roll=5deg",
     ]  # fmt: skip
-    assert main(["film", *SMALL, *how, "-o", str(path)]) == 0
-    assert capsys.readouterr().out == (
+    assert run("film", *SMALL, *how, "-o", path).out == (
         f"{path}: 4 frames of 160 columns, 120 rows; gap 24 ms, 60 % of a frame\n"
     )
     film = occ.load_video(path)
@@ -83,11 +77,8 @@ def test_the_film_is_the_recording_of_the_scene(
     assert all((a.image == b.image).all() for a, b in zip(film, again, strict=True))
 
 
-def test_the_loss_of_a_lossy_film_is_stated(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["film", *SMALL, "-o", str(tmp_path / "film.mp4")]) == 0
-    words = capsys.readouterr().out.splitlines()[1]
+def test_the_loss_of_a_lossy_film_is_stated(tmp_path: Path, run: Command) -> None:
+    words = run("film", *SMALL, "-o", tmp_path / "film.mp4").lines[1]
     assert words.startswith("The file is lossy: in the first frame pixels differ by ")
     loss = float(words.split("differ by ")[1].split()[0])
     assert 0.1 < loss < 8.0

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from interruption import run_and_interrupt
 from matches import match_of_lamp, match_with
+from model.commands.conftest import Command
 from PIL import Image
 
 import occ_model as occ
-from occ_model.cli import main
 from occ_model.commands import match, match_many
 from occ_model.files.resources import resource_path
 from occ_model.photo.many.row import MatchSettings
@@ -44,13 +44,12 @@ def words(folder: Path, *more: str) -> list[str]:
 
 
 def test_table_mean_and_lines_to_paste_are_printed(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, tmp_path: Path, run: Command
 ) -> None:
     out = tmp_path / "readout.csv"
     many = words(folder, "--out", str(out))
     many.remove(str(folder / "1.png"))
-    assert main(many) == 0
-    said = capsys.readouterr().out.splitlines()
+    said = run(*many).lines
     assert [line.split()[:2] for line in said[:2]] == [
         ["0.png", "sure"],
         ["damaged.png", "unreadable"],
@@ -73,28 +72,25 @@ def test_table_mean_and_lines_to_paste_are_printed(
 
 @pytest.mark.whole
 def test_an_assumed_frequency_is_before_every_time(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, tmp_path: Path, run: Command
 ) -> None:
     known = tmp_path / "known.toml"
     known.write_text(SCENE.to_toml(), encoding="utf-8")
-    photos = [str(folder / "0.png"), str(folder / "1.png")]
-    assert main(["match", *photos, "--scene", str(known), "--jobs", "1"]) == 0
-    said = capsys.readouterr().out.splitlines()
+    photos = [folder / "0.png", folder / "1.png"]
+    said = run("match", *photos, "--scene", known, "--jobs", "1").lines
     condition = "if it is a lamp of 2.5 kHz (5 kHz chips): "
     assert sum(condition in line for line in said) == 4  # the exposures are doubtful
 
 
-def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    damaged = str(folder / "damaged.png")
-    assert main(["match", damaged, damaged, "--jobs", "1"]) == 1
-    assert "No photo is sure" in capsys.readouterr().out
+def test_no_sure_photo_is_a_failure(folder: Path, command: Command) -> None:
+    damaged = folder / "damaged.png"
+    failed = command("match", damaged, damaged, "--jobs", "1")
+    assert failed.code == 1
+    assert "No photo is sure" in failed.out
 
 
 def test_an_interrupt_is_one_line_and_leaves_no_table(
-    folder: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
 ) -> None:
     def stopped(*_: object, progress: Callable[[int, int], None], **__: object) -> NoReturn:
         progress(2, 3)
@@ -102,12 +98,9 @@ def test_an_interrupt_is_one_line_and_leaves_no_table(
 
     monkeypatch.setattr(match_many, "match_photos", stopped)
     out = tmp_path / "readout.csv"
-    assert main(words(folder, "--out", str(out))) == 130
-    said = capsys.readouterr()
-    assert (said.out, said.err) == (
-        "",
-        "occ-model: stopped after 2 of 3 photos; nothing was written.\n",
-    )
+    assert command(*words(folder, "--out", str(out))) == (
+        130, "", "occ-model: stopped after 2 of 3 photos; nothing was written.\n"
+    )  # fmt: skip
     assert not out.exists()
 
 
@@ -127,10 +120,7 @@ def test_interrupts_end_all_processes_with_one_line(
 
 
 def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
-    folder: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Command
 ) -> None:
     paths, out = [folder / "0.png", tmp_path / "a=b.png"], tmp_path / "x.csv"
     asked: list[dict[int, float]] = []
@@ -146,10 +136,9 @@ def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
         return table_of(MatchSettings(scene), rows)
 
     monkeypatch.setattr(match_many, "match_photos", match_lamps_of)
-    one = ["match", *map(str, paths), "--led-frequency", "2.5kHz", "--jobs", "1", "--out", str(out)]
-    assert main([*one, "--known", "a=b.png=4kHz"]) == 0
+    one = ["match", *paths, "--led-frequency", "2.5kHz", "--jobs", "1", "--out", out]
+    said = run(*one, "--known", "a=b.png=4kHz").lines
     assert asked == [{1: 4e3}]
-    said = capsys.readouterr().out.splitlines()
     assert ["given: 4 kHz" in line for line in said[:2]] == [False, True]
     assert "F = 4 kHz, given" in out.read_text()
 
@@ -162,16 +151,8 @@ def lines_of(text: str) -> dict[str, str]:
     return {line[:22].strip(): line[22:] for line in text.splitlines()}
 
 
-def print_lines(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
-    capsys.readouterr()
-    assert main(["match", *map(str, arguments)]) == 0
-    return capsys.readouterr().out
-
-
-def test_the_chips_in_view_are_printed_without_a_known_code(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    lines = lines_of(print_lines(capsys, SAMPLE, "--chips", "--region", PART))
+def test_the_chips_in_view_are_printed_without_a_known_code(run: Command) -> None:
+    lines = lines_of(run("match", SAMPLE, "--chips", "--region", PART).out)
     sent = "".join(map(str, sent_chips(read_scene_file(SAMPLE.with_suffix(".toml")).transmitter)))
     assert lines["chips"] in sent * 9
     assert lines["chips in view"].startswith(f"{len(lines['chips'])}, ")
@@ -183,12 +164,12 @@ def test_the_chips_in_view_are_printed_without_a_known_code(
 
 
 def test_the_cameras_exposure_is_below_the_fitted_one(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    run: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sample = SAMPLE.with_name("led-1khz.jpg")
     found = match_of_lamp(pattern_was_read=False, exposure_time=68.5e-6)
     monkeypatch.setattr(match, "match_photo", lambda *_, **__: found)
-    out = print_lines(capsys, sample, "--led-frequency", "1kHz")
+    out = run("match", sample, "--led-frequency", "1kHz").out
     names = [line[:22].strip() for line in out.splitlines()]
     place = names.index("exposure_time")
     assert names[place + 1] == "noted by the camera"

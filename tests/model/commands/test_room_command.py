@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from model.commands.conftest import Command
 from PIL import Image
 
 import occ_model as occ
@@ -14,7 +15,7 @@ from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
 
-def _file(folder: Path) -> Path:
+def write_room(folder: Path) -> Path:
     # Every second pixel, read out in the same time.
     room = occ.load_room("hall").replace(rows=2304, columns=1728, readout_time=16e-6)
     path = folder / "small.toml"
@@ -22,15 +23,13 @@ def _file(folder: Path) -> Path:
     return path
 
 
-def test_a_simulated_picture_is_located(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    room, picture = str(_file(tmp_path)), str(tmp_path / "picture.png")
-    turned = ["--yaw", "10", "--roll", "40"]
-    assert main(["room", "render", "--room", room, *turned, "-o", picture]) == 0
-    assert "of 96 lamps in the picture" in capsys.readouterr().out
+def test_a_simulated_picture_is_located(tmp_path: Path, run: Command) -> None:
+    room, picture = write_room(tmp_path), tmp_path / "picture.png"
+    rendered = run("room", "render", "--room", room, "--yaw", "10", "--roll", "40", "-o", picture)
+    assert "of 96 lamps in the picture" in rendered.out
     with Image.open(picture) as written:
         assert written.size == (1728, 2304)
-    assert main(["room", "locate", picture, "--room", room]) == 0
-    said = capsys.readouterr().out
+    said = run("room", "locate", picture, "--room", room).out
     assert (
         "Focal length: 26 mm equivalent, as the room says, because the photo has no EXIF data"
         in said
@@ -53,10 +52,11 @@ def test_no_error_is_printed_as_zero_and_no_zero_as_negative() -> None:
 
 
 def test_a_picture_without_a_named_lamp_fails_with_the_reason(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, command: Command
 ) -> None:
-    assert main(["room", "locate", "--room", str(_file(tmp_path)), "--x", "80"]) != 0
-    assert "No lamp was found" in capsys.readouterr().out
+    failed = command("room", "locate", "--room", write_room(tmp_path), "--x", "80")
+    assert failed.code != 0
+    assert "No lamp was found" in failed.out
 
 
 def test_a_map_has_no_single_place_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:

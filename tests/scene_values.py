@@ -2,8 +2,8 @@
 
 from hypothesis import strategies as st
 
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.light_samples import canonical_samples
-from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Parameter, Payload, Quantity
 from occ_model.scene.presets import load_preset, presets
 
@@ -42,7 +42,7 @@ def _matrix_text(numbers: list[int]) -> str:
     )
 
 
-LIGHT_TEXTS = {
+CANONICAL_TEXTS = {
     "mixing": st.one_of(
         st.just(""), st.lists(st.integers(0, 4), min_size=9, max_size=9).map(_matrix_text)
     ),
@@ -64,8 +64,8 @@ def values_of(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
             return st.text("01", max_size=40)
         case Payload():
             return PAYLOADS
-        case LightText():
-            return LIGHT_TEXTS[parameter.name]
+        case CanonicalText():
+            return CANONICAL_TEXTS[parameter.name]
 
 
 def presets_of_codes() -> tuple[str, ...]:

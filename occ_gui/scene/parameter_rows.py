@@ -18,8 +18,8 @@ from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_model.errors import ParameterError
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.declaration import Declaration
-from occ_model.scene.light_text import LightText
 from occ_model.scene.light_words import describe_samples
 from occ_model.scene.parameter_kinds import (
     ChipPattern,
@@ -236,7 +236,7 @@ class OpenChoiceRow(ChoiceRow):
 class PatternRow(ParameterRow):
     """A text field for a pattern or payload; unreadable text stays, with the reason."""
 
-    def __init__(self, declared: ChipPattern | Payload | LightText) -> None:
+    def __init__(self, declared: ChipPattern | Payload | CanonicalText) -> None:
         super().__init__(declared)
         self._declared = declared
         self._value_text = ""
@@ -282,7 +282,7 @@ class PatternRow(ParameterRow):
 class WaveformRow(PatternRow):
     """A CSV file, by its path; once read, its number of levels and its length are shown."""
 
-    def __init__(self, declared: LightText) -> None:
+    def __init__(self, declared: CanonicalText) -> None:
         super().__init__(declared)
         self.open = push_button("Open…", "Choose a CSV file of seconds and levels.", self._ask)
         self.remove = push_button(
@@ -313,9 +313,9 @@ def row_for(declared: Parameter) -> ParameterRow:
             return OpenChoiceRow(declared)
         case Choice():
             return ChoiceRow(declared)
-        case LightText(name="waveform_file"):
+        case CanonicalText(name="waveform_file"):
             return WaveformRow(declared)
-        case ChipPattern() | Payload() | LightText():
+        case ChipPattern() | Payload() | CanonicalText():
             return PatternRow(declared)
 
 

@@ -48,7 +48,7 @@ def _parse(name: str, text: str | None) -> float | None:
     """Parse a tolerance, of which a plain number is in percent."""
     if text is None:
         return None
-    tolerance = _TOLERANCE.parse(text, plain=_PERCENT)
+    tolerance = _TOLERANCE.parse(text, default_factor=_PERCENT)
     if tolerance is None or not 0.0 < tolerance <= MOST_TOLERANCE:
         raise ParameterError.of(
             name, quote(text), f"above 0 % up to {100.0 * MOST_TOLERANCE:g} %, such as 1% or 100ppm"

@@ -1,6 +1,7 @@
 """What every declaration of a parameter states."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from occ_model.errors import ParameterError
 from occ_model.scene.units import LONGEST_TEXT
@@ -28,6 +29,10 @@ class Declaration:
     def is_of(self, light: str) -> bool:
         """Whether scenes with a kind of light have this parameter."""
         return not self.lights or light in self.lights
+
+    def format(self, value: Any) -> str:
+        """Return a value as one would type it."""
+        return str(value)
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
         """Return the error for a ``problem``, a verb and the value such as "is 3 m"."""

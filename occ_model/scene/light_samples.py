@@ -58,6 +58,16 @@ def _as_float(text: str) -> float:
         return math.nan
 
 
+def canonical_file(text: str) -> str:
+    """Return the canonical rows of a CSV file, given as path or rows; an empty text stays empty.
+
+    A scene keeps the rows, so that it stays the same when the file changes or is gone.
+    """
+    if not text.strip():
+        return ""
+    return canonical_samples(text) if "\n" in text else read_samples(Path(text))
+
+
 def read_samples(path: Path) -> str:
     """Read a CSV file as the canonical text of a waveform; ValueError with the problem."""
     return canonical_samples(read_text(path, _LARGEST_FILE))

@@ -10,8 +10,8 @@ from typing import Literal, TypeAlias
 
 from occ_model.errors import quote
 from occ_model.plugins import plugin_names
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.declaration import Declaration
-from occ_model.scene.light_text import LightText
 from occ_model.scene.payload import PAYLOADS, canonical_payload, typed_form
 from occ_model.scene.units import Unit
 
@@ -86,16 +86,16 @@ class Quantity(Declaration):
         is_rounded_in = read is not None and self.low <= read <= self.high
         return self.unit.format(number, digits=17) if is_rounded_in else text
 
-    def parse(self, text: str, plain: float | None = None) -> float:
+    def parse(self, text: str, shown_factor: float | None = None) -> float:
         """Parse a value as people write it.
 
-        A number without a unit is in SI units, or in ``plain`` SI units in a field that shows
-        another unit. It is refused if it is off the slider in this unit but on the slider in the
-        other one: 20000 for a frequency shown in kHz hardly means 20 MHz, and 136 for an exposure
-        time hardly means 136 s.
+        A number without a unit is in SI units, or in the unit of a field that shows another one,
+        whose SI value is ``shown_factor``. It is refused if it is off the slider in this unit but
+        on the slider in the other one: 20000 for a frequency shown in kHz hardly means 20 MHz, and
+        136 for an exposure time hardly means 136 s.
         """
         self.check_length(text, self.allowed)
-        meanings = self.unit.meanings(text, 1.0 if plain is None else plain)
+        meanings = self.unit.meanings(text, 1.0 if shown_factor is None else shown_factor)
         if len(meanings) > 1:
             comma, thousands = (self.unit.format(value) for value in meanings)
             raise self.refuse(
@@ -108,7 +108,7 @@ class Quantity(Declaration):
             raise self.refuse(f"is {quote(text)}, which is not a number{unit}", self.allowed)
         value = self.check(meanings[0])
         usual = self.unit.display(self.default)
-        other = self.unit.parse(text, usual[1] if plain is None else 1.0)
+        other = self.unit.parse(text, usual[1] if shown_factor is None else 1.0)
         if (
             other not in (value, None)
             and self._is_on_slider(other)
@@ -117,7 +117,7 @@ class Quantity(Declaration):
             found = (self.unit.format(value), self.unit.format(other))
             both = (
                 f"is {found[0]} and may be meant as {found[1]}"
-                if plain is None
+                if shown_factor is None
                 else f"means {found[0]} in the unit shown and {found[1]} in {self.unit.symbol}"
             )
             raise self.refuse(
@@ -180,9 +180,6 @@ class Count(Declaration):
             raise self.refuse(f"is {quote(text)}", self.allowed) from None
         return self.check(number)
 
-    def format(self, value: int) -> str:
-        return str(value)
-
 
 @dataclass(frozen=True, slots=True)
 class Choice(Declaration):
@@ -202,9 +199,6 @@ class Choice(Declaration):
 
     def parse(self, text: str) -> str:
         return self.check(text.strip())
-
-    def format(self, value: str) -> str:
-        return value
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,11 +268,8 @@ class ChipPattern(Declaration):
         """Parse a pattern, ignoring spaces between chips."""
         return self.check("".join(text.split()))
 
-    def format(self, value: str) -> str:
-        return value
 
-
-Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload | LightText
+Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload | CanonicalText
 
 _ALL_DIGITS = 17
 

@@ -28,7 +28,7 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 
 _MAX_DECIMALS = 6  # of an estimate; with more, its error is written in a unit of its own
 
-_LARGEST_PLAIN = 1e6  # numbers from 1 to this one are written without an exponent
+_LARGEST_WITHOUT_EXPONENT = 1e6  # numbers from 1 to this one are written without an exponent
 
 _ROUNDING_ERROR = 1e-12  # a relative error this small is only that of the arithmetic
 LONGEST_TEXT = 200  # characters of a quantity's text; 17 digits and a unit need far fewer
@@ -41,7 +41,7 @@ class Unit:
     symbol: str  # The SI unit, empty for a pure number
     prefixes: tuple[str, ...] = ("",)
     # Smallest value displayed without a prefix
-    smallest_plain: float = 1.0
+    smallest_without_prefix: float = 1.0
     # Other accepted spellings, each with its value in the SI unit
     spellings: tuple[tuple[str, float], ...] = ()
     # Symbol of a unit that is displayed in place of the SI unit, and its value in the SI unit
@@ -62,12 +62,15 @@ class Unit:
         # "10k" means ten kilohertz; the "m" of "5m" was matched as metre above.
         return _PREFIXES.get(stem) if stem else None
 
-    def parse(self, text: str, plain: float = 1.0) -> float | None:
-        """Parse a number or fraction with a unit, else in ``plain`` SI units; None if unclear."""
-        meanings = self.meanings(text, plain)
+    def parse(self, text: str, default_factor: float = 1.0) -> float | None:
+        """Parse a number or fraction; None if unclear.
+
+        A number without a unit is multiplied by ``default_factor``.
+        """
+        meanings = self.meanings(text, default_factor)
         return meanings[0] if len(meanings) == 1 else None
 
-    def meanings(self, text: str, plain: float = 1.0) -> tuple[float, ...]:
+    def meanings(self, text: str, default_factor: float = 1.0) -> tuple[float, ...]:
         """Return the SI values that a text can mean: none, one or two.
 
         A comma is first read as a decimal comma; the comma in ``1,000 Hz`` may also separate
@@ -78,7 +81,7 @@ class Unit:
         if match is None:
             return ()
         number, divisor, unit = match.groups()
-        factor = plain if not unit else self.factor(unit)
+        factor = default_factor if not unit else self.factor(unit)
         if factor is None:
             return ()
         parts = (number, divisor or "1")
@@ -100,7 +103,7 @@ class Unit:
         size = abs(value)
         chosen = ""
         for prefix in self.prefixes:
-            start = self.smallest_plain if prefix == "" else _PREFIXES[prefix]
+            start = self.smallest_without_prefix if prefix == "" else _PREFIXES[prefix]
             if prefix == self.prefixes[0] or size >= start * (1 - 1e-12):
                 chosen = prefix
         if size == 0.0 or math.isnan(size):
@@ -139,7 +142,7 @@ class Unit:
         """Format ``value`` with ``digits`` significant digits and its unit."""
         symbol, factor = self.display(value)
         number = f"{value / factor:.{digits}g}" if math.isfinite(value) else str(value)
-        if "e" in number and 1.0 <= abs(float(number)) < _LARGEST_PLAIN:
+        if "e" in number and 1.0 <= abs(float(number)) < _LARGEST_WITHOUT_EXPONENT:
             number = f"{float(number):.0f}"
         if not symbol:
             return number
@@ -166,7 +169,7 @@ def _scale(value: float, factor: float) -> float:
 NONE = Unit("")
 SECOND = Unit("s", ("n", "µ", "m", ""), spellings=(("sec", 1.0),))
 HERTZ = Unit("Hz", ("", "k", "M", "G"))
-METRE = Unit("m", ("n", "µ", "m", "", "k"), smallest_plain=0.1)
+METRE = Unit("m", ("n", "µ", "m", "", "k"), smallest_without_prefix=0.1)
 RADIAN = Unit("rad", shown=("°", math.pi / 180), spellings=(("deg", math.pi / 180),))
 LUX = Unit("lx")
 NIT = Unit("cd/m²", spellings=(("cd/m2", 1.0), ("nit", 1.0), ("nits", 1.0)))

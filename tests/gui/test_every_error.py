@@ -32,7 +32,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model import plugins
 from occ_model.errors import OccError, PluginError
 from occ_model.parallel.job import Job, JobResult, WorkersLostError
-from occ_model.scene.light_text import LightText
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import USER_FOLDER, save_preset
@@ -292,7 +292,7 @@ def test_every_wrong_value_is_refused_at_its_field_with_unit_and_range(
     fields = lines_and_notices(stage.application)
     not_typed = {name for name, each in PARAMETERS.items() if isinstance(each, Choice)}
     assert fields.keys() == PARAMETERS.keys() - not_typed
-    kept = ChipPattern | Payload | LightText
+    kept = ChipPattern | Payload | CanonicalText
     for name, text in WRONG:
         if name in not_typed:
             continue

@@ -29,8 +29,8 @@ from occ_model.boards.sketch import BOARDS
 from occ_model.cli import main
 from occ_model.figures.bands import bands_drawing, flicker_drawing
 from occ_model.receiver.decode import DECODERS
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.light_samples import MOST_LEVELS, MOST_SAMPLES
-from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, ParameterValue, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, OBSERVABLES, Scene
@@ -63,7 +63,7 @@ _MULTIPLIED = (
 )  # fmt: skip
 """Frequencies, times and sizes whose products are numbers of things."""
 
-_LIGHT_TEXTS = {
+_CANONICAL_TEXTS = {
     "levels": ("0", f"{' '.join(map(str, range(MOST_LEVELS)))} / {MOST_LEVELS}"),
     "waveform_file": (
         "0,1\n1e-300,0\n1\n",
@@ -86,8 +86,8 @@ def ends(name: str) -> tuple[ParameterValue, ...]:
         return declared.choices
     if isinstance(declared, ChipPattern):
         return "", ("1101" * declared.most)[: declared.most]
-    if isinstance(declared, LightText):
-        return _LIGHT_TEXTS[name]
+    if isinstance(declared, CanonicalText):
+        return _CANONICAL_TEXTS[name]
     if isinstance(declared, Payload):
         return "bits:1", _LONGEST_PAYLOAD
     return declared.low, declared.high

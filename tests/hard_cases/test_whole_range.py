@@ -15,7 +15,7 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, decades, signed_decades, within
 from occ_model.effects.registry import NAMES
-from occ_model.scene.light_text import LightText
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import OBSERVABLES, Observable, Scene
@@ -30,7 +30,7 @@ def quantities(name: str) -> st.SearchStrategy[float | int | str]:
         return st.sampled_from(declared.choices)
     if isinstance(declared, ChipPattern):
         return PATTERNS
-    if isinstance(declared, Payload | LightText):
+    if isinstance(declared, Payload | CanonicalText):
         return values_of(declared)
     if isinstance(declared, Count):
         return st.integers(declared.low, declared.high)

@@ -7,8 +7,8 @@ from occ_model.scene.parameters.group import (
     Group,
     choice_field,
     count_field,
-    light_text_field,
     quantity_field,
+    text_field,
 )
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.units import NONE, PERCENT
@@ -78,7 +78,7 @@ class Colours(Group):
         "Fraction of a channel's light that comes from the other two LEDs, half from each.",
         unit=PERCENT, low=0.0, high=0.6, slider=(0.0, 0.6), scale="linear", default=0.0,
     )
-    mixing: str = light_text_field(
+    mixing: str = text_field(
         "Mixing matrix", "M",
         "Light of the red, green and blue LED in the red, then green, then blue channel.",
         "", _MATRIX, _canonical_matrix, empty="by the crosstalk",

@@ -5,7 +5,7 @@ from dataclasses import Field, field, replace
 from functools import cache
 from typing import Any, ClassVar, Concatenate, ParamSpec, Protocol, Self, TypeVar
 
-from occ_model.scene.light_text import LightText
+from occ_model.scene.canonical_text import CanonicalText
 from occ_model.scene.parameter_kinds import (
     ChipPattern,
     Choice,
@@ -46,7 +46,7 @@ choice_field = _field_of(Choice)
 open_choice_field = _field_of(OpenChoice)
 pattern_field = _field_of(ChipPattern)
 payload_field = _field_of(Payload)
-light_text_field = _field_of(LightText)
+text_field = _field_of(CanonicalText)
 
 
 class Group:

@@ -5,17 +5,16 @@ from dataclasses import dataclass
 
 from occ_model import plugins
 from occ_model.errors import ParameterError, inflect
-from occ_model.scene.light_samples import LEVELS, SAMPLES, canonical_levels
-from occ_model.scene.light_text import canonical_file
+from occ_model.scene.light_samples import LEVELS, SAMPLES, canonical_file, canonical_levels
 from occ_model.scene.parameters.group import (
     Group,
     choice_field,
     count_field,
-    light_text_field,
     open_choice_field,
     pattern_field,
     payload_field,
     quantity_field,
+    text_field,
 )
 from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, PERCENT, RADIAN, SECOND
@@ -65,11 +64,11 @@ class Transmitter(Group):
         unit=PERCENT, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.3,
         lights=_MAINS,
     )
-    levels: str = light_text_field(
+    levels: str = text_field(
         "Levels", "", "Levels of light sent over and over, one each switching period.",
         "0 1 2 3 / 3", LEVELS, canonical_levels, lights=_WAVEFORM,
     )
-    waveform_file: str = light_text_field(
+    waveform_file: str = text_field(
         "Recorded waveform", "",
         "Seconds and levels of light, sent over and over in place of the levels above.",
         "", SAMPLES, canonical_file, empty="the levels", lights=_WAVEFORM,

@@ -1,22 +1,20 @@
-"""Parameters that describe a light in a text of their own."""
+"""Parameters with a text of their own syntax, such as the levels of a waveform."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 from occ_model.errors import SceneFileError, quote
 from occ_model.scene.declaration import Declaration
-from occ_model.scene.light_samples import canonical_samples, read_samples
 
 
 @dataclass(frozen=True, slots=True)
-class LightText(Declaration):
-    """A text that describes a light, kept in one form."""
+class CanonicalText(Declaration):
+    """A text that is kept in one form, the canonical one."""
 
     default: str
     allowed: str
     canonical: Callable[[str], str]  # Returns that form; ValueError with the problem
-    empty: str = ""  # what is sent without a text
+    empty: str = ""  # what is used without a text
 
     def check(self, value: object) -> str:
         if not isinstance(value, str):
@@ -31,16 +29,3 @@ class LightText(Declaration):
 
     def parse(self, text: str) -> str:
         return self.check(text.strip(" "))
-
-    def format(self, value: str) -> str:
-        return value
-
-
-def canonical_file(text: str) -> str:
-    """Return the canonical rows of a CSV file, given as path or rows; an empty text stays empty.
-
-    A scene keeps the rows, so that it stays the same when the file changes or is gone.
-    """
-    if not text.strip():
-        return ""
-    return canonical_samples(text) if "\n" in text else read_samples(Path(text))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 from threading import Event
-from typing import Any
+from unittest.mock import create_autospec
 
 import pytest
 from gui.stores import store_of
@@ -15,6 +15,8 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.accuracy import cost_measurement, pane as module
+from occ_gui.accuracy.accuracy_plot import AccuracyPlot
+from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import CostMeasurement, MeasuredPoint, SceneCosts
 from occ_gui.accuracy.pane import AccuracyController
 from occ_gui.background.task import Superseded
@@ -22,44 +24,14 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint, Forecast, MeasuredCosts
+from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import effect_differences
 
 IDLE_MS = 20
 TOTAL = 3
-
-
-class RecordingPane:
-    """A pane that records all that it receives."""
-
-    def __init__(self) -> None:
-        self.plot, self.received = self, list[str]()
-        self.costs: list[MeasuredCosts] = []
-        self.points: list[AccuracyPoint] = []
-        self.forecasts: list[Forecast] = []
-
-    def show_costs(self, request: SimulationRequest, costs: MeasuredCosts) -> None:
-        self.costs.append(costs)
-
-    def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
-        self.forecasts.append(expected)
-
-    def show_study_begun(self) -> None:
-        self.received.append("begun")
-
-    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        self.points.append(point)
-        self.received.append(f"{point.name} {number}/{total}")
-
-    def show_study_finished(self) -> None:
-        self.received.append("finished")
-
-    def show_study_outdated(self) -> None:
-        self.received.append("outdated")
-
-    def show_study_failed(self, sentence: str) -> None:
-        self.received.append(sentence)
+COMPLETE = ["study_begun", "1 of 3", "2 of 3", "3 of 3", "study_finished"]
+"""What the plot shows of a study that is not interrupted."""
 
 
 class Bench:
@@ -72,9 +44,9 @@ class Bench:
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
         self.simulation = SimulationController(self.scenes)
-        self.pane = RecordingPane()
-        pane: Any = self.pane
-        self.controller = AccuracyController(self.scenes, self.simulation, pane)
+        self.view = create_autospec(AccuracyView, instance=True)
+        self.plot = self.view.plot = create_autospec(AccuracyPlot, instance=True)
+        self.controller = AccuracyController(self.scenes, self.simulation, self.view)
         self.simulation.snapshot_shown.connect(self.controller.show_snapshot)
         self.snapshots: list[Snapshot] = []
         self.simulation.snapshot_shown.connect(self.snapshots.append)
@@ -87,11 +59,17 @@ class Bench:
             assert self._allowed.acquire(timeout=PATIENCE_S)
             yield AccuracyPoint("effects", f"point {number}", 1e-3, 0.1)
 
+    @property
+    def shown(self) -> list[str]:
+        """What the plot has shown: a number for each point, else the state of the study."""
+        calls = ((call[0].removeprefix("show_"), call.args) for call in self.plot.method_calls)
+        return [f"{args[1]} of {args[2]}" if what == "point" else what for what, args in calls]
+
     def allow(self, points: int) -> None:
         self._allowed.release(points)
 
-    def wait_for(self, received: str) -> None:
-        self._qtbot.waitUntil(lambda: received in self.pane.received)
+    def wait_for(self, shown: str) -> None:
+        self._qtbot.waitUntil(lambda: shown in self.shown)
 
     def wait_until_idle(self) -> None:
         self._qtbot.waitUntil(lambda: self.simulation.runner.is_idle and self.controller.is_idle)
@@ -115,42 +93,43 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
 def test_while_visible_the_points_come_one_by_one_and_only_once(bench: Bench) -> None:
     bench.controller.set_visible(True)
     bench.allow(1)
-    bench.wait_for("point 0 1/3")
-    assert "finished" not in bench.pane.received
+    bench.wait_for("1 of 3")
+    assert "study_finished" not in bench.shown
     bench.allow(2)
     bench.wait_until_idle()
-    assert bench.pane.received == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
+    assert bench.shown == COMPLETE
+    names = [call.args[0].name for call in bench.plot.show_point.call_args_list]
+    assert names == [f"point {number}" for number in range(TOTAL)]
     assert bench.requests == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
     bench.controller.set_visible(False)
     bench.controller.set_visible(True)
     assert bench.controller.runner.is_idle
     bench.wait_until_idle()
-    assert bench.pane.received[-1] == "finished"
+    assert bench.shown[-1] == "study_finished"
 
 
 def test_a_change_cancels_the_study_and_the_next_one_includes_it(bench: Bench) -> None:
     bench.controller.set_visible(True)
     bench.allow(1)
-    bench.wait_for("point 0 1/3")
+    bench.wait_for("1 of 3")
     bench.scenes.change(iso=200.0)
     assert bench.controller.runner.is_idle
     bench.settings.set_tolerance(2.0)
-    assert bench.pane.received[2:] == ["outdated", "outdated"]
+    assert bench.shown[2:] == ["study_outdated", "study_outdated"]
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
-    after = bench.pane.received[4:]
-    assert after == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
+    assert bench.shown[4:] == COMPLETE
     assert bench.requests[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
 
 
 def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot: QtBot) -> None:
     bench.controller.set_visible(True)
     bench.allow(1)
-    bench.wait_for("point 0 1/3")
+    bench.wait_for("1 of 3")
     bench.controller.set_visible(False)
     qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
     assert bench.controller.is_idle
-    assert bench.pane.received[-1] == "outdated"
+    assert bench.shown[-1] == "study_outdated"
     bench.scenes.change(iso=200.0)
     qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
     qtbot.wait(2 * IDLE_MS)
@@ -158,7 +137,7 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
     bench.controller.set_visible(True)
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
-    assert bench.pane.received[-1] == "finished"
+    assert bench.shown[-1] == "study_finished"
 
 
 def test_the_study_waits_while_a_picture_is_simulated(
@@ -171,7 +150,7 @@ def test_the_study_waits_while_a_picture_is_simulated(
     assert bench.requests == []
     release.set()
     bench.allow(TOTAL)
-    bench.wait_for("finished")
+    bench.wait_for("study_finished")
 
 
 def test_a_study_that_fails_gives_the_reason_and_is_not_repeated(
@@ -183,7 +162,8 @@ def test_a_study_that_fails_gives_the_reason_and_is_not_repeated(
     monkeypatch.setattr(cost_measurement, "accuracy", refuse)
     bench.controller.set_visible(True)
     bench.wait_until_idle()
-    assert bench.pane.received == ["begun", "The panel is behind the camera."]
+    assert bench.shown == ["study_begun", "study_failed"]
+    bench.plot.show_study_failed.assert_called_with("The panel is behind the camera.")
 
 
 def collect_reports(request: SimulationRequest, measurement: CostMeasurement) -> list[object]:
@@ -273,9 +253,10 @@ def test_moves_of_several_sliders_are_timed_with_three_plans_in_turn(
 def test_all_stated_times_of_a_plan_are_one_number(bench: Bench, qtbot: QtBot) -> None:
     bench.controller.set_visible(True)
     bench.allow(TOTAL)
-    bench.wait_for("finished")
+    bench.wait_for("study_finished")
     qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
-    costs, forecast = bench.pane.costs[-1], bench.pane.forecasts[-1]
+    costs = bench.view.show_costs.call_args.args[1]
+    forecast = bench.view.show_forecast.call_args.args[1]
     assert costs.picture.times.count > 3
     assert forecast.seconds == costs.picture.times.median
     present = [d.effect for d in forecast.plan.decisions if d.estimate]
@@ -286,7 +267,8 @@ def test_all_stated_times_of_a_plan_are_one_number(bench: Bench, qtbot: QtBot) -
     (no_effects,) = [s for each, s in sets.items() if not each.effects]
     bare = costs.times_with(())
     # The points of the study have no effects.
-    assert bench.pane.points[-1].seconds == no_effects == bare.median
+    point = bench.plot.show_point.call_args.args[0]
+    assert point.seconds == no_effects == bare.median
 
 
 def test_moves_of_the_user_count_until_nine_later_ones(bench: Bench, qtbot: QtBot) -> None:
@@ -294,7 +276,7 @@ def test_moves_of_the_user_count_until_nine_later_ones(bench: Bench, qtbot: QtBo
     for number in range(12):
         bench.scenes.change(iso=200.0 + number)
         qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
-    snapshot = bench.snapshots[-1]
-    times = log.costs_of(snapshot.frame).picture.times
+    times = log.costs_of(bench.snapshots[-1].frame).picture.times
+    seconds = [snapshot.simulation_seconds for snapshot in bench.snapshots[-9:]]
     assert times.count == 9
-    assert times.least <= snapshot.simulation_seconds <= times.most
+    assert (times.least, times.most) == pytest.approx((min(seconds), max(seconds)))

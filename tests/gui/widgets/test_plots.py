@@ -1,18 +1,18 @@
-"""Plots: their axes, curves and legends, and how far the wheel zooms them."""
+"""Plots: their curves and axes."""
 
 import sys
 
 import pytest
 from gui.kinds import add_widget, show_widget
 from hypothesis import given, strategies as st
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QColor, QPalette, QPen
-from PySide6.QtWidgets import QApplication, QLabel
+from PySide6.QtCore import QEvent
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.colours import SIMULATION, thin_pen
-from occ_gui.widgets.plot import LineLegend, new_plot
+from occ_gui.widgets.plot import new_plot
 
 
 @pytest.mark.parametrize("ratio", [1.0, 2.0])
@@ -57,20 +57,6 @@ def test_the_numbers_of_an_axis_stand_as_they_are(qtbot: QtBot) -> None:
     assert axis.autoSIPrefixScale == 1.0
 
 
-@pytest.fixture
-def legend(qtbot: QtBot) -> LineLegend:
-    legend = add_widget(qtbot, LineLegend())
-    legend.add_line("solid", QPen(QColor("black")), "a solid line")
-    legend.add_line("dashed", QPen(QColor("black"), 1, Qt.PenStyle.DashLine), "a dashed line")
-    legend.show()
-    return legend
-
-
-def visible_texts(legend: LineLegend) -> list[str]:
-    labels = legend.findChildren(QLabel)
-    return [label.text() for label in labels if label.isVisible() and label.text()]
-
-
 @given(
     middle=st.floats(-1e15, 1e15),
     span=st.floats(1e-9, 1e300),
@@ -90,8 +76,8 @@ def test_an_axis_of_logarithms_has_no_more_ticks_than_pixels(
 def test_an_axis_that_cannot_be_numbered_stays_empty_with_a_note(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told: list[str] = []
-    monkeypatch.setattr(sys, "excepthook", lambda _kind, error, _trace: told.append(str(error)))
+    reported: list[str] = []
+    monkeypatch.setattr(sys, "excepthook", lambda _kind, error, _trace: reported.append(str(error)))
 
     def fail(*_range: float) -> None:
         raise OverflowError("too many decades")
@@ -100,4 +86,4 @@ def test_an_axis_that_cannot_be_numbered_stays_empty_with_a_note(
     for side in ("left", "bottom"):
         monkeypatch.setattr(plot.getAxis(side), "tickValues", fail)
     plot.grab()
-    assert told == ["too many decades"] * 2
+    assert reported == ["too many decades"] * 2

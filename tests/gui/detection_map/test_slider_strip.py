@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -35,26 +34,15 @@ NAMES = ("switching_frequency", "iso")
 Fractions = tuple[float | None, ...]
 
 
-class RecordingStrip:
-    """A strip that records what it shows."""
-
-    fractions: Fractions = ()
-    outdated = False
-
-    def show_fractions(self, fractions: Fractions) -> None:
-        self.fractions = fractions
-
-    def show_outdated(self, outdated: bool) -> None:
-        self.outdated = outdated
-
-
 class Bench:
     """A controller of few positions whose workers need no processes."""
 
     def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
         self._qtbot = qtbot
-        self.workers, self.strips = workers, {name: RecordingStrip() for name in NAMES}
-        strips: Any = SimpleNamespace(strips=self.strips)
+        self.workers = workers
+        rows = {name: add_widget(qtbot, QuantityRow(quantity(name))) for name in NAMES}
+        strips = SliderStrips(rows)
+        self.strips = strips.strips
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
         self.controller = SliderStripController(self.scenes, self.queue.channels[0], strips)
@@ -64,7 +52,8 @@ class Bench:
         return {name: strip.fractions for name, strip in self.strips.items()}
 
     def list_outdated(self) -> dict[str, bool]:
-        return {name: strip.outdated for name, strip in self.strips.items()}
+        descriptions = {name: each.accessibleDescription() for name, each in self.strips.items()}
+        return {name: text.startswith("earlier scene") for name, text in descriptions.items()}
 
     def list_measured(self) -> list[str]:
         """Return the sliders along which was measured since the last call."""

@@ -13,8 +13,8 @@ _DELAY_MS = 300  # shorter work is not shown, because the bar would only flash
 class WorkBar(QWidget):
     cancelled = Signal()
 
-    def __init__(self, name: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, name: str) -> None:
+        super().__init__()
         self.progress = name_widget(QProgressBar(), name, name)
         self.progress.setRange(0, _STEPS)
         self.cancel = push_button("Cancel", "Cancel this work.", self.cancelled)

@@ -20,7 +20,8 @@ class Bench(PaneBench):
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
-        self.bar = WorkBar("Animation", self.window)
+        self.bar = WorkBar("Animation")
+        self.bar.setParent(self.window)
         feature = animation(self.window, self.scenes, Preferences(None), self.bar)
         self.animation: AnimationExport = self.add(feature)
 

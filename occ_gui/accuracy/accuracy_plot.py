@@ -77,7 +77,7 @@ class AccuracyPlot(QWidget):
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self._widen_axis()
         self._make_items()
-        self.plot.follow_palette(self._dress)
+        self.plot.follow_palette(self._colour_items)
         self._lay_out()
         self._fit()
 
@@ -101,6 +101,7 @@ class AccuracyPlot(QWidget):
             for part in ACCURACY_PARTS
         }  # fmt: skip
         self.rings = pg.ScatterPlotItem(symbol="o", size=15, brush=None)
+        # The Pareto front: sets of effects of which none is beaten in both time and error.
         self.front = pg.PlotCurveItem()
         self.front_points = pg.ScatterPlotItem(
             symbol="+", size=7, brush=None,
@@ -113,7 +114,7 @@ class AccuracyPlot(QWidget):
         for item in (self._floor, *front, *points):
             self.plot.addItem(item, ignoreBounds=True)
 
-    def _dress(self, palette: QPalette) -> None:
+    def _colour_items(self, palette: QPalette) -> None:
         ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5)
         self.rings.setPen(ring)
         for part, scatter in self.scatters.items():
@@ -149,7 +150,11 @@ class AccuracyPlot(QWidget):
     def show_effect_sets(self, forecast: Forecast) -> None:
         """Draw the forecast time and error limit of each set of effects that a plan may choose."""
         pairs = zip(forecast.effect_sets, forecast.effect_set_seconds, strict=True)
-        timed_sets = [(e, s) for e, s in pairs if s is not None and e.error < math.inf]
+        timed_sets = [
+            (effect_set, seconds)
+            for effect_set, seconds in pairs
+            if seconds is not None and effect_set.error < math.inf
+        ]
         timed_sets.sort(key=lambda pair: (pair[1], pair[0].error))
         forced = {d.effect for d in forecast.plan.decisions if d.forced and d.included}
         self._front = [

@@ -101,10 +101,10 @@ class BenchPlots(QWidget):
             self.bounds[axis] = pg.PlotCurveItem()
             plot.addItem(self.bounds[axis], ignoreBounds=True)
             self.plots[axis] = plot
-            plot.follow_palette(self._dress)
+            plot.follow_palette(self._colour_items)
             row.addWidget(plot, 3 if axis == "exposure" else 2)
 
-    def _dress(self, palette: QPalette) -> None:
+    def _colour_items(self, palette: QPalette) -> None:
         grey = palette.color(QPalette.ColorRole.Text)
         for bound in self.bounds.values():
             bound.setPen(thin_pen(grey, Qt.PenStyle.DashLine))
@@ -128,7 +128,7 @@ class BenchPlots(QWidget):
             self.plots["exposure"].removeItem(null)
         self._nulls = []
         self._decoders = tuple(decoders)
-        self._dress(self.palette())
+        self._colour_items(self.palette())
 
     @staticmethod
     def _new_curve(plot: Plot, number: int) -> _Curve:
@@ -155,7 +155,7 @@ class BenchPlots(QWidget):
             for axis, (x, most) in bounds.most_bits.items():
                 powers = [_take_logarithm(frames_a_second * bits, FLOOR[BITS]) for bits in most]
                 self.bounds[axis].setData(list(x), powers)
-        self._dress(self.palette())
+        self._colour_items(self.palette())
         self._fit()
 
     def show_points(self, points: Sequence[BenchPoint], frames_a_second: float) -> None:

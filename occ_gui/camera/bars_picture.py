@@ -10,7 +10,9 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray
 
 _SIZE = QSize(280, 200)
-_REACH = 0.4  # of a tile's width to which the deepest bar reaches
+_LARGEST_DEVIATION = (
+    0.4  # distance of the curve's farthest point from the middle of its tile, in tiles
+)
 
 
 class BarsPicture(QWidget):
@@ -52,27 +54,27 @@ class BarsPicture(QWidget):
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, self.accessibleName())
             return
-        place = self._place(self._image)
+        place = self._find_place(self._image)
         painter.drawImage(place, self._image)
         if self._waves is not None:
-            curves = self._curves(self._waves, place)
+            curves = self._make_curves(self._waves, place)
             for colour, width in ((QColor("white"), 4.0), (SIMULATION, 2.0)):
                 painter.setPen(QPen(colour, width))
                 for curve in curves:
                     painter.drawPolyline(curve)
 
-    def _place(self, image: QImage) -> QRectF:
+    def _find_place(self, image: QImage) -> QRectF:
         size = image.size().scaled(self.size(), Qt.AspectRatioMode.KeepAspectRatio)
         left, top = (self.width() - size.width()) / 2, (self.height() - size.height()) / 2
         return QRectF(left, top, size.width(), size.height())
 
-    def _curves(self, waves: FloatArray, place: QRectF) -> list[QPolygonF]:
+    def _make_curves(self, waves: FloatArray, place: QRectF) -> list[QPolygonF]:
         tiles, count = waves.shape
-        reach = _REACH / tiles / max(float(np.abs(waves).max()), 1e-9)
+        scale = _LARGEST_DEVIATION / tiles / max(float(np.abs(waves).max()), 1e-9)
         along = (np.arange(count) + 0.5) / count
         curves = []
         for tile, wave in enumerate(waves):
-            across = (tile + 0.5) / tiles + reach * wave
+            across = (tile + 0.5) / tiles + scale * wave
             right, down = (along, across) if self._is_along_columns else (across, along)
             points = zip(
                 place.left() + right * place.width(), place.top() + down * place.height(),

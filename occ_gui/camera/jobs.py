@@ -42,7 +42,7 @@ def answer_question(question: CameraQuestion, report: TaskReporter) -> CameraAns
         channel = photos[0].channel
         photos.append(load_photo(path, channel="brightest" if channel == "grey" else channel))
     upright = [photo.image.T if photo.turned else photo.image for photo in photos]
-    pictures = tuple(_small(picture) for picture in upright)
+    pictures = tuple(_shrink(picture) for picture in upright)
     try:
         measured = measure_camera(photos, question.mains_frequency, progress=report)
     except MatchError as error:
@@ -50,7 +50,7 @@ def answer_question(question: CameraQuestion, report: TaskReporter) -> CameraAns
     return CameraAnswer(question, pictures, measured)
 
 
-def _small(picture: ByteArray) -> ByteArray:
+def _shrink(picture: ByteArray) -> ByteArray:
     factor = min(1.0, _MOST_PIXELS / max(picture.shape))
     size = (max(1, round(picture.shape[1] * factor)), max(1, round(picture.shape[0] * factor)))
     small = cv2.resize(np.ascontiguousarray(picture), size, interpolation=cv2.INTER_AREA)

@@ -144,11 +144,11 @@ class RunLengthPlot(QWidget):
             self.plot.addItem(bars)
             self.bars.append(bars)
             self.splits.append(split)
-        self.plot.follow_palette(self._dress)
+        self.plot.follow_palette(self._colour_items)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         fill(QVBoxLayout(self), title, (self.plot, 1), margins=0, spacing=0)
 
-    def _dress(self, palette: QPalette) -> None:
+    def _colour_items(self, palette: QPalette) -> None:
         for bars, colour in zip(self.bars, _COLOURS, strict=True):
             bars.setOpts(brush=lighten_for(palette, colour), pen=lighten_for(palette, colour))
 

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 
 from occ_gui.detection_map.colour_map import RATES, make_image, to_colours
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.scene.slider_scale import slider_handle, slider_travel
+from occ_gui.scene.slider_scale import find_handle_sides, find_handle_travel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
@@ -122,12 +122,12 @@ class SliderStrip(QWidget):
 
     def span(self) -> tuple[float, float]:
         """Return the x of the handle's centre at both ends of the slider, in the strip's pixels."""
-        first, last = slider_travel(self.slider)
+        first, last = find_handle_travel(self.slider)
         offset = self.slider.x() - self.x()
         return first + offset, last + offset
 
     def _handle_area(self) -> QRectF:
-        left, right = slider_handle(self.slider)
+        left, right = find_handle_sides(self.slider)
         offset = self.slider.x() - self.x()
         return QRectF(left + offset, 0, right - left, self.height()).adjusted(
             -_HANDLE_MARGIN, 0, _HANDLE_MARGIN, 0

@@ -44,7 +44,7 @@ class ColumnPicker(QObject):
         plot.scene().sigMouseMoved.connect(self._hover)
         plot.scene().sigMouseClicked.connect(self._click)
         plot.installEventFilter(self)
-        plot.follow_palette(self._dress)
+        plot.follow_palette(self._colour_items)
 
     def set_active(self, active: bool) -> None:
         self._is_active = active
@@ -53,11 +53,11 @@ class ColumnPicker(QObject):
     def show_column(self, column: int, is_held: bool) -> None:
         """Mark a column with a dashed line, or with a solid line if it is held."""
         self._is_held = is_held
-        self._dress(self._plot.palette())
+        self._colour_items(self._plot.palette())
         self.marker.setValue(column)
         self._marked_column = column
 
-    def _dress(self, palette: QPalette) -> None:
+    def _colour_items(self, palette: QPalette) -> None:
         style = Qt.PenStyle.SolidLine if self._is_held else Qt.PenStyle.DashLine
         self.marker.setPen(thin_pen(palette.color(QPalette.ColorRole.Text), style))
 

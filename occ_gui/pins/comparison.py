@@ -95,7 +95,7 @@ def _compare_outputs(a: Pin, b: Pin) -> Iterator[DifferenceRow]:
             yield DifferenceRow(name, text_a, text_b, meaning)
 
 
-def pin_of(snapshot: Snapshot) -> Pin:
+def make_pin(snapshot: Snapshot) -> Pin:
     frame = snapshot.frame
     return Pin(
         request=snapshot.request,

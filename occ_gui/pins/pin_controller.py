@@ -7,7 +7,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.task import Report, Task
-from occ_gui.pins.comparison import Pin, PinnedPair, compare_pins, pin_of
+from occ_gui.pins.comparison import Pin, PinnedPair, compare_pins, make_pin
 from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.simulation.jobs import explain_failures, snapshot_of
 from occ_gui.simulation.snapshot import Snapshot
@@ -84,7 +84,7 @@ class PinController(QObject):
     def _take_snapshot(self, result: tuple[str, Snapshot]) -> None:
         name, snapshot = result
         if self._missing.get(name) == snapshot.request:
-            self._pins[name] = pin_of(snapshot)
+            self._pins[name] = make_pin(snapshot)
             self._compare()
 
     def _forget_missing(self, _result: object) -> None:
@@ -116,7 +116,7 @@ class PinController(QObject):
             self.status_message.emit(f"{name} will be pinned as soon as this scene is computed.")
             return
         self._waiting_name = ""
-        self._pins[name] = pin_of(snapshot)
+        self._pins[name] = make_pin(snapshot)
         self._store_pin(name, PinnedScene(snapshot.request, self._store.workspace.preset))
         self._compare()
         pinned = f"Pinned the present scene as {name}"

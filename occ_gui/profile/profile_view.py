@@ -89,9 +89,9 @@ class ProfileView(QWidget):
             item.setZValue(-10)
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
-        self.plot.follow_palette(self._dress)
+        self.plot.follow_palette(self._colour_items)
 
-    def _dress(self, palette: QPalette) -> None:
+    def _colour_items(self, palette: QPalette) -> None:
         shade = palette.color(QPalette.ColorRole.Text)
         shade.setAlpha(_SHADE)
         for item in self.shades:

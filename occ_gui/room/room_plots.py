@@ -55,7 +55,7 @@ class PlanPlot(QWidget):
         self.camera.setZValue(self.aim.zValue() + 1.0)
         self._report_drags(self.camera, self.camera_moved)
         self._report_drags(self.aim, self.aim_moved)
-        self.plot.follow_palette(self._dress)
+        self.plot.follow_palette(self._colour_items)
         fill(QVBoxLayout(self), self.plot, margins=0)
 
     def _report_drags(self, target: pg.TargetItem, moved: SignalInstance) -> None:
@@ -69,7 +69,7 @@ class PlanPlot(QWidget):
         target.sigPositionChanged.connect(emit_position)
         target.sigPositionChangeFinished.connect(gestures.end)
 
-    def _dress(self, palette: QPalette) -> None:
+    def _colour_items(self, palette: QPalette) -> None:
         for name in self.names:
             name.setColor(palette.color(QPalette.ColorRole.Text))
         for target in (self.camera, self.aim):
@@ -107,7 +107,7 @@ class PlanPlot(QWidget):
             name.setPos(*outline.mean(axis=0).tolist())
             self.plot.addItem(name, ignoreBounds=True)
             self.names.append(name)
-        self._dress(self.palette())
+        self._colour_items(self.palette())
 
     def show_place(self, located: Located | None, true: Place) -> float:
         """Show a place with its error ellipse; return the factor by which its error is enlarged."""

@@ -172,7 +172,7 @@ class CountRow(ParameterRow):
         self._declared = declared
         self.field = CountEdit(declared)
         keep_wheel_for_scrolling(self.field)
-        _fill(self, self.field, declared)
+        _set_up_row(self, self.field, declared)
         self.field.lineEdit().textEdited.connect(self.gestures.end)
         self.field.valueChanged.connect(self._enter)
         self.field.accepted.connect(self.end_refusal)
@@ -200,7 +200,7 @@ class ChoiceRow(ParameterRow):
         self.field = field or QComboBox()
         self.field.addItems(declared.choices)
         keep_wheel_for_scrolling(self.field)
-        _fill(self, self.field, declared)
+        _set_up_row(self, self.field, declared)
         self.field.textActivated.connect(self._enter)
 
     def _display(self, value: ParameterValue) -> None:
@@ -242,7 +242,7 @@ class PatternRow(ParameterRow):
         self._value_text = ""
         self.field = QLineEdit(placeholderText=f"empty: {declared.empty}")
         leave_undo_to_window(self.field)
-        _fill(self, self.field, declared)
+        _set_up_row(self, self.field, declared)
         self.field.textEdited.connect(self.gestures.end)
         self.field.editingFinished.connect(self._read_field)
         self.notice.dismissed.connect(lambda: self.field.setText(self._value_text))
@@ -330,7 +330,7 @@ def _describe_control(control: QWidget, declared: Parameter) -> None:
     control.setToolTip(explain(declared))
 
 
-def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
+def _set_up_row(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
     fill(QVBoxLayout(row), control, margins=0, spacing=1)
     row.notice = control.notice if isinstance(control, CountEdit) else RefusalNotice(control)
     _describe_control(control, declared)

@@ -26,8 +26,8 @@ _TOOLTIP_DISTANCE = 6.0  # pixels from a mark within which its tooltip is shown
 class SliderScale(QWidget):
     """The end values of a slider, and its marks with their names where there is space."""
 
-    def __init__(self, slider: QSlider, quantity: Quantity, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, slider: QSlider, quantity: Quantity) -> None:
+        super().__init__()
         self._slider, self._quantity = slider, quantity
         self.marks: tuple[MarkedValue, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -57,7 +57,7 @@ class SliderScale(QWidget):
         return QSize(20, self.sizeHint().height())
 
     def x_of(self, value: float) -> float:
-        first, last = slider_travel(self._slider)
+        first, last = find_handle_travel(self._slider)
         x = first + self._quantity.fraction(value) * (last - first)
         return x + self._slider.x() - self.x()
 
@@ -83,7 +83,7 @@ class SliderScale(QWidget):
         metrics = QFontMetricsF(font)
         painter.setFont(font)
         colour = self.palette().color(QPalette.ColorRole.WindowText)
-        ends, names = self.texts(metrics)
+        ends, names = self.place_texts(metrics)
         painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
         for text, box in ends:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
@@ -94,7 +94,7 @@ class SliderScale(QWidget):
         for text, box in names:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
-    def texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
+    def place_texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
         """Return the end values and the marks' names, each with its place.
 
         An end value is left out if a mark's name needs its place, because only the name explains
@@ -143,14 +143,14 @@ def _is_free(box: QRectF, occupied: Sequence[QRectF]) -> bool:
     return not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in occupied)
 
 
-def slider_travel(slider: QSlider) -> tuple[float, float]:
+def find_handle_travel(slider: QSlider) -> tuple[float, float]:
     """Return the x of the handle's centre at both ends, in the slider's own pixels."""
     ends = (_handle_rect(slider, position) for position in (slider.minimum(), slider.maximum()))
     first, last = (end.center().x() for end in ends)
     return first, last
 
 
-def slider_handle(slider: QSlider) -> tuple[float, float]:
+def find_handle_sides(slider: QSlider) -> tuple[float, float]:
     """Return the x of the handle's left and right side, in the slider's own pixels."""
     handle = _handle_rect(slider, slider.sliderPosition())
     return handle.left(), handle.right()

@@ -23,7 +23,7 @@ _WIDEST_WORD = "chips"  # the widest of the words beside a row's name
 GAPS = 14  # pixels between and around a name and the word beside it
 _LARGEST_GUTTER = 2 * GUTTER  # more would leave the columns too little room
 
-CURSOR_NAMES = ("1", "2")  # A and B name pins
+CURSOR_NAMES = ("1", "2")  # not A and B, which are the names of pinned scenes
 _CURSOR_STARTS = (0.3, 0.6)  # as fractions of the range in view
 
 
@@ -48,11 +48,11 @@ class ColumnAxis(QObject):
     def span(self) -> float:
         return self.last - self.first
 
-    def pixel(self, column: float, width: float) -> float:
+    def find_pixel(self, column: float, width: float) -> float:
         """Return where a column lies in a row of this width, in pixels from its left."""
         return self.gutter + (column - self.first) / self.span * self.plot_width(width)
 
-    def column(self, pixel: float, width: float) -> float:
+    def find_column(self, pixel: float, width: float) -> float:
         return self.first + (pixel - self.gutter) / self.plot_width(width) * self.span
 
     def plot_width(self, width: float) -> float:
@@ -131,10 +131,11 @@ class MeasureCursors(QObject):
             self.columns[index] = min(max(column, 0.0), columns - 1.0)
             self.changed.emit()
 
-    def find_nearest(self, column: float, reach: float) -> int | None:
+    def find_nearest(self, column: float, most: float) -> int | None:
+        """Return the index of the nearest cursor, unless it is more than ``most`` columns away."""
         distances = [(abs(other - column), index) for index, other in enumerate(self.columns)]
         distance, index = min(distances, default=(math.inf, None))
-        return index if distance <= reach else None
+        return index if distance <= most else None
 
 
 class Crosshair(QObject):
@@ -248,7 +249,7 @@ class Scale(QWidget):
         tick = -_TICK if self._is_above else _TICK
         metrics = painter.fontMetrics()
         for column, number in self.ticks():
-            x = round(self.axis.pixel(column, self.width())) + 0.5
+            x = round(self.axis.find_pixel(column, self.width())) + 0.5
             painter.setPen(QPen(self.palette().color(QPalette.ColorRole.WindowText), 1))
             painter.drawLine(QPointF(x, end), QPointF(x, end + tick))
             width = metrics.horizontalAdvance(number)

@@ -1,6 +1,6 @@
-"""Results of the model for the story: light, packets, threshold, decoders.
+"""The model's functions that the rows of the story call: light, packets, threshold, decoders.
 
-The rows draw it; they compute nothing themselves.
+All other modules of the rows only draw, and import nothing that computes.
 """
 
 from occ_model.receiver.decode import QUICK_DECODERS as READ_BY_ALL

@@ -23,7 +23,7 @@ from occ_model.scene.units import SECOND
 _GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
 
 _LEAST_HEIGHT = 40
-_STRIP, _LABEL = 18, 15
+_STRIP_HEIGHT, _LABEL_HEIGHT = 18, 15
 """Pixels of the strip of the bits sent, and of the window's label, at the usual text size."""
 
 _LEAST_FOR_STRIP = 66  # pixels of height from which the strip is drawn
@@ -92,10 +92,10 @@ class LightRow(StoryRow):
 
     def _strip_height(self) -> int:
         """Return the height of the strip of the bits sent, and of the letters above them."""
-        return line_height(self.fontMetrics(), _STRIP) * (2 if self.letters else 1)
+        return line_height(self.fontMetrics(), _STRIP_HEIGHT) * (2 if self.letters else 1)
 
     def _label_height(self) -> int:
-        return line_height(self.fontMetrics(), _LABEL, 0)
+        return line_height(self.fontMetrics(), _LABEL_HEIGHT, 0)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         if self._scene is None:

@@ -70,14 +70,14 @@ class StoryRow(QWidget):
         return QRectF(self.axis.gutter, 0.0, width, float(self.height()))
 
     def x_of(self, column: float) -> float:
-        return self.axis.pixel(column, self.width())
+        return self.axis.find_pixel(column, self.width())
 
     def xs_of(self, columns: FloatArray) -> FloatArray:
         scale = self.axis.plot_width(self.width()) / self.axis.span
         return np.asarray(self.axis.gutter + (columns - self.axis.first) * scale)
 
     def column_at(self, x: float) -> float:
-        return self.axis.column(x, self.width())
+        return self.axis.find_column(x, self.width())
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         """Draw what depends on the results, clipped to an area."""
@@ -207,8 +207,8 @@ class StoryRow(QWidget):
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
 
     def _cursor_at(self, x: float) -> int | None:
-        reach = _GRIP * self.axis.span / self.axis.plot_width(self.width())
-        return self.crosshair.cursors.find_nearest(self.column_at(x), reach)
+        grip = _GRIP * self.axis.span / self.axis.plot_width(self.width())  # in columns
+        return self.crosshair.cursors.find_nearest(self.column_at(x), grip)
 
     def colour(self, role: QPalette.ColorRole) -> QColor:
         return self.palette().color(role)

@@ -16,7 +16,7 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray
 
 _LEAST_HEIGHT = 40
-_NAME = 22  # pixels of the row's name above the thumbnail
+_NAME_HEIGHT = 22  # pixels of the row's name above the thumbnail
 _LEAST_THUMBNAIL = 32  # smallest height in pixels of a thumbnail in which a frame can be recognized
 
 
@@ -88,8 +88,8 @@ class StripesRow(StoryRow):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        height = max(self.height() - _NAME - 3, 0)
-        self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, height)
+        height = max(self.height() - _NAME_HEIGHT - 3, 0)
+        self.thumbnail.setGeometry(4, _NAME_HEIGHT, GUTTER - 12, height)
         self.thumbnail.setVisible(height >= _LEAST_THUMBNAIL)
 
     def _mark_view(self) -> None:

@@ -1,4 +1,4 @@
-"""Answer: one line in large letters, a sentence on it, and more that unfolds below."""
+"""Answer: a line in large letters, a note below it, and details that a button shows."""
 
 from collections.abc import Iterable
 
@@ -18,15 +18,15 @@ class MoreButton(QToolButton):
         self.setCheckable(True)
         self.setAutoRaise(True)
         self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.toggled.connect(self._point)
-        self._point(False)
+        self.toggled.connect(self._turn_arrow)
+        self._turn_arrow(False)
 
-    def _point(self, unfolds: bool) -> None:
-        self.setArrowType(Qt.ArrowType.DownArrow if unfolds else Qt.ArrowType.RightArrow)
+    def _turn_arrow(self, is_down: bool) -> None:
+        self.setArrowType(Qt.ArrowType.DownArrow if is_down else Qt.ArrowType.RightArrow)
 
 
 class Answer(QWidget):
-    """The sentence that the user came for; ``unfolds`` is a widget elsewhere that *More* shows."""
+    """A line, a note and details; *More* shows the details, and ``unfolds``, a widget elsewhere."""
 
     def __init__(self, unfolds: QWidget | None = None) -> None:
         super().__init__()
@@ -46,7 +46,7 @@ class Answer(QWidget):
             self.line.setFont(heading_font(self.font()))
 
     def show_answer(self, line: str, details: Iterable[str] = (), note: str = "") -> None:
-        """Show a line, a sentence below it, and the details that *More* unfolds."""
+        """Show a line, a note below it, and the details that *More* shows."""
         text = "\n".join(details)
         self.line.setText(line)
         self.note.setText(note)

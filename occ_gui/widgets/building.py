@@ -28,7 +28,7 @@ from occ_model.errors import one_line
 Label = TypeVar("Label", bound=QLabel)
 
 
-_FONT_DECIMALS = 6  # of a size in points, which is the same again after a change there and back
+_FONT_DECIMALS = 6  # to which sizes in points are rounded, so that a change can be reversed
 
 _HEADING = 16 / 13  # size of a heading relative to text: 16 pixels if text has 13
 

@@ -13,7 +13,7 @@ DELAY = 0.12  # seconds; a pane that is outdated for less is not marked, so that
 _FRESH_AGE = DELAY / 3  # a mark that is shown stays until a result is at most this old
 
 _OPACITY = {False: 0.45, True: 0.3}
-"""Of the dimming, in light and in dark colours, where it would hide what is dark already."""
+"""Opacity of the dimming in light and in dark colours, of which less would remain visible."""
 
 _PADDING = 8
 

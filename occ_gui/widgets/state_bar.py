@@ -16,7 +16,7 @@ _TEXT_SCALE = 1.25
 _RADIUS = 8
 _PADDING, _MARGIN = 12, 5
 CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of most steps
-_WIDEST_STEP = 0.4  # of the room that the button of a step may take beside the texts
+_WIDEST_STEP = 0.4  # largest fraction of the width for the button of a step beside the texts
 
 
 class StateBar(QWidget):
@@ -39,7 +39,7 @@ class StateBar(QWidget):
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop
         )
         self._lines = self._title_lines = 1
-        self._step_height = 0  # that the button takes below the texts
+        self._step_height = 0  # pixels of the step's button below the texts; 0 if it is beside them
         self.badges = BadgeRow()
         self.step = push_button("", CHANGES_SCENE, self.step_taken, name="A step that helps")
         self.step.hide()

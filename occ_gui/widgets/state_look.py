@@ -76,58 +76,59 @@ def draw_state(painter: QPainter, place: QRectF, state: State, colours: StateCol
     painter.scale(side / 24.0, side / 24.0)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(colours.ink)
-    painter.drawPolygon(_BADGES[state]) if state in _BADGES else painter.drawEllipse(
-        QRectF(-11, -11, 22, 22)
-    )
+    if state in _OUTLINES:
+        painter.drawPolygon(_OUTLINES[state])
+    else:
+        painter.drawEllipse(QRectF(-11, -11, 22, 22))
     painter.setPen(QPen(colours.paper, 2.8, c=Qt.PenCapStyle.RoundCap, j=Qt.PenJoinStyle.RoundJoin))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     _SIGNS[state](painter)
     painter.restore()
 
 
-def _polygon(*points: tuple[float, float]) -> QPolygonF:
+def _make_polygon(*points: tuple[float, float]) -> QPolygonF:
     return QPolygonF([QPointF(x, y) for x, y in points])
 
 
-_BADGES = {
-    State.BAD: _polygon(
+_OUTLINES = {
+    State.BAD: _make_polygon(
         (-4.6, -11), (4.6, -11), (11, -4.6), (11, 4.6), (4.6, 11), (-4.6, 11), (-11, 4.6),
         (-11, -4.6),
     ),
-    State.DOUBTFUL: _polygon((0, -11), (12, 10.5), (-12, 10.5)),
+    State.DOUBTFUL: _make_polygon((0, -11), (12, 10.5), (-12, 10.5)),
 }  # fmt: skip
-"""Outlines other than a circle."""
+"""Outlines of icons other than a circle."""
 
 
-def _tick(painter: QPainter) -> None:
-    painter.drawPolyline(_polygon((-5, 0.5), (-1.3, 4.2), (5.2, -3.8)))
+def _draw_tick(painter: QPainter) -> None:
+    painter.drawPolyline(_make_polygon((-5, 0.5), (-1.3, 4.2), (5.2, -3.8)))
 
 
-def _cross(painter: QPainter) -> None:
+def _draw_cross(painter: QPainter) -> None:
     painter.drawLine(QPointF(-4, -4), QPointF(4, 4))
     painter.drawLine(QPointF(-4, 4), QPointF(4, -4))
 
 
-def _exclamation(painter: QPainter) -> None:
+def _draw_exclamation_mark(painter: QPainter) -> None:
     painter.drawLine(QPointF(0, -3.5), QPointF(0, 2.5))
     painter.drawPoint(QPointF(0, 7))
 
 
-def _clock(painter: QPainter) -> None:
-    painter.drawPolyline(_polygon((0, -6), (0, 0), (4, 2.5)))
+def _draw_clock_hands(painter: QPainter) -> None:
+    painter.drawPolyline(_make_polygon((0, -6), (0, 0), (4, 2.5)))
 
 
-def _letter(painter: QPainter) -> None:
+def _draw_letter(painter: QPainter) -> None:
     painter.drawPoint(QPointF(0, -5.5))
     painter.drawLine(QPointF(0, -0.5), QPointF(0, 5.5))
 
 
 _SIGNS: dict[State, Callable[[QPainter], None]] = {
-    State.GOOD: _tick,
-    State.BAD: _cross,
-    State.DOUBTFUL: _exclamation,
-    State.WAITING: _clock,
-    State.NEUTRAL: _letter,
+    State.GOOD: _draw_tick,
+    State.BAD: _draw_cross,
+    State.DOUBTFUL: _draw_exclamation_mark,
+    State.WAITING: _draw_clock_hands,
+    State.NEUTRAL: _draw_letter,
 }
 
 

@@ -160,7 +160,7 @@ def _is_header_cut(header: QHeaderView, column: int) -> bool:
 
 
 def _do_scale_texts_overlap(scale: SliderScale) -> bool:
-    ends, names = scale.texts(QFontMetricsF(scale.text_font()))
+    ends, names = scale.place_texts(QFontMetricsF(scale.text_font()))
     boxes = [box for _, box in (*ends, *names)]
     bounds = scale.rect().toRectF().adjusted(-1, 0, 1, 3)
     return any(one.intersects(other) for one, other in combinations(boxes, 2)) or any(

@@ -101,7 +101,8 @@ def test_the_marks_follow_the_scene(application: Application) -> None:
 def test_a_mark_is_named_at_any_value_and_replaces_an_end_value(qtbot: QtBot) -> None:
     whole, gamma = add_widget(qtbot, QWidget()), quantity("gamma")
     slider = QSlider(Qt.Orientation.Horizontal, whole)
-    scale = SliderScale(slider, gamma, whole)
+    scale = SliderScale(slider, gamma)
+    scale.setParent(whole)
     for part in (slider, scale):
         part.setGeometry(0, 0, 170, 30)
     metrics = QFontMetricsF(scale.text_font())
@@ -109,7 +110,7 @@ def test_a_mark_is_named_at_any_value_and_replaces_an_end_value(qtbot: QtBot) ->
     counts = []
     for fraction in np.linspace(0.0, 1.0, 41):
         scale.show_marks([MarkedValue(float(low + fraction * (high - low)), "t = 1 chip", "")])
-        ends, names = scale.texts(metrics)
+        ends, names = scale.place_texts(metrics)
         assert [name for name, _ in names] == ["t = 1 chip"]
         assert not any(box.intersects(names[0][1]) for _, box in ends)
         counts.append(len(ends))
@@ -118,4 +119,4 @@ def test_a_mark_is_named_at_any_value_and_replaces_an_end_value(qtbot: QtBot) ->
     assert set(counts) == {1, 2}
     assert counts[20] == 2, "a mark in the middle leaves both end values"
     scale.show_marks([])
-    assert len(scale.texts(metrics)[0]) == 2
+    assert len(scale.place_texts(metrics)[0]) == 2

@@ -52,7 +52,7 @@ def test_a_column_lies_at_the_same_pixel_in_every_row(
         }
         assert len(places) == 1
         scale = rows.columns
-        at = scale.mapTo(rows, QPointF(rows.axis.pixel(column, scale.width()), 0.0)).x()
+        at = scale.mapTo(rows, QPointF(rows.axis.find_pixel(column, scale.width()), 0.0)).x()
         assert places == {round(at, 6)}
         assert rows.light.column_at(rows.light.x_of(column)) == pytest.approx(column)
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from occ_gui.app import panes
+from occ_gui.app import panes, services
 from occ_gui.app.parts import Parts
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.photo.window_actions import WindowActions
@@ -42,12 +42,12 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.video(scenes, parts.results_store),
         panes.room(store),
         panes.bench(scenes, parts.background_rates),
-        panes.export(window, shell, parts.present, preferences, current_pane, store),
-        panes.animation(window, scenes, preferences, window.filming),
-        panes.transmitter(window, scenes, preferences),
-        panes.camera(window, scenes, preferences),
-        panes.manual(window, shell, current_pane),
-        panes.welcome(window, shell, preferences, parts.files),
+        services.export(window, shell, parts.present, preferences, current_pane, store),
+        services.animation(window, scenes, preferences, window.filming),
+        services.transmitter(window, scenes, preferences),
+        services.camera(window, scenes, preferences),
+        services.manual(window, shell, current_pane),
+        services.welcome(window, shell, preferences, parts.files),
         _entries(parts),
     )
 

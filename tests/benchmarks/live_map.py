@@ -86,7 +86,8 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
     import occ_model as occ
-    from occ_gui.app.command_line import start, wait_until_shown
+    from occ_gui.app.command_line import start
+    from occ_gui.app.screenshot import wait_until_shown
     from occ_gui.core.workspace import Workspace
 
     _, application = start(Workspace(occ.load_preset(options.preset)), ["live_map"])

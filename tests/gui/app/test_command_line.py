@@ -11,7 +11,8 @@ from PySide6.QtCore import QPoint, QTimer
 import occ_model as occ
 from occ_gui.accuracy.accuracy_plot import COLOURS
 from occ_gui.app.application import Application
-from occ_gui.app.command_line import main, make_parser, take_screenshot, wait_until_shown
+from occ_gui.app.command_line import main, make_parser
+from occ_gui.app.screenshot import take_screenshot, wait_until_shown
 from occ_gui.app.system_libraries import find_missing_libraries
 from occ_gui.detection_map.wiring import BackgroundRates
 

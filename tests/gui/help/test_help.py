@@ -13,7 +13,8 @@ from PySide6.QtGui import QColor, QDesktopServices, QPalette, QTextCursor, QText
 from PySide6.QtWidgets import QTextBrowser
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import bands, manual as declaration, spectrum
+from occ_gui.app.panes import bands, spectrum
+from occ_gui.app.services import manual as declaration
 from occ_gui.help import help_window
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow

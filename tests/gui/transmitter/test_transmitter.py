@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.app.panes import transmitter as declared
+from occ_gui.app.services import transmitter as declared
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.transmitter import transmitter_controller

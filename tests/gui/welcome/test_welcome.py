@@ -7,7 +7,7 @@ import pytest
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import welcome
+from occ_gui.app.services import welcome
 from occ_gui.app.start import Start
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences

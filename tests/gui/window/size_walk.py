@@ -72,7 +72,8 @@ def _list_places(application: Application, settle: Settle) -> Iterator[str]:
 
 def main(preset: str) -> None:
     import occ_model as occ
-    from occ_gui.app.command_line import start, wait_until_shown
+    from occ_gui.app.command_line import start
+    from occ_gui.app.screenshot import wait_until_shown
     from occ_gui.core.workspace import Workspace
 
     _, application = start(Workspace(occ.load_preset(preset)), sys.argv[:1])

@@ -94,13 +94,13 @@ class HeldWorker:
 
 
 class PickledJobs(HeldWorker):
-    """Workers that do each job at once, sent to and fro as between processes; some files end them.
+    """Workers that do each job at once, sent to and fro as between processes; some jobs end them.
 
-    ``deadly``: the files, as the second argument of a job.
+    ``deadly``: their second arguments.
     """
 
     count = 2
-    deadly: tuple[Path, ...] = ()
+    deadly: tuple[Path | str, ...] = ()
 
     def __init__(self, count: int, preload: str) -> None:
         super().__init__()

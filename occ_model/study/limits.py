@@ -1,19 +1,18 @@
 """Find the ranges of switching frequency and exposure time in which decoders read a scene.
 
 The searches, see :mod:`occ_model.study.working_range`, are independent: two processes find the same
-answer in half the time. All decoders read the same pictures, so one process searches along a
-parameter for all of them.
+answer in about half the time.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, wait
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from occ_model.errors import ParameterError, quote
-from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
+from occ_model.parallel.job import Heartbeat, Job, JobResult
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.limits import Advice, Limits, TheoryLimits, WorkingRange
 from occ_model.results.sweep_request import RateSettings, SignalPath
@@ -42,7 +41,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     path: SignalPath = "auto",
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
+    progress: Callable[[float, str], object] = lambda _fraction, _search: None,
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
@@ -92,7 +91,7 @@ def limits_of(
     *,
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
+    progress: Callable[[float, str], object] = lambda _fraction, _search: None,
 ) -> Iterator[Limits]:
     """Yield the limits of several decoders as soon as they are found, as :func:`limits` does."""
     required_rate = check_search(rate, jobs)
@@ -105,23 +104,11 @@ MOST_PROCESSES = 2  # one for each parameter
 _POLL_SECONDS = 0.1  # between two polls of other processes
 
 
-@dataclass(frozen=True, slots=True)
-class _Search:
-    """A search along a parameter for one decoder."""
-
-    name: str  # of the parameter
-    decoder: str
-
-    @property
-    def description(self) -> str:
-        return f"{PARAMETERS[self.name].in_sentence}, {self.decoder} decoder"
-
-
 class _SearchRunner:
     """Runs searches in other processes, or in this one if they cannot be started or die.
 
-    Each process prefers a parameter, so that it simulates the pictures of a search only once for
-    all decoders. Decoders are searched in their order.
+    Each process searches along one parameter for all decoders in their order, so that it simulates
+    the pictures only once.
     """
 
     def __init__(
@@ -134,93 +121,67 @@ class _SearchRunner:
     ) -> None:
         self._scene, self._rate, self._settings = scene, rate, settings
         self._heartbeat, self._progress = heartbeat, progress
-        self._waiting = [
-            _Search(name, decoder) for decoder in settings.decoders for name in SEARCHED_PARAMETERS
-        ]
-        self._decoders = list(settings.decoders)  # whose limits are not complete
-        self._ranges: dict[_Search, WorkingRange] = {}
-        self._read = 0
-        self._expected = len(self._waiting) * estimate_range_images(settings.images)
+        self._pools: dict[str, ProcessPool] = {}  # by parameter
+        self._futures: dict[tuple[str, str], Future[JobResult]] = {}  # by parameter and decoder
+        self._read_here = 0  # images that this process has read
+        searches = len(SEARCHED_PARAMETERS) * len(settings.decoders)
+        self._expected = searches * estimate_range_images(settings.images)
 
     def run(self, jobs: int) -> Iterator[Limits]:
         """Yield the limits of each decoder, by so many processes."""
-        if jobs > 1:
-            from occ_model.parallel.process_pool import ProcessPool
-
-            with suppress(*NO_PROCESSES, *ProcessPool.lost_by), ExitStack() as stack:
-                pools = []
-                for name in SEARCHED_PARAMETERS:
-                    pools.append((ProcessPool(1, __name__), name))
-                    stack.callback(pools[-1][0].close)
-                yield from self._run_in(pools)
-        while (search := self._take_next(SEARCHED_PARAMETERS[0])) is not None:
-            beat = partial(self._on_image, search.description)
-            self._ranges[search] = working_range(*self._arguments(search), beat)
-            yield from self._take_found()
-
-    def _run_in(self, pools: "Sequence[tuple[ProcessPool, str]]") -> Iterator[Limits]:
-        idle, running = list(pools), dict[Future[JobResult], tuple[_Search, Any]]()
-        try:
-            while True:
-                while idle and (search := self._take_next(idle[0][1])) is not None:
-                    pool = idle.pop(0)
-                    running[self._submit(pool[0], search)] = search, pool
-                if not running:
-                    return
-                done, _ = wait(running, timeout=_POLL_SECONDS, return_when=FIRST_COMPLETED)
-                self._read = sum(pool.count_heartbeats(0) for pool, _ in pools)
-                self._report(next(iter(running.values()))[0].description)
-                for future in done:
-                    search, pool = running[future]
-                    self._ranges[search] = _unwrap_result(future.result())
-                    del running[future]
-                    idle.append(pool)
-                yield from self._take_found()
-        finally:  # what lost processes have not done
-            self._waiting[:0] = [search for search, _ in running.values()]
-
-    def _arguments(self, search: _Search) -> tuple[Scene, str, float, RateSettings]:
-        settings = replace(self._settings, decoders=(search.decoder,))
-        return self._scene, search.name, self._rate, settings
-
-    def _submit(self, pool: "ProcessPool", search: _Search) -> "Future[JobResult]":
-        try:
-            return pool.submit(Job(working_range, self._arguments(search)), 0, 1)
-        except Exception:
-            self._waiting.insert(0, search)
-            raise
-
-    def _take_next(self, name: str) -> _Search | None:
-        """Take a search of the first decoder in the queue, if possible along this parameter."""
-        if not self._waiting:
-            return None
-        wanted = _Search(name, self._waiting[0].decoder)
-        return self._waiting.pop(self._waiting.index(wanted) if wanted in self._waiting else 0)
-
-    def _take_found(self) -> Iterator[Limits]:
         settings = self._settings
-        while self._decoders:
-            searches = [_Search(name, self._decoders[0]) for name in SEARCHED_PARAMETERS]
-            if not self._ranges.keys() >= {*searches}:
-                return
-            decoder, ranges = self._decoders.pop(0), (self._ranges[search] for search in searches)
-            if not self._decoders:
-                self._progress(1.0, "")
-            yield Limits(self._scene, decoder, self._rate, settings.images, settings.seed, *ranges)
+        with ExitStack() as stack:
+            if jobs > 1:
+                self._start_processes(stack)
+            for decoder in settings.decoders:
+                ranges = [self._find(name, decoder) for name in SEARCHED_PARAMETERS]
+                if decoder == settings.decoders[-1]:
+                    self._progress(1.0, "")
+                yield Limits(
+                    self._scene, decoder, self._rate, settings.images, settings.seed, *ranges
+                )
 
-    def _on_image(self, description: str) -> None:
-        self._read += 1
+    def _start_processes(self, stack: ExitStack) -> None:
+        from occ_model.parallel.process_pool import ProcessPool
+
+        with suppress(*ProcessPool.lost_by):
+            for name in SEARCHED_PARAMETERS:
+                self._pools[name] = pool = ProcessPool(1, __name__)
+                stack.callback(pool.close)
+                for decoder in self._settings.decoders:
+                    job = Job(working_range, self._arguments(name, decoder))
+                    self._futures[name, decoder] = pool.submit(job, 0, 1)
+
+    def _arguments(self, name: str, decoder: str) -> tuple[Scene, str, float, RateSettings]:
+        return self._scene, name, self._rate, replace(self._settings, decoders=(decoder,))
+
+    def _find(self, name: str, decoder: str) -> WorkingRange:
+        """Wait for the process that searches along a parameter, or search in this one."""
+        description = f"{PARAMETERS[name].in_sentence}, {decoder} decoder"
+        future = self._futures.get((name, decoder))
+        while future is not None:
+            wait([future], timeout=_POLL_SECONDS)
+            self._report(description)
+            if future.done():
+                try:
+                    result = future.result()
+                except self._pools[name].lost_by:
+                    break
+                if result.error is not None:
+                    raise result.error
+                return cast("WorkingRange", result.value)
+        return working_range(
+            *self._arguments(name, decoder), partial(self._read_image, description)
+        )
+
+    def _read_image(self, description: str) -> None:
+        self._read_here += 1
         self._report(description)
 
     def _report(self, description: str) -> None:
         self._heartbeat()
-        self._progress(min(self._read / self._expected, 0.99), description)
-
-
-def _unwrap_result(result: JobResult) -> Any:
-    if result.error is not None:
-        raise result.error
-    return result.value
+        read = self._read_here + sum(pool.count_heartbeats(0) for pool in self._pools.values())
+        self._progress(min(read / self._expected, 0.99), description)
 
 
 def check_search(rate: object, jobs: object) -> float:

@@ -1,7 +1,9 @@
 """Laws of the limits found by simulation, and of those of theory."""
 
+import errno
 import math
 import re
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
@@ -18,6 +20,8 @@ from worker_calls import PickledJobs
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
+from occ_model.parallel.job import WorkerThread
+from occ_model.parallel.process_pool import ProcessPool
 from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
@@ -229,22 +233,51 @@ def test_few_images_suffice_if_the_rate_falls_abruptly(decoding: Decoding) -> No
     assert by_seed[False] < 2 * 250
 
 
+TWO = RateSettings(2, ("threshold", "matched"), 1)
+
+
+class ThreadAsProcess(WorkerThread):
+    def __init__(self, count: int, preload: str) -> None:
+        super().__init__()
+
+
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_the_limits_of_a_decoder_are_known_before_the_next_one_has_read(
-    decoding: Decoding, monkeypatch: pytest.MonkeyPatch, jobs: int
+    monkeypatch: pytest.MonkeyPatch, jobs: int
 ) -> None:
-    """With two processes, the next decoder may just have begun with one of its searches."""
-    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", PickledJobs)
-    read = decoding(correct_within((2e3, 20e3)))
-    alone = [occ.limits(SCENE, name, rate=60.0, images=2) for name in ("threshold", "matched")]
-    each = sum(read.values()) / 2
-    read.clear()
-    settings = RateSettings(2, ("threshold", "matched"), 1)
-    found = limits_of(SCENE, settings, 60.0, jobs=jobs)
-    assert next(found) == alone[0]
-    assert sum(read.values()) <= each * (1.0 if jobs == 1 else 1.75)
-    assert list(found) == alone[1:]
-    assert sum(read.values()) == 2 * each
+    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", ThreadAsProcess)
+    may_read = threading.Event()
+
+    def read(_scene: Scene, settings: RateSettings, *_: object, first: int) -> Iterator[tuple[int]]:
+        assert settings.decoders == ("threshold",) or may_read.wait(10.0)
+        yield from [(10,)] * (settings.images - first)
+
+    replace_reading(monkeypatch, read)
+    found = limits_of(SCENE, TWO, 60.0, jobs=jobs)
+    assert next(found).decoder == "threshold"
+    may_read.set()
+    assert [limits.decoder for limits in found] == ["matched"]
+
+
+class NoProcesses(PickledJobs):
+    lost_by = ProcessPool.lost_by
+
+    def __init__(self, count: int, preload: str) -> None:
+        raise OSError(errno.EROFS, "no semaphores")
+
+
+class DyingAtExposures(PickledJobs):
+    deadly = ("exposure_time",)
+
+
+@pytest.mark.parametrize("processes", [PickledJobs, DyingAtExposures, NoProcesses])
+def test_limits_do_not_depend_on_who_searches(
+    decoding: Decoding, monkeypatch: pytest.MonkeyPatch, processes: type[PickledJobs]
+) -> None:
+    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", processes)
+    decoding(correct_within((2e3, 20e3)))
+    alone = [occ.limits(SCENE, name, rate=60.0, images=2) for name in TWO.decoders]
+    assert list(limits_of(SCENE, TWO, 60.0, jobs=2)) == alone
 
 
 def test_progress_rises_from_0_to_1_and_states_what_is_searched(decoding: Decoding) -> None:
@@ -379,12 +412,21 @@ def test_that_all_bits_are_read_is_refuted_by_the_first_wrong_bit() -> None:
         assert each.lowest.value == each.lowest.works.value  # no value that was not tried
 
 
-def test_an_exception_from_the_heartbeat_ends_the_search() -> None:
-    def stop() -> None:
-        raise KeyboardInterrupt
+@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize("error", [KeyboardInterrupt, BrokenPipeError])
+def test_an_exception_from_the_heartbeat_ends_the_search(
+    monkeypatch: pytest.MonkeyPatch, error: type[BaseException], jobs: int
+) -> None:
+    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", ThreadAsProcess)
+    beats: list[int] = []
 
-    with pytest.raises(KeyboardInterrupt):
-        occ.limits(SCENE, heartbeat=stop)
+    def stop() -> None:
+        beats.append(1)
+        raise error
+
+    with pytest.raises(error):
+        occ.limits(SCENE, heartbeat=stop, jobs=jobs)
+    assert len(beats) == 1
 
 
 def test_at_its_limit_two_packets_just_fill_the_panels_columns() -> None:

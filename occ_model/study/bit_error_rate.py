@@ -69,14 +69,9 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     length = scene.transmitter.payload_length
     random = np.random.default_rng(seed)
     shared_plan = _shared_plan(scene, settings, random)
-
-    def pictures() -> Iterator[tuple[Scene, int]]:
-        for _ in range(-(-bits // length)):
-            sending = with_payload(scene, random.integers(0, 2, length).tolist())
-            yield sending, int(random.integers(2**32))
-
+    pictures = random_pictures(scene, -(-bits // length), random)
     with Faults().counting() as faults:
-        right_bits = right_bits_of_scenes(pictures(), settings, heartbeat, shared_plan)
+        right_bits = right_bits_of_scenes(pictures, settings, heartbeat, shared_plan)
         wrong_bits = [length - right for (right,) in right_bits]
     return replace(
         bit_errors_of(scene, decoder, wrong_bits, wrong_bits.count(0)), faults=str(faults)
@@ -93,6 +88,15 @@ def _shared_plan(scene: Scene, settings: RateSettings, random: np.random.Generat
     size = _PLANNED_PAYLOADS, transmitter.payload_length
     payloads = payload_random.integers(0, 2, size).tolist()
     return plan_images([with_payload(scene, bits) for bits in payloads], settings)
+
+
+def random_pictures(
+    scene: Scene, count: int, random: np.random.Generator
+) -> Iterator[tuple[Scene, int]]:
+    """Yield the scene with random payloads of its length, each with the seed of its picture."""
+    for _ in range(count):
+        bits = random.integers(0, 2, scene.transmitter.payload_length)
+        yield with_payload(scene, bits.tolist()), int(random.integers(2**32))
 
 
 def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:

@@ -6,7 +6,7 @@ combinations are tried in falling order of the bits that they would carry, so th
 read is the best.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +20,7 @@ from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene, SimulationSettings
-from occ_model.study.bit_error_rate import check_frame_rate, with_payload
+from occ_model.study.bit_error_rate import check_frame_rate, random_pictures, with_payload
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.success_rate import right_bits_of_scenes
 from occ_model.study.theory import is_panel_in_picture, panel_readout_time
@@ -195,26 +195,9 @@ def _find_first_readable(
     (decoder,) = settings.decoders
     for index, candidate in enumerate(candidates):
         progress(decoder, index, len(candidates))
-        candidate_scene = _send_zeros(
-            scene, candidate.line_code, candidate.bits, candidate.frequency
-        )
-        if all(_read_pictures(candidate_scene, settings, pictures, heartbeat)):
-            return index, candidate_scene
+        sending = _send_zeros(scene, candidate.line_code, candidate.bits, candidate.frequency)
+        sent = random_pictures(sending, pictures, np.random.default_rng(settings.seed))
+        right_bits = right_bits_of_scenes(sent, settings, heartbeat)
+        if all(right == candidate.bits for (right,) in right_bits):
+            return index, sending
     return len(candidates), None
-
-
-def _read_pictures(
-    candidate: Scene, settings: RateSettings, pictures: int, heartbeat: Heartbeat
-) -> Iterator[bool]:
-    """Yield for each picture whether all bits are correct and accepted."""
-    length = candidate.transmitter.payload_length
-    random = np.random.default_rng(settings.seed)
-    scenes = (
-        (
-            with_payload(candidate, random.integers(0, 2, length).tolist()),
-            int(random.integers(2**32)),
-        )
-        for _ in range(pictures)
-    )
-    for (right,) in right_bits_of_scenes(scenes, settings, heartbeat):
-        yield right == length

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
+from typing import TypeVar
 
 import numpy as np
 
@@ -24,6 +25,8 @@ from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
 from occ_model.study.signals.batch import Observation
 from occ_model.study.signals.pictures import image_of, observe_images
 from occ_model.transmitter.scheme import check_code
+
+_Item = TypeVar("_Item")
 
 _MOST_KEPT = 3000
 """Pictures whose signals are kept for the next decoder, enough for the searches of limits."""
@@ -108,6 +111,9 @@ def plan_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
     return signal_plan(scenes, simulation_settings, is_estimated=settings.path == "image")
 
 
+_MOST_AT_ONCE = 40  # images that are simulated and read at once
+
+
 def right_bits_of_images(
     scene: Scene,
     settings: RateSettings,
@@ -121,29 +127,11 @@ def right_bits_of_images(
     first image.
     """
     check_size(scene.camera)
-    sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     pictures = _pictures_of(scene, settings)
-    for numbers in _batches(settings, first, at_once):
-        observations = _observe_cached([(pictures, number) for number in numbers])
-        scenes = [scene] * len(observations)
-        results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
-        for of_image in zip(*results, strict=True):
-            heartbeat()
-            yield tuple(_count_right_bits(result, sent) for result in of_image)
-
-
-_MOST_AT_ONCE = 40  # images that are simulated and read at once
-
-
-def _batches(settings: RateSettings, first: int, count: int) -> Iterator[range]:
-    """Yield the numbers of images that are read at once."""
-    count = 1 if settings.path == "image" else count
-    while first < settings.images:
-        last = min(first + count, settings.images)
-        yield range(first, last)
-        first = last
-        if settings.path != "image":
-            count = min(4 * count, _MOST_AT_ONCE)
+    numbers = range(first, settings.images)
+    for part in _batches(numbers, 1 if settings.path == "image" else at_once, settings.path):
+        observations = _observe_cached([(pictures, number) for number in part])
+        yield from _right_bits([scene] * len(part), observations, settings, heartbeat)
 
 
 def right_bits_of_scenes(
@@ -157,20 +145,21 @@ def right_bits_of_scenes(
     ``scenes``: each with the seed of its picture. ``chosen``: the effects to simulate, by default
     those that each scene's signal needs.
     """
-    remaining, count = iter(scenes), 1
-    while part := list(islice(remaining, count)):
+    for part in _batches(scenes, 1, settings.path):
         plans = [chosen or plan_images([scene], settings) for scene, _ in part]
         images = [
             image_of(scene, plan, seed, 0) for (scene, seed), plan in zip(part, plans, strict=True)
         ]
         observations = list(observe_images(images, settings.path, plans[0]))
-        sent_scenes = [scene for scene, _ in part]
-        read = [_read(sent_scenes, observations, decoder) for decoder in settings.decoders]
-        for scene, *of_image in zip(sent_scenes, *read, strict=True):
-            heartbeat()
-            sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
-            yield tuple(_count_right_bits(result, sent) for result in of_image)
-        if settings.path != "image":
+        yield from _right_bits([scene for scene, _ in part], observations, settings, heartbeat)
+
+
+def _batches(items: Iterable[_Item], count: int, path: SignalPath) -> Iterator[list[_Item]]:
+    """Yield items that are read at once: few at first, as not all may be asked for."""
+    remaining = iter(items)
+    while part := list(islice(remaining, count)):
+        yield part
+        if path != "image":
             count = min(4 * count, _MOST_AT_ONCE)
 
 
@@ -199,7 +188,6 @@ def read_ahead(
 
     The images of several series are simulated and read at once.
     """
-    (decoder,) = settings.decoders
     remaining = iter(series)
     for first in remaining:
         at_once = max(_MOST_AT_ONCE // len(first.numbers), 1)
@@ -209,15 +197,24 @@ def read_ahead(
             for each in part
             for number in each.numbers
         ]
-        observations = _observe_cached(keys)
-        results = iter(_read([pictures.scene for pictures, _ in keys], observations, decoder))
+        scenes = [pictures.scene for pictures, _ in keys]
+        right_bits = _right_bits(scenes, _observe_cached(keys), settings, heartbeat)
         for each in part:
-            sent = np.array(each.scene.transmitter.payload_bits, dtype=np.uint8)
-            counts = []
-            for result in islice(results, len(each.numbers)):
-                heartbeat()
-                counts.append(_count_right_bits(result, sent))
-            yield counts
+            yield [right for (right,) in islice(right_bits, len(each.numbers))]
+
+
+def _right_bits(
+    scenes: Sequence[Scene],
+    observations: Sequence[Observation | None],
+    settings: RateSettings,
+    heartbeat: Heartbeat,
+) -> Iterator[tuple[int, ...]]:
+    """Read pictures, each of its own scene, at once; yield each one's correct bits by decoder."""
+    results = [_read(scenes, observations, decoder) for decoder in settings.decoders]
+    for scene, *of_picture in zip(scenes, *results, strict=True):
+        heartbeat()
+        sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+        yield tuple(_count_right_bits(result, sent) for result in of_picture)
 
 
 def _pictures_of(scene: Scene, settings: RateSettings) -> "_StudyPictures":

@@ -19,7 +19,8 @@ import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.range_end import Bracket, EndSearch
 from occ_model.study.success_rate import ImageSeries, read_ahead
-from occ_model.study.working_range import FEW_IMAGES, READ_RATE, STEP
+from occ_model.study.value_images import FEW_IMAGES
+from occ_model.study.working_range import READ_RATE, STEP
 
 FREQUENCY, EXPOSURE = "switching_frequency", "exposure_time"
 ENDS: tuple[tuple[str, str, str, float, int], ...] = (

@@ -25,13 +25,14 @@ from occ_model.parallel.process_pool import ProcessPool
 from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study import theory, working_range as module
+from occ_model.study import theory, value_images
 from occ_model.study.confidence import count_until_refuted
 from occ_model.study.limits import advice_of, limits_of
 from occ_model.study.observation import panel_span
 from occ_model.study.range_end import END_RATIO, Bracket, EndSearch, images_to_prove
 from occ_model.study.success_rate import ImageSeries
-from occ_model.study.working_range import FEW_IMAGES, STEP
+from occ_model.study.value_images import FEW_IMAGES
+from occ_model.study.working_range import STEP, working_range
 
 SCENE = Scene()
 
@@ -51,8 +52,8 @@ def replace_reading(
             right = right_bits_of_images(each.scene, these, heartbeat, first=each.numbers.start)
             yield [count for (count,) in right]
 
-    monkeypatch.setattr(module, "right_bits_of_images", right_bits_of_images)
-    monkeypatch.setattr(module, "read_ahead", read_ahead)
+    monkeypatch.setattr(value_images, "right_bits_of_images", right_bits_of_images)
+    monkeypatch.setattr(value_images, "read_ahead", read_ahead)
 
 
 @pytest.fixture
@@ -90,7 +91,7 @@ def correct_within(*ranges: tuple[float, float]) -> Callable[[float, int, int], 
 
 def search_range(scene: Scene, name: str = "switching_frequency", **how: Any) -> WorkingRange:
     settings = RateSettings(how.get("images", 3), ("threshold",), how.get("seed", 1))
-    return module.working_range(scene, name, how.get("rate", 90.0), settings)
+    return working_range(scene, name, how.get("rate", 90.0), settings)
 
 
 def ends(range_end: RangeEnd) -> tuple[float, float]:
@@ -153,10 +154,10 @@ def test_a_range_that_reaches_the_search_limit_states_it(decoding: Decoding) -> 
     found = occ.limits(SCENE.replace(switching_frequency=3e6), images=1)
     assert found.frequency.searched == (500.0, 3e6)
     assert found.highest_frequency == 3e6
-    for working_range in (found.frequency, found.exposure):
-        for range_end in (working_range.lowest, working_range.highest):
+    for searched in (found.frequency, found.exposure):
+        for range_end in (searched.lowest, searched.highest):
             assert (range_end.fails, range_end.interval) == (None, None)
-            assert range_end.value in working_range.searched
+            assert range_end.value in searched.searched
     assert (found.shortest_exposure, found.longest_exposure) == found.exposure.searched
 
 
@@ -540,7 +541,7 @@ def searches_with_a_gap(
 
         decoding(fraction)
         settings = RateSettings(20, ("threshold",), 100 + trial)
-        found = module.working_range(SCENE, "switching_frequency", 99.0, settings)
+        found = working_range(SCENE, "switching_frequency", 99.0, settings)
         gaps = [
             (before.highest.works.value, after.lowest.works.value)
             for before, after in pairwise(found.intervals)

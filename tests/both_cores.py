@@ -1,4 +1,4 @@
-"""Do the same for many seeds, on two cores where the tests do not use them all already."""
+"""Call a function for many seeds, in two processes unless the tests already use all cores."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -14,8 +14,8 @@ def on_both_cores(what: Callable[[int], Result], seeds: Iterable[int]) -> Iterat
     if "PYTEST_XDIST_WORKER" in os.environ:
         yield from map(what, seeds)
         return
-    # A process reads this before it imports NumPy: its threads would wait for the other process.
+    # Read by a process when it imports NumPy, whose threads would compete with the other process.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    # Processes that begin anew: a fork of one that has run Qt may hang.
+    # Not forked, since a fork of a process that has run Qt may hang.
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         yield from pool.map(what, seeds, chunksize=5)

@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.results.camera import CameraMeasurement
 
 
-def measurement(mains: float = 50.0, reasons: tuple[str, ...] = ()) -> CameraMeasurement:
+def make_measurement(mains: float = 50.0, reasons: tuple[str, ...] = ()) -> CameraMeasurement:
     """Return a measurement of 27.5 us a line, with 2.97 bars in each of six tiles."""
     bars = 27.5e-6 * 1080 * 2.0 * mains
     along = np.arange(120) / 120

@@ -1,4 +1,4 @@
-"""What all tests share."""
+"""Environment, fixtures and hooks of all tests."""
 
 import builtins
 import gc
@@ -17,19 +17,19 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 # As in the programs; with a thread a core, each process of the tests would wait for the others.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# Also where Python is told to keep no compiled modules: tests start hundreds of processes, and
-# more than half of such a start would be compiling the same modules again.
+# Compiled modules are kept even if Python is told not to keep them: tests start hundreds of
+# processes, each of which would spend more than half of its start compiling.
 if sys.dont_write_bytecode:
     sys.dont_write_bytecode = False
     sys.pycache_prefix = str(Path(__file__).parents[1] / ".pytest_cache" / "bytecode")
     os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
-# No test sees or touches the presets or lessons of whoever runs it.
+# Tests neither read nor change the presets and lessons of the user who runs them.
 os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))
 os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 
-# Nor the session that they have left; what a window stores ends with the tests.
+# Nor the stored session; what a window stores is deleted after the tests.
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
 import pytest
@@ -51,7 +51,7 @@ _FONTS = """\
   <alias><family>sans-serif</family><prefer><family>DejaVu Sans</family></prefer></alias>
 </fontconfig>
 """
-"""Those that matplotlib brings along, as each system has others."""
+"""Only the fonts of matplotlib, since each system has others."""
 
 
 def use_only_these_fonts(folder: Path) -> None:
@@ -72,12 +72,12 @@ def use_only_these_fonts(folder: Path) -> None:
 use_only_these_fonts(Path(os.environ["OCC_STATE"]))
 
 NEW_EXAMPLES = "OCC_NEW_EXAMPLES" in os.environ
-"""Whether other examples are looked for, as many as Hypothesis does; else each run has the same."""
+"""Whether Hypothesis draws new examples, as many as it usually does; else always the same ones."""
 
 _PHOTOS = Path(__file__).parents[2] / "shared" / "photos"
 
 _IMPORT = builtins.__import__
-"""What carries out an import before Qt is there."""
+"""The function of imports before Qt replaces it."""
 
 _WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw-1").removeprefix("gw"))
 """The number of this process of pytest-xdist, -1 of another process."""
@@ -90,7 +90,7 @@ def pytest_unconfigure() -> None:
 
 @pytest.fixture(scope="session")
 def photos() -> Path:
-    """The folder of the real photographs; where it is missing outside CI its tests are left out."""
+    """The folder of the real photographs; outside CI, tests that need it are skipped without it."""
     if not _PHOTOS.is_dir() and not os.environ.get("CI"):
         pytest.skip("the real photographs are not here")
     assert _PHOTOS.is_dir(), "CI needs the real photographs beside the project"
@@ -111,8 +111,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(trylast=True)  # when pytest-qt has imported Qt
 def pytest_configure(config: pytest.Config) -> None:
-    """Tell the modules with tests, before they are imported, how much is tried."""
-    # PySide's own reads the source of each module that is imported, as the program says too.
+    """Set how many cases are tried, before the modules with tests are imported."""
+    # PySide's function reads the source of each imported module; the program replaces it, too.
     builtins.__import__ = _IMPORT
     if config.getoption("--whole"):
         os.environ[VARIABLE] = "1"
@@ -150,10 +150,7 @@ def pytest_make_collect_report(
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Begin with what takes long in one piece, and leave out what runs with ``--whole`` only.
-
-    What is left out counts as deselected, not as skipped.
-    """
+    """Run tests marked ``first`` first, and deselect those that run with ``--whole`` only."""
     if _WORKER >= 0:
         items.sort(key=lambda item: item.path.parts)  # alike in all processes
     items.sort(key=lambda item: item.get_closest_marker("first") is None)
@@ -203,7 +200,7 @@ def pytest_testnodedown(node: Worker) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Print how wrong each law of the hard cases was found at worst."""
+    """Print the largest error of each law of the hard cases."""
     if laws.FOUND:
         total = sum(found.cases for found in laws.FOUND.values())
         terminalreporter.write_sep("=", f"numerical health, {total:,} cases")

@@ -1,4 +1,4 @@
-"""Photos of every format that is read: damaged ones, and whole ones that are odd."""
+"""Photos of every format that is read: damaged ones, and valid but unusual ones."""
 
 import io
 import struct
@@ -32,7 +32,7 @@ def encode_with_opencv(pixels: np.ndarray, ending: str) -> bytes:
 
 @cache
 def whole_files() -> dict[str, bytes]:
-    """One small file of each kind."""
+    """Return a small file of each format."""
     exif = Image.Exif()
     exif[0x0112], exif[0x010F] = 6, "Maker"
     exif.get_ifd(0x8769).update({0x829A: 1 / 8000, 0x829D: 1.8, 0x8827: 100})
@@ -83,13 +83,13 @@ def swap_headers(rng: Generator, content: bytearray) -> bytearray:
 
 
 def write_wrong_size(rng: Generator, content: bytearray) -> bytearray:
-    """Write another size into a PNG's header, and the check sum that fits it."""
+    """Write another size into a PNG's header with its checksum, or into another format."""
     sizes = [0, 1, 63, 65, 5000, 9000, 40_000, 2**31 - 1, 2**32 - 1, int(rng.integers(2**20))]
     if content.startswith(b"\x89PNG"):
         struct.pack_into(">II", content, 16, *(int(size) for size in rng.choice(sizes, 2)))
         struct.pack_into(">I", content, 29, zlib.crc32(content[12:29]))
         return content
-    for size in (64, 48):  # in the others wherever their size stands
+    for size in (64, 48):  # wherever the size is in another format
         for order in "<>":
             written = struct.pack(f"{order}H", size)
             place = content.find(written)
@@ -104,7 +104,7 @@ WAYS: tuple[Callable[[Generator, bytearray], bytearray], ...] = (
 
 
 def make_damaged(seed: int) -> tuple[str, bytes]:
-    """Make the damaged photo of a number, and say what it is."""
+    """Return a description and the bytes of the damaged photo of a seed."""
     rng = np.random.default_rng(seed)
     kinds = list(whole_files())
     kind, way = kinds[rng.integers(len(kinds))], WAYS[rng.integers(len(WAYS))]
@@ -112,7 +112,7 @@ def make_damaged(seed: int) -> tuple[str, bytes]:
 
 
 SIZES = ((1, 1), (1, 2), (3, 1), (1, 900), (900, 1), (2, 2), (7, 5), (48, 256), (300, 300))
-"""Rows and columns of odd photos."""
+"""Rows and columns of unusual photos."""
 
 MODES = ("1", "L", "LA", "P", "RGB", "RGBA", "CMYK", "I;16", "F", "I", "HSV", "LAB", "YCbCr")
 
@@ -121,7 +121,7 @@ _ORIENTATION, _MAKER, _MODEL, _NOTES = 0x0112, 0x010F, 0x0110, 0x8769
 
 
 def make_unusual(seed: int) -> tuple[str, bytes]:
-    """Make a whole photo of an odd size, kind of pixels, or with odd notes; say what it is."""
+    """Return description and bytes of a valid photo with unusual size, pixels or EXIF data."""
     rng = np.random.default_rng(seed)
     mode = MODES[rng.integers(len(MODES))]
     picture = _picture(rng, mode)
@@ -129,9 +129,9 @@ def make_unusual(seed: int) -> tuple[str, bytes]:
     for name in rng.permutation(["PNG", "JPEG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "JPEG2000"]):
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # of what is to be odd
+                warnings.simplefilter("ignore")  # about unusual values
                 picture.save(buffer, str(name), exif=_unusual_exif(rng))
-        # No such pixels, or notes, in this one; what reads damaged notes for a TIFF is a parser.
+        # The format has no such pixels, or Pillow cannot parse the damaged EXIF data.
         except (OSError, ValueError, KeyError, TypeError, SyntaxError):
             buffer = io.BytesIO()
             continue
@@ -158,7 +158,7 @@ def _picture(rng: Generator, mode: str) -> Image.Image:
 
 
 def _unusual_exif(rng: Generator) -> bytes:
-    """Notes of a camera whose values are out of all range, or of another kind."""
+    """Return EXIF data with values of wrong range or type, sometimes damaged."""
     exif = Image.Exif()
     texts = ["", "Maker", "\x1b[31m", "a" * 5000, "\n\n", "é", "\0\0"]
     exif[_ORIENTATION] = int(rng.choice([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 255, 65535]))

@@ -1,4 +1,4 @@
-"""Films as the phases and the stated times of their frames, and their clocks beside the truth."""
+"""Films as the phases and stated times of their frames, and the clocks fitted to them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

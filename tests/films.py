@@ -39,7 +39,7 @@ RATE, LINES, COLUMNS = 30.0, 48, 64
 
 
 def stripes(number: int, lines: int = LINES, columns: int = COLUMNS) -> ByteArray:
-    """A picture of a film: stripes across the columns, which move on from frame to frame."""
+    """Return a frame of a film: stripes across the columns, which move from frame to frame."""
     lit = (np.arange(columns) + number) // 8 % 2
     picture = np.broadcast_to(np.where(lit, 235, 20).astype(np.uint8), (lines, columns)).copy()
     picture[: lines // 4] //= 4
@@ -67,7 +67,7 @@ def write_film(
             stream.codec_context.time_base = Fraction(1, 1000)
         if codec == "XVID":
             stream.codec_context.codec_tag = codec
-        container.start_encoding()  # also where there are no pictures
+        container.start_encoding()  # also if there are no pictures
         for number, picture in enumerate(pictures):
             frame = av.VideoFrame.from_ndarray(picture, "gray").reformat(format=form, threads=1)
             frame.pts = number if milliseconds is None else milliseconds[number]
@@ -77,7 +77,7 @@ def write_film(
 
 @lru_cache
 def film_bytes(ending: str, codec: str, frames: int = 20) -> bytes:
-    """The bytes of a film of stripes."""
+    """Return the bytes of a film of stripes."""
     with TemporaryDirectory() as folder:
         path = Path(folder, f"film.{ending}")
         pictures = (stripes(number) for number in range(frames))
@@ -89,7 +89,7 @@ def film_bytes(ending: str, codec: str, frames: int = 20) -> bytes:
 
 
 def make_damaged_film(seed: int) -> tuple[str, bytes]:
-    """A film's ending and bytes, damaged at random: also one of a huge size, or another codec."""
+    """Return ending and bytes of a film, damaged at random or with a wrong size or codec."""
     rng = np.random.default_rng(seed)
     ending, codec = (*KINDS, *PICTURES)[rng.integers(len(KINDS) + len(PICTURES))]
     content = bytearray(film_bytes(ending, codec, int(rng.choice([0, 1, 20, 20, 20]))))
@@ -98,7 +98,7 @@ def make_damaged_film(seed: int) -> tuple[str, bytes]:
 
 
 def read_damaged_films(seeds: range, folder: Path) -> list[str]:
-    """Read damaged films: each gives frames, a sentence, or both; give the sentences."""
+    """Read damaged films, of which each must give frames or a sentence; return the sentences."""
     sentences: list[str] = []
     for seed in seeds:
         ending, content = make_damaged_film(seed)
@@ -154,7 +154,7 @@ def repeat_first(film: bytes, frames: int) -> bytes:
 
 
 def _set_table(film: bytes, name: bytes, table: bytes) -> bytes:
-    """Put another table of frames into an MP4 film, which has them at its end."""
+    """Replace a table of frames in an MP4 film, which has its tables at the end."""
     path = (b"moov", b"trak", b"mdia", b"minf", b"stbl")
     places = [film.rindex(box) - 4 for box in path]
     place = film.index(name, places[-1]) - 4

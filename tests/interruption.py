@@ -1,4 +1,4 @@
-"""A program of ours that is interrupted while it starts or works."""
+"""Run one of the programs, and interrupt it while it starts or works."""
 
 import os
 import signal
@@ -12,7 +12,7 @@ from amount import amount
 MOMENTS = int(os.environ.get("OCC_INTERRUPTS", amount(3, 5)))
 """Moments at which each command is interrupted."""
 
-# The interpreter's own start answers Ctrl-C in its own way: we begin when ours is in place.
+# Delays count from the moment at which the program handles Ctrl-C, not the starting interpreter.
 PROGRAM = """
 import os, signal, sys
 
@@ -38,18 +38,18 @@ def run_and_interrupt(
     Parameters
     ----------
     module
-        The module.
+        The module with the function ``main``.
     words
         The command line.
     delay
-        Seconds from the moment at which the program answers Ctrl-C.
+        Seconds from the moment at which the program handles Ctrl-C.
     inherited
-        What Ctrl-C does where the program is started from.
+        How the process that starts the program handles Ctrl-C.
 
     Returns
     -------
     tuple
-        The exit code, and what stands on standard error.
+        The exit code, and the text on standard error.
     """
     reader, writer = os.pipe()
     running = subprocess.Popen(
@@ -68,10 +68,10 @@ def run_and_interrupt(
         time.sleep(delay)
         with suppress(ProcessLookupError):
             os.killpg(running.pid, signal.SIGINT)
-        _, error = running.communicate(timeout=60)  # when nobody has its end of the pipe any more
+        _, error = running.communicate(timeout=60)  # once no process has the pipe open
         deadline = time.monotonic() + 30
         while is_alive(running.pid):
-            assert time.monotonic() < deadline, "a process lives on"
+            assert time.monotonic() < deadline, "a process still runs"
             time.sleep(0.01)
     finally:
         os.close(reader)
@@ -81,7 +81,7 @@ def run_and_interrupt(
 
 
 def is_alive(group: int) -> bool:
-    """Say whether any process of a group is there."""
+    """Return whether a process group still has a process."""
     try:
         os.killpg(group, 0)
     except ProcessLookupError:

@@ -18,7 +18,7 @@ def save(folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", *
     """Write a picture in the format of its name's ending."""
     picture = Image.fromarray(picture) if isinstance(picture, np.ndarray) else picture
     if name.endswith(".heic"):
-        # Without entering the format into Pillow's list, where the loader may not look.
+        # Not registered with Pillow, whose list of formats the loader may not use.
         from pillow_heif import from_pillow
 
         exif = how.pop("exif", None)

@@ -39,7 +39,7 @@ def mosaic_of(
     noise: float = 0.0,
     seed: int = 1,
 ) -> NDArray[np.uint16]:
-    """Let a sensor see light, shape (lines, columns): white is the largest number of its bits."""
+    """Return the samples of a sensor with a Bayer filter, shape (lines, columns)."""
     colours = np.frombuffer(PATTERNS[pattern], np.uint8).reshape(2, 2)
     lines = np.arange(len(light))[:, None] % 2
     seen = light[:, None] * _SENSITIVITY[colours[lines, np.arange(columns)[None, :] % 2]]
@@ -62,7 +62,7 @@ def write_dng(
     exposure_time: tuple[int, int] = (1, 10_000),
     more_tags: tuple[Any, ...] = (),
 ) -> Path:
-    """Write a DNG file; samples of 12 bits are packed, and others are numbers of 16 bits."""
+    """Write a DNG file; samples of 12 bits are packed, others take 16 bits each."""
     tags = [
         (50706, 1, 4, b"\x01\x04\x00\x00", True),  # DNG 1.4
         (50708, 2, 0, "Simulated camera", True),
@@ -86,7 +86,7 @@ def write_dng(
 
 
 def overwrite(path: Path, **tags: int) -> None:
-    """Change tags of a TIFF that is there."""
+    """Change tags of an existing TIFF file."""
     with tifffile.TiffFile(path, mode="r+") as file:
         for name, value in tags.items():
             page = file.pages.first

@@ -1,4 +1,4 @@
-"""Films that differ in all that a reader of films meets, and their readings beside the truth."""
+"""Random films with all kinds of timing, codes and motion, and their readings with the truth."""
 
 import time
 from dataclasses import dataclass
@@ -94,14 +94,14 @@ class Judged:
     milliseconds: float
 
     def error(self, name: str) -> tuple[float, float]:
-        """Return a value of the clock less the truth, and the error that was stated."""
+        """Return a value of the clock minus the true one, and the stated error."""
         assert self.reading.clock is not None, self.reading.failure
         measured: MeasuredValue = getattr(self.reading.clock, name)
         return measured.value - self.film.truth[name], measured.error
 
 
 def film(number: int, seconds: float = 5.0) -> Film:
-    """Return one of the films; its number is the seed of all that differs."""
+    """Return a film; its number is the seed of all random values."""
     random = np.random.default_rng(2100 + number)
     rate = _RATES[number % len(_RATES)]
     gap = float(random.uniform(0.02, 0.4))
@@ -144,7 +144,7 @@ def film(number: int, seconds: float = 5.0) -> Film:
 
 
 def _path(random: np.random.Generator, seconds: float) -> tuple[Waypoint, ...]:
-    """Return a path of a panel that a hand moves to and fro, or none."""
+    """Return the path of a panel that is held in a hand, or no path."""
     if random.random() < 0.4:
         return ()
     times = np.arange(0.0, seconds + 0.5, 0.5)
@@ -158,7 +158,7 @@ def _path(random: np.random.Generator, seconds: float) -> tuple[Waypoint, ...]:
 
 
 def judge(one: Film) -> Judged:
-    """Read a film, and compare it with the truth and with exact counting."""
+    """Read a film, and compare the result with the truth."""
     video = one.video()
     reader = occ.VideoReader(one.rough)
     seen: list[ShutterTiming] = []

@@ -1,4 +1,4 @@
-"""Functions that tests let other processes call, and workers that need no processes."""
+"""Functions that tests call in other processes, and workers without processes."""
 
 import os
 import pickle
@@ -25,18 +25,18 @@ def echo(value: Any, heartbeat: Heartbeat) -> Any:
 
 
 def fail(value: Any, heartbeat: Heartbeat) -> NoReturn:
-    """Make a mistake."""
+    """Fail with an unexpected error."""
     raise ValueError(f"no {value}")
 
 
 def process_id(heartbeat: Heartbeat) -> int:
-    """Say which process it is, after a while."""
+    """Return the process id after a short time."""
     time.sleep(0.05)
     return os.getpid()
 
 
 def count_to(number: int, heartbeat: Heartbeat) -> int:
-    """Let the heart beat some times."""
+    """Call the heartbeat a number of times."""
     for _ in range(number):
         heartbeat()
     return number
@@ -50,7 +50,7 @@ def count_for_ever(heartbeat: Heartbeat) -> NoReturn:
 
 
 class HeldWorker:
-    """One worker that does a job when it is let, and that can die."""
+    """One worker that does its jobs only when told, and that can die."""
 
     count = 1
     lost_by: tuple[type[Exception], ...] = (BrokenExecutor, CancelledError)
@@ -69,13 +69,13 @@ class HeldWorker:
         return future
 
     def finish(self, number: int = 1) -> None:
-        """Do the first jobs that are held."""
+        """Do the first of the held jobs."""
         for _ in range(number):
             job, future = self.held.pop(0)
             future.set_result(do_job(job, lambda: None))
 
     def die(self) -> None:
-        """Lose all jobs that are held."""
+        """Lose all held jobs."""
         held, self.held = self.held, []
         for _, future in held:
             future.set_exception(BrokenExecutor("It was killed."))
@@ -94,9 +94,9 @@ class HeldWorker:
 
 
 class PickledJobs(HeldWorker):
-    """Workers that do each job at once, sent to and fro as between processes; some jobs end them.
+    """Workers that do each job at once, pickled as between processes; some jobs end them.
 
-    ``deadly``: their second arguments.
+    ``deadly``: the second arguments of these jobs.
     """
 
     count = 2

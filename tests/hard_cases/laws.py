@@ -1,4 +1,4 @@
-"""How many cases a law is tested on, and its largest error."""
+"""Generated cases for laws, and the largest error of each law."""
 
 import math
 import os
@@ -10,7 +10,7 @@ from amount import amount
 from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
-LAWS = 40  # laws that share all cases, of which at least so many are tested
+LAWS = 40  # laws among which the cases are divided; there are at least as many
 
 
 @dataclass
@@ -31,11 +31,11 @@ def record(law: str, ranges: str, error: float, most: float = math.inf) -> None:
     Parameters
     ----------
     law
-        What holds, in a few words, and what the error is relative to.
+        The law in a few words, and what the error is relative to.
     ranges
-        Of what it was tried.
+        The ranges of the parameters in its cases.
     error
-        Not negative; a number that is none counts as infinitely wrong.
+        The error, not negative; NaN counts as infinite.
     most
         The largest error allowed.
     """
@@ -50,7 +50,7 @@ Test = Callable[..., None]
 
 
 def _cases_of_a_law() -> int:
-    """Return a law's part of all cases; their number is known once pytest is configured."""
+    """Return how many cases a law gets; called once pytest is configured."""
     return max(int(os.environ.get("OCC_HARD_CASES", amount(800, 3_000))) // LAWS, 20)
 
 

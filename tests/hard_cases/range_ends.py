@@ -1,9 +1,9 @@
-"""Ask every question about scenes at the ends of the parameters' ranges, in its own process.
+"""Ask every question about scenes at the ends of the parameters' ranges, in a process of its own.
 
-``python tests/hard_cases/range_ends.py FIRST STEP`` asks of every STEP-th case from FIRST on, and
-prints as JSON how many there were, what fell, and where it took the most memory and time. Before
-each question it prints its case and name, so that the last line names what ended the process, if
-anything did.
+``python tests/hard_cases/range_ends.py FIRST STEP`` asks them about every STEP-th case from FIRST
+on. It prints as JSON the number of cases and questions, the failures, and the questions that needed
+the most memory and time. Before each question it prints the case and the question, so that the last
+line names the one during which the process ended.
 """
 
 import io
@@ -61,7 +61,7 @@ _MULTIPLIED = (
     "start_time", "rows", "columns", "pattern", "payload", "point_spread", "distance",
     "panel_width", "panel_height", "equivalent_focal_length",
 )  # fmt: skip
-"""Frequencies, times and sizes whose products are numbers of things."""
+"""Frequencies, times and sizes whose products are numbers of chips, columns or pixels."""
 
 _CANONICAL_TEXTS = {
     "levels": ("0", f"{' '.join(map(str, range(MOST_LEVELS)))} / {MOST_LEVELS}"),
@@ -74,7 +74,7 @@ _CANONICAL_TEXTS = {
 
 
 def base() -> Scene:
-    """Make a small picture with every effect of a real camera."""
+    """Return the scene of a small picture with every effect of a real camera."""
     scene = occ.load_preset("phone-136us-real")
     return scene.replace(rows=240, columns=320, readout_time=25e-6, distance=0.5)
 
@@ -94,7 +94,7 @@ def ends(name: str) -> tuple[ParameterValue, ...]:
 
 
 def cases() -> list[Case]:
-    """Return all parameters by themselves, pairs that multiply, and the longest packets."""
+    """Return the ends of each parameter and of pairs that multiply, and the longest packets."""
     alone = [{**_where_it_matters(name), name: end} for name in PARAMETERS for end in ends(name)]
     paired = [
         {one: end, other: other_end}
@@ -109,7 +109,7 @@ def cases() -> list[Case]:
 
 
 def _where_it_matters(name: str) -> Case:
-    """Return what a parameter needs: the light that it is of, and a colour camera."""
+    """Return the settings without which a parameter has no effect: its light, a colour camera."""
     lights = PARAMETERS[name].lights
     colour: Case = {"bayer": "rggb", "averaging": "light"} if name in GROUPS["colours"] else {}
     return {"light": lights[0] if lights else "code", **colour}
@@ -249,7 +249,7 @@ def _ask(found: Answers, what: str, question: Callable[[], object]) -> None:
     except occ.OccError as refusal:
         check_sentence(str(refusal))
         found.refused += 1
-    except (Exception, OutOfTime) as fault:  # noqa: BLE001 - told below
+    except (Exception, OutOfTime) as fault:  # noqa: BLE001 - reported below
         found.failures[what] = f"{type(fault).__name__}: {str(fault)[:300]} {place_of(fault)}"
     found.most_seconds = max(found.most_seconds, (time.process_time() - begun, what))
     found.most_megabytes = max(found.most_megabytes, (peak_megabytes(), what))
@@ -257,7 +257,7 @@ def _ask(found: Answers, what: str, question: Callable[[], object]) -> None:
 
 def _report(lines: Iterator[str]) -> None:
     first, step = (int(word) for word in lines)
-    # Anything that needs more fails by itself, without the machine.
+    # A question that needs more memory fails, and does not slow down the whole machine.
     most = round(2.0 * MEMORY * 1e6)
     resource.setrlimit(resource.RLIMIT_DATA, (most, most))
     print(json.dumps(asdict(ask_all(cases()[first::step]))))  # noqa: T201

@@ -66,8 +66,8 @@ class ExactTimes:
 
     @cached_property
     def _tables(self) -> tuple[list[int], list[int]]:
-        """Lit chips before each chip, and twice the integral of that, with the whole period's
-        last."""
+        """Lit chips before each chip, and twice the integral of that up to each chip; both end with
+        the values of a whole period."""
         lit, doubled = [0], [0]
         for chip in self.chips:
             doubled.append(doubled[-1] + 2 * lit[-1] + chip)
@@ -125,7 +125,7 @@ GEOMETRY = {"sensor-noise": False, "fixed-pattern": False, "distortion": True, "
 
 @st.composite
 def poses(draw: st.DrawFn) -> Scene:
-    """Draw a panel of any size anywhere before a small picture, with the usual lens and light."""
+    """Draw the scene of a panel of any size, at any place and angle, in a small picture."""
     distance = draw(decades(1e-3, 1e4))
     size = decades(1e-3, 1e4).map(lambda fraction: within("panel_width", fraction * distance))
     aside = st.just(0.0) | st.floats(-1.0, 1.0) | signed_decades(1e-6, 1.0)
@@ -150,7 +150,7 @@ def poses(draw: st.DrawFn) -> Scene:
 
 
 def graze(scene: Scene, remainder: float) -> Scene:
-    """Move a panel so near that hardly a corner of it is before the camera, on its axis."""
+    """Move a panel so near that its nearest corner is just in front of the camera, on its axis."""
     half = np.array([scene.transmitter.panel_width, scene.transmitter.panel_height]) / 2
     signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     corners = signs * [*half, 0.0] @ rotation_of(scene.pose).T
@@ -161,7 +161,7 @@ def graze(scene: Scene, remainder: float) -> Scene:
 
 @st.composite
 def lenses(draw: st.DrawFn) -> dict[str, float]:
-    """Coefficients of all sizes, up to the largest allowed."""
+    """Draw coefficients of distortion of all sizes, up to the largest allowed."""
     small = st.just(0.0) | signed_decades(1e-9, 1.0)
     k1, k2 = (10.0 * draw(small) for _ in range(2))
     p1, p2 = (draw(small) for _ in range(2))

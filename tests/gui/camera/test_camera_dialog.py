@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from camera_measurements import measurement
+from camera_measurements import make_measurement
 from gui.kinds import add_widget, collect
 from gui.stores import store_of
 from PIL import Image
@@ -32,7 +32,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, float]]:
         calls.append((len(photos), mains))
         if photos[0].path.stem == "bent":
             raise occ.MatchError("The bars are bent.")
-        return measurement(mains=mains, reasons=("Why.",) if len(photos) == 1 else ())
+        return make_measurement(mains=mains, reasons=("Why.",) if len(photos) == 1 else ())
 
     monkeypatch.setattr(jobs, "measure_camera", measure)
     return calls
@@ -77,9 +77,9 @@ def test_two_pictures_give_one_sentence_and_set_the_scene(
 ) -> None:
     said = collect(controller.status_message)
     line = measure(qtbot, controller, files[:2])
-    assert line == measurement().sentence
+    assert line == make_measurement().sentence
     dialog_of(controller).use.click()
-    assert store.scene.camera.readout_time == measurement().readout_time
+    assert store.scene.camera.readout_time == make_measurement().readout_time
     assert said == ["The scene's readout time is 27.5 µs."]
 
 

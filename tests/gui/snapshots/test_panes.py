@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from accuracy_points import EACH_WAY
-from camera_measurements import measurement
+from camera_measurements import make_measurement
 from gui.kinds import SnapshotOf
 from gui.photo.photo_bench import shown_photo
 from gui.snapshots.gallery import Gallery
@@ -169,11 +169,11 @@ def test_the_bars_look_as_stored(gallery: Gallery, small_scene: Scene) -> None:
 
 def test_the_dialog_of_the_camera_looks_as_stored(gallery: Gallery) -> None:
     dialog = gallery.show(CameraDialog(), 640, 560)
-    light = np.clip(measurement().waves.T[:, 2:5].repeat(40, axis=1) * 150.0 + 120.0, 0, 255)
+    light = np.clip(make_measurement().waves.T[:, 2:5].repeat(40, axis=1) * 150.0 + 120.0, 0, 255)
     question = CameraQuestion((Path("one.jpg"), Path("two.jpg")), 50.0)
     pictures = tuple(each.astype(np.uint8) for each in (light, light[::-1]))
     dialog.show_pictures([path.name for path in question.paths])
-    dialog.show_answer(CameraAnswer(question, pictures, measurement()))
+    dialog.show_answer(CameraAnswer(question, pictures, make_measurement()))
     dialog.answer.more.click()
     gallery.compare(dialog, "camera")
 

@@ -73,14 +73,14 @@ def make_match(
     best = explanation.nearest(
         lambda candidate: exposure_time(candidate, scene, estimate), photo.exposure_time
     )
-    fit = _limit_step_error(best, min(runs_of(explanation.chips)))
+    fit = limit_step_error(best, min(runs_of(explanation.chips)))
     scene = _with_timing(scene, fit, explanation, estimate, region)
     scene = with_levels(
         fit_to_photo(scene, photo, region),
         float(np.median(fit.low)),
         float(np.median(fit.low + fit.swing)),
     )
-    uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
+    uncertainties = uncertainties_of(fit, estimate, scene, region.first_column)
     doubts = doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
     exposure_fraction = uncertainties["exposure_time"] / scene.camera.exposure_time
     scene = round_estimates(scene, uncertainties)
@@ -109,7 +109,7 @@ def make_match(
             *doubts_by_fraction("exposure_time", exposure_fraction, DOUBTFUL_EXPOSURE_DEVIATION),
             *doubts_by_enhancement(photo),
             *_doubts_by_others(photo, explanation),
-            *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
+            *doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
     )
 
@@ -146,7 +146,7 @@ def _doubts_by_others(photo: Photo, explanation: Explanation) -> list[str]:
     return ["Other exposure times explain the stripes as well, and the photo notes none."]
 
 
-def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str]:
+def doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str]:
     noted = photo.exposure_time
     if noted is None:
         return []
@@ -161,7 +161,7 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
     ]
 
 
-def _limit_step_error(fit: StripeFit, shortest: int) -> StripeFit:
+def limit_step_error(fit: StripeFit, shortest: int) -> StripeFit:
     """Limit the step's uncertainty so that all edges belong to the right chips.
 
     If sharp edges lie exactly between columns, a fit's slope over the step is zero.
@@ -191,7 +191,7 @@ def _with_timing(
     )
 
 
-def _uncertainties(
+def uncertainties_of(
     fit: StripeFit, estimate: str, scene: Scene, first_column: int
 ) -> dict[str, float]:
     """Propagate the fit's covariance to the estimated parameters, in SI units."""

@@ -14,7 +14,7 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.photo.evidence.doubts import exposure_doubts
-from occ_model.photo.fitted_scene import _doubts_by_note
+from occ_model.photo.fitted_scene import doubts_by_note
 from occ_model.photo.stripes.evenly_lit import Cells
 
 
@@ -89,7 +89,7 @@ def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
     assert any("noted" in why for why in match.exposure_reasons)
     assert (match.verdict, match.exposure_verdict) == ("sure", "doubtful")
     error = match.uncertainties["exposure_time"]
-    assert _doubts_by_note(right, match.exposure_time, error) == []
+    assert doubts_by_note(right, match.exposure_time, error) == []
 
 
 def test_an_exposure_that_may_be_none_at_all_is_doubted() -> None:

@@ -29,10 +29,10 @@ class PixelResponse:
 
         ``by_timing``: shape (3, columns), those of the lit fractions.
         """
-        by_lit, by_gamma = self._rates(lit, gamma)
+        by_lit, by_gamma = self.rates(lit, gamma)
         return np.concatenate([by_lit * by_timing, by_gamma[None]])
 
-    def _rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:  # noqa: ARG002
+    def rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:  # noqa: ARG002
         """Return the values' slopes over the lit fractions and over gamma."""
         return np.ones_like(lit), np.zeros_like(lit)
 
@@ -77,7 +77,7 @@ class _AveragedLight(PixelResponse):
         value = (dark + (1.0 - dark) * lit) ** (1.0 / gamma)
         return np.asarray((value - self.black) / (1.0 - self.black))
 
-    def _rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:
+    def rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:
         dark = self.black**gamma
         # From black the curve rises without limit: no column sees so little of a chip.
         light = np.maximum(dark + (1.0 - dark) * lit, _LEAST_LIGHT)

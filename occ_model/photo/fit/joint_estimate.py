@@ -99,7 +99,7 @@ def refine_fits(
     seen, unusual = (of(found.values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:
         found = _with_step_of(found, best)
-    fit = _stripe_fit(model, _widen_covariance(found, models[0]), gamma, with_gamma=with_gamma)
+    fit = _stripe_fit(model, widen_covariance(found, unusual), gamma, with_gamma=with_gamma)
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fit.correlation < explanation.correlation - _MOST_CORRELATION_LOSS:
         doubts = (_CONTRADICTION, *_exposure_doubts(seen))
@@ -116,60 +116,53 @@ def _with_step_of(found: JointFit, best: StripeFit) -> JointFit:
     return replace(found, values=values, covariance=covariance)
 
 
-def _widen_covariance(mode: JointFit, model: JointModel) -> JointFit:
-    """Widen the covariance of all but the step where the camera's unknowns are not as usual.
+def widen_covariance(fit: JointFit, unusual: float) -> JointFit:
+    """Widen the covariance of all but the step if the camera's unknowns are unusual.
 
-    By the ratio of what they are off to what six of them are usually off (as Birge, Phys. Rev.
-    40:207, 1932, for measurements that scatter by more than they state).
+    ``unusual``: their distance from what is usual, in standard deviations. The factor is its ratio
+    to the usual distance of six numbers (as Birge, Phys. Rev. 40:207, 1932, for measurements that
+    scatter by more than they state).
     """
-    ratio = max(1.0, model.unusual(mode.values) / math.sqrt(len(PRIORS)))
-    factor = np.array([1.0, *[ratio] * (len(mode.values) - 1)])
-    return replace(mode, covariance=mode.covariance * np.outer(factor, factor))
+    ratio = max(1.0, unusual / math.sqrt(len(PRIORS)))
+    factor = np.array([1.0, *[ratio] * (len(fit.values) - 1)])
+    return replace(fit, covariance=fit.covariance * np.outer(factor, factor))
 
 
-def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma: bool) -> StripeFit:
-    values = mode.values
+def _stripe_fit(
+    model: StripeModel, found: JointFit, gamma: float, *, with_gamma: bool
+) -> StripeFit:
+    step, exposure, middle, off, *_, blur, _ = found.values.tolist()
     covariance = np.zeros((4, 4))
-    covariance[:3, :3] = mode.covariance[:3, :3]
-    timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
+    covariance[:3, :3] = found.covariance[:3, :3]
+    timing = Timing(step, exposure, middle, gamma)
+    low, swing, _ = model.levels(timing)
     unknown = math.hypot(
-        math.hypot(_UNKNOWN_RAMP, _rounding(model, timing)) * timing.exposure,
-        exposure_deviation(_UNKNOWN_BLUR * float(values[7] * timing.step) ** 2, timing.exposure),
+        math.hypot(_UNKNOWN_RAMP, rounding_error(low, swing)) * exposure,
+        exposure_deviation(_UNKNOWN_BLUR * (blur * step) ** 2, exposure),
     )
     covariance[1, 1] += unknown**2
     if with_gamma:
-        gamma *= math.exp(float(values[3]))
-        covariance[3, :3] = covariance[:3, 3] = gamma * mode.covariance[3, :3]
-        covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
-    return _describe_fit(model, replace(timing, gamma=gamma), mode, covariance)
-
-
-def _with_width(timing: Timing, mode: JointFit) -> Timing:
-    """Let an exposure be as wide as it and blur are together: variances add."""
-    columns = math.hypot(timing.exposure / timing.step, math.sqrt(12.0) * float(mode.values[7]))
-    return replace(timing, exposure=timing.step * columns)
-
-
-def _describe_fit(
-    model: StripeModel, timing: Timing, mode: JointFit, covariance: FloatArray
-) -> StripeFit:
-    """Return the fit of a timing; its profile is as blurred as the photo's where that is nearer."""
+        gamma *= math.exp(off)
+        covariance[3, :3] = covariance[:3, 3] = gamma * found.covariance[3, :3]
+        covariance[3, 3] = gamma**2 * found.covariance[3, 3]
+    timing = replace(timing, gamma=gamma)
     sharp = model.describe(timing, covariance)
-    wide = model.describe(_with_width(timing, mode), covariance)
-    if wide.correlation <= sharp.correlation:
+    # An edge is as wide as exposure and blur together: their variances add.
+    width = step * math.hypot(exposure / step, math.sqrt(12.0) * blur)
+    blurred = model.describe(replace(timing, exposure=width), covariance)
+    if blurred.correlation <= sharp.correlation:
         return sharp
-    return replace(wide, timing=timing, is_possible=sharp.is_possible)
+    return replace(blurred, timing=timing, is_possible=sharp.is_possible)
 
 
-def _rounding(model: StripeModel, timing: Timing) -> float:
-    """Return the fraction of an exposure by which the rounding of both levels changes it.
+def rounding_error(low: FloatArray, swing: FloatArray) -> float:
+    """Return the relative error of an exposure by the rounding of both levels to grey levels.
 
-    A level is rounded by up to half of one, of standard deviation 1/sqrt(12), the same in all rows
-    where there is little noise; a ramp between two levels changes its length as their distance. A
-    level that varies along the columns is rounded up here and down there: of R roundings, all but
-    one cancel.
+    The length of a ramp changes in proportion to the distance of the two levels that it lies
+    between. Each is rounded with a standard deviation of 1/sqrt(12), by the same amount in all rows
+    where there is little noise. A level that varies along the columns is rounded up here and down
+    there: of R roundings, all but one cancel.
     """
-    low, swing, _ = model.levels(timing)
     deviations = [1.0 / (math.sqrt(12.0) * max(1.0, np.ptp(one))) for one in (low, low + swing)]
     return math.hypot(*deviations) / max(float(np.median(swing)), 1.0)
 

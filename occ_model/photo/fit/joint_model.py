@@ -147,7 +147,7 @@ class JointModel:
         scale = np.where(np.arange(9) == 1, _EXPOSURE_SCALE * values[1], self._scale)
         # What is at a bound has no slope, and so is not known.
         inside = (values > self._low) & (values < self._high)
-        slopes = (self._slopes(values, shape).T * (inside * scale))[:, index]
+        slopes = (self.slopes(values, shape).T * (inside * scale))[:, index]
         scale = scale[index]
         covariance = np.zeros((9, 9))
         covariance[np.ix_(index, index)] = covariance_of(slopes, residual, self._block) * np.outer(
@@ -181,12 +181,12 @@ class JointModel:
 
         def slopes(place: FloatArray) -> FloatArray:
             values = values_of(place)
-            slopes = self._slopes(values, shape)
+            slopes = self.slopes(values, shape)
             slopes[1] *= values[1]
             return slopes[index].T
 
         place, residual = minimize_squares(
-            lambda place: self._residual(values_of(place), shape),
+            lambda place: self.residual(values_of(place), shape),
             slopes,
             first[index],
             rounds,
@@ -245,13 +245,13 @@ class JointModel:
         count = max(1, int(edges.sum()))
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
-    def _residual(self, values: FloatArray, shape: BlurShape) -> FloatArray:
+    def residual(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         self._check()
         seen = self._seen.by(values, shape)
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*self._whiten([p.residual(seen) for p in self._parts]), unusual])
 
-    def _slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
+    def slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         """Return the residual's slopes, shape (9, residuals)."""
         self._check()
         seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape)

@@ -110,7 +110,7 @@ class StripeModel:
         lit = values[self._kept]
         return self._shapes.explaining(lit, np.ones_like(lit), data)
 
-    def _slopes(self, timing: Timing) -> FloatArray:
+    def slopes(self, timing: Timing) -> FloatArray:
         """Return the residual's slopes over the timing's fields, shape (columns, 4).
 
         What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
@@ -145,7 +145,7 @@ class StripeModel:
             return Timing(*values.tolist())
 
         def slopes(place: FloatArray) -> FloatArray:
-            return self._slopes(timing_of(place))[:, free]
+            return self.slopes(timing_of(place))[:, free]
 
         found, residual = minimize_squares(
             lambda place: self._profile - self.levels(timing_of(place))[2],

@@ -65,14 +65,14 @@ def mean_fit(models: Sequence[JointModel], timing: Timing) -> JointFit:
         is_likely = free.misfit < least + _MOST_SHAPED_EXCESS
         shaped += _of_each_shape(model, free) if is_likely else [free]
         hopeless = _HOPELESS_RATIO * free.misfit
-        other = model.fit(_mirror_exposure(free.values), _LAST_ROUNDS, hopeless=hopeless)
+        other = model.fit(mirror_exposure(free.values), _LAST_ROUNDS, hopeless=hopeless)
         is_apart = abs(other.exposure - free.exposure) > free.deviation
         if is_apart and other.misfit < least + _MOST_SHAPED_EXCESS:
             shaped.append(other)
     return average_fits([fit.unbiased for fit in shaped])
 
 
-def _mirror_exposure(values: FloatArray) -> FloatArray:
+def mirror_exposure(values: FloatArray) -> FloatArray:
     """Return parameters whose exposure is on the other side of the nearest whole chips.
 
     As far from them, both make about the same stripes.
@@ -89,7 +89,7 @@ def _fit_near(model: JointModel, here: FloatArray) -> JointFit:
     best = model.fit(here, rounds=_NEAR_ROUNDS)
     for blur in _BLURS:
         # Each starts from what is usual of all else: tone and switching can make up for a blur.
-        start = model.with_usual(_with_blur(here, blur))
+        start = model.with_usual(with_blur(here, blur))
         other = model.fit(start, _NEAR_ROUNDS, hopeless=_HOPELESS_RATIO * best.misfit)
         best = min(best, other, key=lambda fit: fit.misfit)
     return best
@@ -111,7 +111,7 @@ def _of_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
     width = float(free.values[1] / free.values[0]) ** 2 / 12.0 + float(free.values[7]) ** 2
     found = {
         shape: fits(
-            [_with_blur(free.values, math.sqrt(part * width)) for part in fractions], _ROUNDS, shape
+            [with_blur(free.values, math.sqrt(part * width)) for part in fractions], _ROUNDS, shape
         )
         for shape, fractions in _BLUR_FRACTIONS.items()
     }
@@ -143,7 +143,7 @@ def _exchange_blur(found: FloatArray) -> list[FloatArray]:
     return starts
 
 
-def _with_blur(values: FloatArray, blur: float) -> FloatArray:
+def with_blur(values: FloatArray, blur: float) -> FloatArray:
     """Set the blur, and the exposure that leaves the edges' width as it is."""
     values = values.copy()
     step = float(values[0])

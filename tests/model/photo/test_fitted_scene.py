@@ -4,23 +4,23 @@ import itertools
 import math
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.files.writing import write_image
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
-    _doubts_by_note,
-    _limit_step_error,
-    _uncertainties,
     doubts_by_error,
+    doubts_by_note,
     exposure_time,
+    limit_step_error,
     readout_and_frequency,
     round_estimates,
+    uncertainties_of,
 )
 from occ_model.photo.photo_scene import with_allowed, with_chips, with_levels
 from occ_model.results.match import ESTIMATES
@@ -69,7 +69,7 @@ def test_uncertainties_follow_from_the_fits_covariance(estimate: str) -> None:
         change = 1e-6 * getattr(TIMING, field)
         moved = values(replace(TIMING, **{field: getattr(TIMING, field) + change}), scene, estimate)
         slopes.append({name: (moved[name] - here[name]) / change for name in here})
-    stated = _uncertainties(fit_of(), estimate, found, FIRST)
+    stated = uncertainties_of(fit_of(), estimate, found, FIRST)
     assert set(stated) == set(here)
     for name, deviation in stated.items():
         slope = np.array([one[name] for one in slopes])
@@ -91,9 +91,9 @@ def test_edges_at_the_right_chips_bound_the_error_of_the_step() -> None:
     """Where a fit has no slope over the step, its covariance is that of nothing."""
     wild = COVARIANCE.copy()
     wild[0, 0] = 49.0
-    bound = math.sqrt(_limit_step_error(fit_of(covariance=wild), 2).covariance[0, 0])
+    bound = math.sqrt(limit_step_error(fit_of(covariance=wild), 2).covariance[0, 0])
     assert bound == pytest.approx(0.5 / COLUMNS)
-    np.testing.assert_array_equal(_limit_step_error(fit_of(), 1).covariance, COVARIANCE)
+    np.testing.assert_array_equal(limit_step_error(fit_of(), 1).covariance, COVARIANCE)
 
 
 def test_no_value_is_rounded_to_a_wild_error() -> None:
@@ -130,9 +130,9 @@ def test_values_out_of_range_are_left_as_they_are() -> None:
 
 
 def test_a_noted_exposure_is_apart_by_the_deviations_by_which_it_is_judged() -> None:
-    photo = SimpleNamespace(exposure_time=100e-6)  # noted to 1.2 %
-    assert _doubts_by_note(photo, 103.5e-6, 0.1e-6) == []  # type: ignore[arg-type]
-    (why,) = _doubts_by_note(photo, 112e-6, 0.1e-6)  # type: ignore[arg-type]
+    photo = replace(photo_of(np.zeros((1, 1), np.uint8)), exposure_time=100e-6)  # noted to 1.2 %
+    assert doubts_by_note(photo, 103.5e-6, 0.1e-6) == []
+    (why,) = doubts_by_note(photo, 112e-6, 0.1e-6)
     assert why.endswith("are 10.0 standard deviations apart.")
 
 

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -220,7 +219,7 @@ def test_every_lamp_is_matched_by_itself_and_listed(
 def test_faint_stripes_that_repeat_otherwise_than_counted_are_doubtful(
     period: float, expected: bool
 ) -> None:
-    lamp: Any = SimpleNamespace(region=occ.Region(0, 8, 0, 400), period=period)
+    lamp = occ.Lamp(occ.Region(0, 8, 0, 400), np.array([[0, 8, 0, 400]]), 200.0, True, period)
     means = np.tile(100.0 + 50.0 * np.sin(np.arange(400) * 2.0 * np.pi / 20.0), (8, 1))
     timing: Any = None
     assert counts_some(Blinking(lamp, timing, light=0.8, dark=0.2), means) is expected

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from functools import cache
-from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -149,7 +148,7 @@ def find_stripes_of(samples: np.ndarray) -> tuple[int, int]:
 def test_a_lamp_may_reach_the_rim_of_its_photo_and_no_farther(beyond: tuple[int, int]) -> None:
     photo = photo_of(np.arange(60, dtype=np.uint8).reshape(6, 10))
     rows, columns = 6 + beyond[0], 10 + beyond[1]
-    lamp = Mock(region=Region(0, rows, 0, columns), spans=np.array([[0, 6, 0, 10]]))
+    lamp = occ.Lamp(Region(0, rows, 0, columns), np.array([[0, 6, 0, 10]]), 60.0, True)
     if any(beyond):
         with pytest.raises(ParameterError, match="which has 6 rows and 10 columns"):
             lamp_profile(photo, lamp)

@@ -1,8 +1,6 @@
 """A match says how sure it is, and why, and refuses what is no lamp's."""
 
 import pickle
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ from photo_trials import said_of_negative
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.evidence.doubts import _doubts_by_reading
 from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.initial_search import TimingSearch
 from occ_model.photo.fit.joint_model import JointModel
@@ -36,16 +33,6 @@ def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     assert refused.value.reasons[0] == PLAIN_STRIPES
     assert str(refused.value).count(PLAIN_STRIPES) == 1
     assert occ.match_photo(photo_of(bars), scene.replace(pattern="10")).lamp is not None
-
-
-def test_bright_runs_that_white_lengthens_may_be_those_of_longer_chips() -> None:
-    runs = [(2, 1), (1, 3), (3, 2)]  # bright and dark, in chips of two, each a half too long
-    chips = np.concatenate([[1] * (2 * on + 1) + [0] * (2 * off - 1) for on, off in runs])
-    found: Any = SimpleNamespace(chips=chips.astype(np.uint8), read_again=False)
-    white, dark = (SimpleNamespace(saturated=fraction, period=None) for fraction in (0.5, 0.0))
-    (why,) = _doubts_by_reading(found, white)  # type: ignore[arg-type]
-    assert "12 chips that last 2 times as long explain the same edges" in why
-    assert _doubts_by_reading(found, dark) == []  # type: ignore[arg-type]
 
 
 def test_a_refusal_holds_its_reasons_also_in_another_process() -> None:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypotheses import hypothesis
 from lit_fractions import light_of
 from simulated_photos import take
 
@@ -11,10 +12,8 @@ import occ_model as occ
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.camera_response import CameraResponse, PixelResponse, camera_responses
+from occ_model.photo.fit.camera_response import camera_responses
 from occ_model.photo.fit.chip_runs import canonical
-from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import sent_chips
@@ -103,13 +102,6 @@ TIMING = Timing(0.08, 1.3, 4.2, 2.2)
 COLUMNS = 400
 
 
-def hypothesis(chips: np.ndarray) -> Hypothesis:
-    flat = np.ones(COLUMNS)
-    fit = StripeFit(TIMING, np.zeros((4, 4)), 40.0 * flat, 100.0 * flat, flat, 0.9, 1.0, True)
-    camera = CameraResponse("light", "none", PixelResponse())
-    return Hypothesis("", Explanation(chips, (fit,), camera), fit, 10.0, True)
-
-
 @pytest.mark.parametrize("wrong", [[3], [5, 6]])
 def test_chips_that_were_misread_are_set_right(wrong: list[int]) -> None:
     """One of them, or two neighbours that are exchanged."""
@@ -117,7 +109,7 @@ def test_chips_that_were_misread_are_set_right(wrong: list[int]) -> None:
     profile = 40.0 + 100.0 * light_of(chips, TIMING, COLUMNS)
     read = chips.copy()
     read[wrong] ^= 1
-    found = nearest_other(profile, hypothesis(read), occ.Scene().transmitter)
+    found = nearest_other(profile, hypothesis(read, TIMING, COLUMNS), occ.Scene().transmitter)
     assert found.tolist() == chips.tolist()
 
 
@@ -125,7 +117,7 @@ def test_of_a_packet_all_codes_are_compared_turned_about() -> None:
     scene = occ.Scene()
     right, wrong = (sent_chips(scene.replace(code=code).transmitter) for code in (345, 718))
     profile = 40.0 + 100.0 * light_of(np.roll(right, 5), TIMING, COLUMNS)
-    found = nearest_other(profile, hypothesis(wrong), scene.transmitter)
+    found = nearest_other(profile, hypothesis(wrong, TIMING, COLUMNS), scene.transmitter)
     assert found.tolist() == np.roll(right, 5).tolist()
 
 
@@ -133,10 +125,8 @@ def test_neither_the_same_chips_turned_nor_chips_without_a_change_are_others() -
     chips = np.array([1, 0, 0, 0], dtype=np.uint8)
     turned = np.roll(chips, 1)
     profile = 40.0 + 100.0 * light_of(turned, TIMING, COLUMNS)
-    found = nearest_other(profile, hypothesis(chips), occ.Scene().transmitter)
+    found = nearest_other(profile, hypothesis(chips, TIMING, COLUMNS), occ.Scene().transmitter)
     assert 0 < found.sum() < 4
     assert sorted(found.tolist()) != sorted(chips.tolist())
-    assert (
-        nearest_other(np.zeros(9), hypothesis(np.zeros(5000, np.uint8)), occ.Scene().transmitter)
-        is None
-    )
+    many = hypothesis(np.zeros(5000, np.uint8), TIMING, COLUMNS)
+    assert nearest_other(np.zeros(9), many, occ.Scene().transmitter) is None

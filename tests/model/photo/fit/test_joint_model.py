@@ -9,7 +9,7 @@ from lit_fractions import blurred_light
 
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.joint_model import PRIORS, JointModel
-from occ_model.photo.fit.mean_fit import _mirror_exposure, _with_blur
+from occ_model.photo.fit.mean_fit import mirror_exposure, with_blur
 from occ_model.photo.fit.seen_stripes import blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -159,12 +159,12 @@ def test_another_blur_leaves_the_edges_width() -> None:
         return float((values[1] / values[0]) ** 2 / 12.0 + values[7] ** 2)
 
     for blur in (0.2, 1.1, 2.0):
-        other = _with_blur(TRUE, blur)
+        other = with_blur(TRUE, blur)
         assert other[7] == blur
         assert width(other) == pytest.approx(width(TRUE))
         assert other[[0, 2, 3, 8]].tolist() == TRUE[[0, 2, 3, 8]].tolist()
     # A blur as wide as the edge leaves a short exposure, and no negative one.
-    assert _with_blur(TRUE, 2.9)[1] == pytest.approx(0.2 * 0.09)
+    assert with_blur(TRUE, 2.9)[1] == pytest.approx(0.2 * 0.09)
 
 
 @pytest.mark.parametrize(("exposure", "other"), [(0.97, 1.03), (1.6, 2.4), (3.1, 2.9), (0.3, 0.3)])
@@ -173,6 +173,6 @@ def test_the_mirrored_exposure_is_as_far_from_the_nearest_whole_chips(
 ) -> None:
     values = TRUE.copy()
     values[1] = exposure
-    found = _mirror_exposure(values)
+    found = mirror_exposure(values)
     assert found[1] == pytest.approx(other)
     assert np.delete(found, 1).tolist() == np.delete(TRUE, 1).tolist()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from lit_fractions import blurred_light
 
-from occ_model.photo.fit.joint_model import JointModel
+from occ_model.photo.fit.joint_model import PRIORS, JointModel
 from occ_model.photo.fit.seen_stripes import BlurShape, blur_kernel, kernel_slope
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -77,16 +77,14 @@ def test_the_grey_levels_of_light_change_by_their_slopes(curve: ToneCurve) -> No
     assert off(found, np.vstack([by_light, by_tone])).max() < 1e-6
 
 
-def model_of(
-    values: np.ndarray,
-    noise: float,
-    brightest: float,
-    *,
-    gamma: float = 2.2,
-    values_blurred: bool = False,
-    wide: bool = False,
-) -> JointModel:
-    """Return the model of two profiles under uneven light, one of them half as bright."""
+SCALE = np.array([0.1 / COLUMNS, *[0.02] * 2, *[deviation for _, deviation in PRIORS.values()]])
+"""Changes of the parameters that matter about as much."""
+
+
+def profiles_of(
+    values: np.ndarray, noise: float, brightest: float, *, gamma: float, values_blurred: bool
+) -> list[EvenProfile]:
+    """Return two profiles under uneven light, one of them half as bright."""
     step, exposure, middle, *bends, blur, longer = values.tolist()
     table = ToneCurve(gamma * np.exp(bends[0]), *bends[1:]).table()
     timing, sharp = Timing(step, exposure, middle, 2.2), values_blurred
@@ -99,7 +97,7 @@ def model_of(
             grey = cv2.filter2D(grey[None], -1, kernel, borderType=cv2.BORDER_REPLICATE)[0]
         grey = grey + noise * random.normal(size=COLUMNS)
         profiles.append(EvenProfile(np.minimum(grey, 255.0), grey < 255.0, 20.0))
-    return JointModel(profiles, CHIPS, step, gamma, values_blurred=values_blurred, wide=wide)
+    return profiles
 
 
 @pytest.mark.parametrize("brightest", [0.5, 1.5])
@@ -114,12 +112,16 @@ def test_half_of_the_slopes_are_off_by_less_than_the_residuals_part(
     true = drawn(1)
     if gamma == 1.0:  # of pixel values that are averaged, whose gamma and offset are not fitted
         true[3:5] = 0.0
-    model = model_of(true, noise, brightest, gamma=gamma, values_blurred=values_blurred, wide=wide)
+    profiles = profiles_of(true, noise, brightest, gamma=gamma, values_blurred=values_blurred)
+    model = JointModel(
+        profiles, CHIPS, float(true[0]), gamma, values_blurred=values_blurred, wide=wide
+    )
+    swing = min(np.ptp(one.values[one.kept]) for one in profiles)
 
     def residual(scaled: np.ndarray) -> np.ndarray:
-        return model._residual(true + scaled * model._scale, shape)
+        return model.residual(true + scaled * SCALE, shape)
 
-    slopes = model._slopes(true, shape) * model._scale[:, None]
+    slopes = model.slopes(true, shape) * SCALE[:, None]
     wrong = off(slopes, central(residual, np.zeros(9), 1e-3), 0.5)
     left = np.sqrt(np.nanmean(model.misfit_of_columns(true)))
-    assert wrong.max() < left / min(np.ptp(part.data) for part in model._parts)
+    assert wrong.max() < left / swing

@@ -25,7 +25,7 @@ class Power(PixelResponse):
     def __call__(self, lit: np.ndarray, gamma: float) -> np.ndarray:
         return lit**gamma
 
-    def _rates(self, lit: np.ndarray, gamma: float) -> tuple[np.ndarray, np.ndarray]:
+    def rates(self, lit: np.ndarray, gamma: float) -> tuple[np.ndarray, np.ndarray]:
         steady = np.maximum(lit, 1e-9)
         return gamma * steady ** (gamma - 1.0), np.log(steady) * steady**gamma
 
@@ -109,7 +109,7 @@ def test_a_fit_states_what_noise_does_to_it() -> None:
 def test_white_columns_do_not_change_with_the_timing() -> None:
     model = model_of(np.minimum(PROFILE + 120.0, 255.0))
     white = PROFILE + 120.0 > 256.0
-    slopes = model._slopes(TRUE)
+    slopes = model.slopes(TRUE)
     assert not slopes[white].any()
     assert np.abs(slopes[~white]).max() > 1.0
 

@@ -48,23 +48,23 @@ class AccuracyController(QObject):
         self._snapshot: Snapshot | None = None
         self._idle_timer = QTimer(self, singleShot=True)
         self._idle_timer.timeout.connect(self._start)
-        self.runner: Task[SimulationRequest, None] = Task(
+        self.task: Task[SimulationRequest, None] = Task(
             CostMeasurement(), "accuracy study", impatient=True
         )
-        self.runner.reported.connect(self._show)
-        self.runner.finished.connect(self._finish)
-        self.runner.failed.connect(self._fail)
+        self.task.reported.connect(self._show)
+        self.task.finished.connect(self._finish)
+        self.task.failed.connect(self._fail)
         self.forecasts: Task[_Question, tuple[SimulationRequest, Forecast]] = Task(
             _predict, "forecast of costs"
         )
         self.forecasts.finished.connect(lambda answer: view.show_forecast(*answer))
         for store in (scenes, scenes.settings):
             store.changed.connect(self._restart)
-        simulation.runner.idle.connect(self._wait_until_idle)
+        simulation.task.idle.connect(self._wait_until_idle)
 
     @property
     def is_idle(self) -> bool:
-        is_busy = self._idle_timer.isActive() or not self.runner.is_idle
+        is_busy = self._idle_timer.isActive() or not self.task.is_idle
         return not is_busy and self.forecasts.is_idle
 
     def _request(self) -> SimulationRequest:
@@ -77,13 +77,13 @@ class AccuracyController(QObject):
             self._wait_until_idle()
             return
         self._idle_timer.stop()
-        if not self.runner.is_idle:
-            self.runner.cancel()
+        if not self.task.is_idle:
+            self.task.cancel()
             self._view.plot.show_study_outdated()
 
     def _restart(self) -> None:
         self._idle_timer.stop()
-        self.runner.cancel()
+        self.task.cancel()
         self._finished_request = None
         self._view.plot.show_study_outdated()
         self._predict()
@@ -106,14 +106,14 @@ class AccuracyController(QObject):
         self.forecasts.ask((request, costs))
 
     def _wait_until_idle(self) -> None:
-        if self._is_visible and self.runner.is_idle and self._finished_request is None:
+        if self._is_visible and self.task.is_idle and self._finished_request is None:
             self._idle_timer.start(IDLE_MS)
 
     def _start(self) -> None:
-        if not self._simulation.runner.is_idle:
+        if not self._simulation.task.is_idle:
             return  # it starts again when the simulation is idle
         self._count = 0
-        self.runner.ask(self._request())
+        self.task.ask(self._request())
         self._view.plot.show_study_begun()
 
     def _show(self, report: SceneCosts | list[MoveTime] | MeasuredPoint) -> None:
@@ -147,7 +147,7 @@ class AccuracyController(QObject):
 
     def stop(self) -> None:
         self._idle_timer.stop()
-        self.runner.stop()
+        self.task.stop()
         self.forecasts.stop()
 
 

@@ -84,10 +84,10 @@ class Application(Parts):
 
     def _connect_photos(self) -> None:
         window, photos, menus = self.window, self.photos, self.window.menus
-        photos.work.begun.connect(self._make_photo_pane)
-        photos.work.begun.connect(window.reading.begin)
-        photos.work.task.reported.connect(window.reading.show_progress)
-        photos.work.ended.connect(window.reading.end)
+        photos.loading.begun.connect(self._make_photo_pane)
+        photos.loading.begun.connect(window.reading.begin)
+        photos.loading.task.reported.connect(window.reading.show_progress)
+        photos.loading.ended.connect(window.reading.end)
         window.reading.cancelled.connect(photos.cancel)
         photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)
@@ -133,7 +133,7 @@ class Application(Parts):
 
     @property
     def is_idle(self) -> bool:
-        parts = (self.simulation.runner, self.outdated, self.pins, self.shell)
+        parts = (self.simulation.task, self.outdated, self.pins, self.shell)
         return all(part.is_idle for part in parts)
 
     @property
@@ -172,6 +172,6 @@ class Application(Parts):
         self.lessons.end()
 
     def stop(self) -> None:
-        for part in (self.simulation, self.pins.runner, self.shell, self.background_rates):
+        for part in (self.simulation, self.pins.task, self.shell, self.background_rates):
             part.stop()
         self.error_reports.remove()

@@ -277,7 +277,7 @@ class Parts(QObject):
 
     def _may_measure_rates(self) -> bool:
         """Return whether the first picture is shown, or none is being simulated."""
-        return self.present.latest is not None or self.simulation.runner.is_idle
+        return self.present.latest is not None or self.simulation.task.is_idle
 
 
 def _make_controls() -> ControlPanel:

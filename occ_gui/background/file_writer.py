@@ -26,19 +26,19 @@ class FileWriter(QObject, Generic[Request]):
     ) -> None:
         super().__init__()
         self._bar, self._cancelled_sentence = bar, cancelled_sentence
-        self.runner: Task[Request, Path] = Task(write, name, impatient=True)
-        self.runner.reported.connect(bar.show_progress)
-        self.runner.finished.connect(self._finish)
-        self.runner.failed.connect(self._fail)
+        self.task: Task[Request, Path] = Task(write, name, impatient=True)
+        self.task.reported.connect(bar.show_progress)
+        self.task.finished.connect(self._finish)
+        self.task.failed.connect(self._fail)
         bar.cancelled.connect(self.cancel)
 
     def start(self, request: Request) -> None:
         self._bar.begin()
-        self.runner.ask(request)
+        self.task.ask(request)
 
     def cancel(self) -> None:
-        if not self.runner.is_idle:
-            self.runner.cancel()
+        if not self.task.is_idle:
+            self.task.cancel()
             self._bar.end()
             self.status_message.emit(self._cancelled_sentence)
 

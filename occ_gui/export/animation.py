@@ -39,7 +39,7 @@ class AnimationExport(Service):
         self.writer: FileWriter[_Film] = FileWriter(
             _write, "animation", bar, "The animation was cancelled."
         )
-        self.tasks = (self.writer.runner,)
+        self.tasks = (self.writer.task,)
         self.writer.written.connect(preferences.visit_export)
         self.writer.status_message.connect(self.status_message)
 

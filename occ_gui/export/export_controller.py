@@ -95,9 +95,6 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest], report: Report) 
             folder.rmdir()
 
 
-_FIGURE_PANES = ("profile", "accuracy", "map", "bench", "bands", "room")
-"""Panes with a figure of the same name; for any other pane, the picture is copied."""
-
 _ENDING_KEY = "export/ending"  # key of the last exported file's ending in the preferences
 
 
@@ -123,13 +120,13 @@ class ExportController(Service):
         self._queue: deque[ExportJob] = deque()
         self._omissions = ""
         # A lambda looks up `export` at each call, so that tests can replace it.
-        self.runner: Task[ExportJob, ExportResult] = Task(
+        self.task: Task[ExportJob, ExportResult] = Task(
             lambda request, report: export(request, report), "export"
         )
-        self.tasks = (self.runner,)
-        self.runner.finished.connect(self._report)
-        self.runner.failed.connect(self.file_failed)
-        self.runner.idle.connect(self._draw_next)
+        self.tasks = (self.task,)
+        self.task.finished.connect(self._report)
+        self.task.failed.connect(self.file_failed)
+        self.task.idle.connect(self._draw_next)
 
     @property
     def is_idle(self) -> bool:
@@ -193,11 +190,12 @@ class ExportController(Service):
         self._present.ask(partial(self._draw, name, None))
 
     def copy_current(self) -> None:
+        """Copy the figure of the current pane, or the picture if the pane has none."""
         pane = self._current_pane()
         if pane == "decode":
             self.copy(f"decoding-{self._store.workspace.decoder}")
             return
-        self.copy(pane if pane in _FIGURE_PANES else PICTURE)
+        self.copy(pane if pane in self._shell.figures else PICTURE)
 
     def _draw(self, name: str, path: Path | None, snapshot: Snapshot) -> None:
         request = self._request_or_report(name, snapshot)
@@ -222,8 +220,8 @@ class ExportController(Service):
         self._draw_next()
 
     def _draw_next(self) -> None:
-        if self._queue and self.runner.is_idle:
-            self.runner.ask(self._queue.popleft())
+        if self._queue and self.task.is_idle:
+            self.task.ask(self._queue.popleft())
 
     def _report(self, result: ExportResult) -> None:
         job = result.job

@@ -29,12 +29,12 @@ class LessonAnswers(QObject):
         super().__init__()
         self._records: dict[tuple[str, int], AnsweredStep] = {}
         self._queue: list[_Question] = []  # the one being checked, then those that wait
-        self.runner: Task[_Question, tuple[_Question, CheckedAnswer]] = Task(
+        self.task: Task[_Question, tuple[_Question, CheckedAnswer]] = Task(
             lambda question, _: _check(question), "lesson"
         )
-        self.runner.finished.connect(self._keep)
-        self.runner.failed.connect(self._keep_failure)
-        self.runner.idle.connect(self._check_next)
+        self.task.finished.connect(self._keep)
+        self.task.failed.connect(self._keep_failure)
+        self.task.idle.connect(self._check_next)
 
     def check(
         self, lesson: Lesson, place: int, text: str, scene: Scene, match: Match | None, photo: str
@@ -46,7 +46,7 @@ class LessonAnswers(QObject):
             asked = replace(asked, match=match, photo=photo)
         self._records[lesson.name, place] = asked  # in place of an earlier one
         self._queue.append(_Question(lesson, place, text, asked))
-        if self.runner.is_idle:
+        if self.task.is_idle:
             self._check_next()
 
     def is_checking(self, lesson: Lesson) -> bool:
@@ -71,7 +71,7 @@ class LessonAnswers(QObject):
 
     def _check_next(self) -> None:
         if self._queue:
-            self.runner.ask(self._queue[0])
+            self.task.ask(self._queue[0])
 
     def _keep_failure(self, sentence: str) -> None:
         question = self._queue[0]

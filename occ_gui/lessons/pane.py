@@ -34,11 +34,9 @@ class LessonReports(QObject):
     def __init__(self, window: QWidget | None, preferences: Preferences) -> None:
         super().__init__()
         self._window, self._preferences = window, preferences
-        self.runner: Task[Callable[[], Path], Path] = Task(
-            lambda write, _: write(), "lesson report"
-        )
-        self.runner.finished.connect(self._announce)
-        self.runner.failed.connect(self.status_message)
+        self.task: Task[Callable[[], Path], Path] = Task(lambda write, _: write(), "lesson report")
+        self.task.finished.connect(self._announce)
+        self.task.failed.connect(self.status_message)
 
     @property
     def author(self) -> str:
@@ -59,7 +57,7 @@ class LessonReports(QObject):
             path = Path(name)
             path = path if path.suffix else path.with_suffix(_SUFFIX)
             self.status_message.emit("Drawing…")
-            self.runner.ask(partial(_write, path, lesson, steps, self.author))
+            self.task.ask(partial(_write, path, lesson, steps, self.author))
 
     def _announce(self, path: Path) -> None:
         self._preferences.visit_export(path)
@@ -91,7 +89,7 @@ class LessonPane(Pane[None]):
         self.answers = LessonAnswers()
         self.controller = LessonController(scenes.store, results_store, view, self.answers)
         self.reports = LessonReports(view, preferences)
-        self.tasks = (self.answers.runner, self.reports.runner)
+        self.tasks = (self.answers.task, self.reports.task)
         self._end = view.end
         self._end.author.setText(self.reports.author)
         self._end.author.editingFinished.connect(

@@ -75,12 +75,12 @@ class PhotoPane(Pane[ShownPhoto]):
         self.parts = PartEdits(scenes.store, results_store)
         self.many = ManyPhotosController(scenes, photos, view.many, results_store)
         self.lamps = LampSearch(photos, results_store)
-        self.works = (
+        self._updaters = (
             make_stripe_updater(scenes.store, results_store),
             make_chip_updater(scenes.store, results_store),
         )
-        works = (photos.work, self.matching, self.lamps, *self.works)
-        self.tasks = (*(work.task for work in works), self.many.runner)
+        parts = (photos.loading, self.matching, self.lamps, self.many, *self._updaters)
+        self.tasks = tuple(part.task for part in parts)
         self.outlines = LampOutlines(image.photo.box)
         self.stripes = FittedStripes(image.photo.box)
         self._shown = ShownPhoto(scenes.scene, photos.choice)

@@ -38,11 +38,11 @@ class PhotoController(QObject):
         self._store, self._results_store = store, results_store
         self._shown_choice = store.workspace.photo
         task: Task[PhotoSource, PhotoDocument] = Task(_load, "loading of the photo", impatient=True)
-        self.work = ResultUpdater(
+        self.loading = ResultUpdater(
             store, results_store, task, lambda workspace, _: workspace.photo.source, _put,
             stays=True, keep=KEPT_PHOTOS,
         )  # fmt: skip
-        self.work.failed.connect(self._fail)
+        self.loading.failed.connect(self._fail)
         results_store.select(lambda results: results.photo).changed.connect(self._keep_shown_choice)
         results_store.select(lambda results: results.photo).changed.connect(self.opened)
 
@@ -61,11 +61,11 @@ class PhotoController(QObject):
 
     def put(self, document: PhotoDocument) -> None:
         """Store the open photo's document, and keep its results for when it is opened again."""
-        self.work.keep(document.without_work())
+        self.loading.keep(document.without_work())
         self._results_store.put(_put(self._results_store.results, document))
 
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
-        if self.work.task.is_idle:
+        if self.loading.task.is_idle:
             self._shown_choice = self.choice
         workspace = self._store.workspace
         self._store.put(replace(workspace, photo=change(workspace.photo)))
@@ -81,7 +81,7 @@ class PhotoController(QObject):
 
     def cancel(self) -> None:
         """Cancel the loading of a photo; the previous photo stays."""
-        if not self.work.task.is_idle:
+        if not self.loading.task.is_idle:
             self._restore_shown_choice()
 
     def set_scan_axis(self, scan_axis: str) -> None:

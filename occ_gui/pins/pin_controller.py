@@ -36,12 +36,12 @@ class PinController(QObject):
         self._pins: dict[str, Pin] = {}
         self._may_simulate = False
         self.pinned = PinnedPair()
-        self.runner: Task[dict[str, SimulationRequest], None] = Task(
+        self.task: Task[dict[str, SimulationRequest], None] = Task(
             _simulate_all, "comparison", impatient=True
         )
-        self.runner.reported.connect(self._take_snapshot)
-        self.runner.finished.connect(self._forget_missing)
-        self.runner.failed.connect(self._forget_missing)
+        self.task.reported.connect(self._take_snapshot)
+        self.task.finished.connect(self._forget_missing)
+        self.task.failed.connect(self._forget_missing)
         self._store.select(lambda workspace: workspace.pins).changed.connect(self._follow_pins)
 
     @property
@@ -78,8 +78,8 @@ class PinController(QObject):
 
     def _simulate(self) -> None:
         """Simulate the missing pins, once the window has its first picture."""
-        if self._missing and self._may_simulate and self.runner.is_idle:
-            self.runner.ask(self._missing)
+        if self._missing and self._may_simulate and self.task.is_idle:
+            self.task.ask(self._missing)
 
     def _take_snapshot(self, result: tuple[str, Snapshot]) -> None:
         name, snapshot = result

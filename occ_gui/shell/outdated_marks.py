@@ -74,7 +74,7 @@ class OutdatedMarks(QObject):
 
     def _on_failure(self, _sentence: str) -> None:
         # The failure of an earlier request says nothing about the present one.
-        if self._simulation.runner.is_idle:
+        if self._simulation.task.is_idle:
             self._picture_when_refused = self._results_store.results.picture
         self._update()
 

@@ -82,17 +82,17 @@ class SimulationController(QObject):
         self.moves = MoveLog()
         self._extra_decoders: tuple[str, ...] = ()
         self._must_wait: Callable[[], bool] = lambda: False
-        self.runner: Task[SimulationRequest, Snapshot] = Task(self._simulate, "simulation")
-        self.runner.reported.connect(self._show_report)
-        self.runner.finished.connect(self._show)
-        self.runner.failed.connect(self.failed)
-        self.runner.failed_for.connect(self.failed_for)
+        self.task: Task[SimulationRequest, Snapshot] = Task(self._simulate, "simulation")
+        self.task.reported.connect(self._show_report)
+        self.task.finished.connect(self._show)
+        self.task.failed.connect(self.failed)
+        self.task.failed_for.connect(self.failed_for)
         for store in (scenes, scenes.settings):
             store.changed.connect(self._submit)
         scenes.store.select(lambda workspace: workspace.decoder).changed.connect(self.add_decoder)
         self.ages = ResultAges(self._request())
         # No signal is needed, because there are no panes yet.
-        self.runner.ask(self.ages.present)
+        self.task.ask(self.ages.present)
 
     def set_draft_resolution(self, rows_per_pixel: Callable[[], float]) -> None:
         """Give drafts as many rows as the screen shows, or fewer if drafts are late.
@@ -110,7 +110,7 @@ class SimulationController(QObject):
         self._extra_decoders = () if decoder in QUICK_DECODERS else (decoder,)
         reading = self._reading
         if self._extra_decoders and (reading is None or decoder not in reading.results):
-            self.runner.ask(self._request())
+            self.task.ask(self._request())
 
     def _request(self) -> SimulationRequest:
         scene = self._scenes.seen
@@ -124,7 +124,7 @@ class SimulationController(QObject):
         if request == self.ages.present:  # one step has changed both stores
             return
         self.ages.begin(request)
-        self.runner.ask(request)
+        self.task.ask(request)
         self.submitted.emit()
 
     def _simulate(self, request: SimulationRequest, report: TaskReporter) -> Snapshot:
@@ -205,5 +205,5 @@ class SimulationController(QObject):
         return self.ages.age(reading.request) <= self.ages.age(last.request)
 
     def stop(self) -> None:
-        self.runner.stop()
+        self.task.stop()
         self.blockSignals(True)

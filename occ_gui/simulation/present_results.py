@@ -22,7 +22,7 @@ class PresentResults(QObject):
     def __init__(self, simulation: SimulationController) -> None:
         super().__init__()
         self._ages = simulation.ages
-        self._runner = simulation.runner
+        self._task = simulation.task
         self._waiting_consumers: list[ResultsConsumer] = []
         self._is_refused = False
         self.latest: Snapshot | None = None
@@ -60,7 +60,7 @@ class PresentResults(QObject):
 
     def _on_failure(self, _sentence: str) -> None:
         # A failure of an earlier request says nothing about the present one.
-        self._is_refused = self._runner.is_idle
+        self._is_refused = self._task.is_idle
         if self._is_refused and self._waiting_consumers:
             self._cancel_requests()
 

@@ -188,16 +188,16 @@ class FilmReader(QObject):
         self.reading = FilmReading()
         self._request: ReadingRequest | None = None
         self.is_done = False
-        self.runner: Task[ReadingRequest, FilmReading] = Task(
+        self.task: Task[ReadingRequest, FilmReading] = Task(
             read_film, "reading of the film", impatient=True
         )
-        self.runner.reported.connect(self._on_report)
-        self.runner.finished.connect(self._on_end)
-        self.runner.failed.connect(self._on_failure)
+        self.task.reported.connect(self._on_report)
+        self.task.finished.connect(self._on_end)
+        self.task.failed.connect(self._on_failure)
 
     @property
     def is_running(self) -> bool:
-        return not self.runner.is_idle
+        return not self.task.is_idle
 
     @property
     def scene(self) -> Scene | None:
@@ -206,16 +206,16 @@ class FilmReader(QObject):
     def start(self, film: Video, scene: Scene, is_live: bool = False) -> None:
         self._request, self.is_done = ReadingRequest(film, scene, is_live), False
         self.reading = FilmReading()
-        self.runner.ask(self._request)
+        self.task.ask(self._request)
         self.changed.emit()
 
     def cancel(self) -> None:
-        if not self.runner.is_idle:
-            self.runner.cancel()
+        if not self.task.is_idle:
+            self.task.cancel()
             self.changed.emit()
 
     def forget(self) -> None:
-        self.runner.cancel()
+        self.task.cancel()
         self._request, self.is_done = None, False
         self.reading = FilmReading()
         self.changed.emit()

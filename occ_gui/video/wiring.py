@@ -58,7 +58,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.saving.status_message.connect(self.status_message)
         self.view.form.save_asked.connect(self.save_asked)
         films = self.films
-        self.tasks = (self.saving.runner, self.live.finder, self.readings.runner,
+        self.tasks = (self.saving.task, self.live.finder, self.readings.task,
                       films.opener.task, films.loader)  # fmt: skip
         self._connect_film()
         self._connect_reading()
@@ -114,7 +114,7 @@ class VideoWiring(Pane[FilmChoice]):
     @property
     def is_idle(self) -> bool:
         """Whether the frame is shown and the film is read; the reading of a camera never ends."""
-        endless_task = self.readings.runner if self.live.is_filming else None
+        endless_task = self.readings.task if self.live.is_filming else None
         return all(task.is_idle for task in self.tasks if task is not endless_task)
 
     def set_visible(self, visible: bool) -> None:

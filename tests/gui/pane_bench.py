@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import export
+from occ_gui.app.services import export
 from occ_gui.background.task import Task
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.wiring import BackgroundRates
@@ -97,7 +97,7 @@ class PaneBench:
         )
         self.store, self.settings = self.scenes.store, self.scenes.settings
         self.simulation: Any = SimpleNamespace(
-            runner=Task(lambda *_: None, "no simulation"), moves=MoveLog()
+            task=Task(lambda *_: None, "no simulation"), moves=MoveLog()
         )
         self.hear_first: list[Callable[[Snapshot], object]] = []
         """Who hears of exact results before the panes."""

@@ -134,7 +134,7 @@ def test_random_actions_cause_no_exception_warning_or_leak(
             used.append(used_memory())
             print(number, "actions, bytes in use and blocks of Python:", used[-1])  # noqa: T201
     monkey.come_home(home)
-    assert application.simulation.runner.is_idle
+    assert application.simulation.task.is_idle
     # A mistake of ours on another thread becomes a sentence on the screen, and a line here.
     assert [each.message for each in caplog.records if each.levelno >= logging.WARNING] == []
     if used:

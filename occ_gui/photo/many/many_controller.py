@@ -77,18 +77,18 @@ class ManyPhotosController(QObject):
         self._rows: dict[int, PhotoRow] = {}
         self._finished_count = 0
         self.table: PhotoTable | None = None
-        self.runner: Task[ManyRequest, PhotoTable] = Task(
+        self.task: Task[ManyRequest, PhotoTable] = Task(
             match_all, "match of several photos", impatient=True
         )
-        self.runner.reported.connect(self._take_row)
-        self.runner.finished.connect(self._take_table)
-        self.runner.failed.connect(view.show_failure)
+        self.task.reported.connect(self._take_row)
+        self.task.finished.connect(self._take_table)
+        self.task.failed.connect(view.show_failure)
         view.cancelled.connect(self.cancel)
         view.closed.connect(lambda: photos.list_files(()))
         view.rows.known_entered.connect(self._match_again)
 
     def show_files(self, paths: tuple[Path, ...]) -> None:
-        self.runner.cancel()
+        self.task.cancel()
         self._rows, self.table = {}, None
         self._results_store.put(replace(self._results_store.results, listed=None))
         self._view.show_files(paths)
@@ -118,7 +118,7 @@ class ManyPhotosController(QObject):
         self._listed = ListedRows((), options, known_value(choice.estimate, self._scenes.scene))
         self._put_rows()
         self._view.begin_match(choice.estimate, scene)
-        self.runner.ask(ManyRequest(paths, settings, self._jobs))
+        self.task.ask(ManyRequest(paths, settings, self._jobs))
 
     def _match_again(self, index: int) -> None:
         """Match a photo again after its known value was entered, if all have been matched."""
@@ -131,12 +131,12 @@ class ManyPhotosController(QObject):
         self._finished_count, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)
         paths = self.photos.choice.listed
-        self.runner.ask(ManyRequest(paths, settings, self._jobs, table.rows, index))
+        self.task.ask(ManyRequest(paths, settings, self._jobs, table.rows, index))
 
     def cancel(self) -> None:
         """Cancel the work; finished rows stay."""
-        if not self.runner.is_idle:
-            self.runner.cancel()
+        if not self.task.is_idle:
+            self.task.cancel()
             self._view.end_match()
 
     def _take_row(self, result: tuple[int, PhotoRow] | None) -> None:

@@ -72,7 +72,7 @@ class Bench:
         self._qtbot.waitUntil(lambda: shown in self.shown)
 
     def wait_until_idle(self) -> None:
-        self._qtbot.waitUntil(lambda: self.simulation.runner.is_idle and self.controller.is_idle)
+        self._qtbot.waitUntil(lambda: self.simulation.task.is_idle and self.controller.is_idle)
 
     def stop(self) -> None:
         self.allow(100)
@@ -103,7 +103,7 @@ def test_while_visible_the_points_come_one_by_one_and_only_once(bench: Bench) ->
     assert bench.requests == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
     bench.controller.set_visible(False)
     bench.controller.set_visible(True)
-    assert bench.controller.runner.is_idle
+    assert bench.controller.task.is_idle
     bench.wait_until_idle()
     assert bench.shown[-1] == "study_finished"
 
@@ -113,7 +113,7 @@ def test_a_change_cancels_the_study_and_the_next_one_includes_it(bench: Bench) -
     bench.allow(1)
     bench.wait_for("1 of 3")
     bench.scenes.change(iso=200.0)
-    assert bench.controller.runner.is_idle
+    assert bench.controller.task.is_idle
     bench.settings.set_tolerance(2.0)
     assert bench.shown[2:] == ["study_outdated", "study_outdated"]
     bench.allow(1 + TOTAL)
@@ -131,7 +131,7 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
     assert bench.controller.is_idle
     assert bench.shown[-1] == "study_outdated"
     bench.scenes.change(iso=200.0)
-    qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+    qtbot.waitUntil(lambda: bench.simulation.task.is_idle)
     qtbot.wait(2 * IDLE_MS)
     assert bench.controller.is_idle, "the pane is hidden"
     bench.controller.set_visible(True)
@@ -144,7 +144,7 @@ def test_the_study_waits_while_a_picture_is_simulated(
     bench: Bench, qtbot: QtBot, release: Event
 ) -> None:
     bench.scenes.change(iso=123.0)
-    assert not bench.simulation.runner.is_idle
+    assert not bench.simulation.task.is_idle
     bench.controller.set_visible(True)
     qtbot.waitUntil(lambda: bench.controller.is_idle)
     assert bench.requests == []
@@ -275,7 +275,7 @@ def test_moves_of_the_user_count_until_nine_later_ones(bench: Bench, qtbot: QtBo
     log = bench.simulation.moves
     for number in range(12):
         bench.scenes.change(iso=200.0 + number)
-        qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
+        qtbot.waitUntil(lambda: bench.simulation.task.is_idle)
     times = log.costs_of(bench.snapshots[-1].frame).picture.times
     seconds = [snapshot.simulation_seconds for snapshot in bench.snapshots[-9:]]
     assert times.count == 9

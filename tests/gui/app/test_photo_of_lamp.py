@@ -19,7 +19,6 @@ from occ_model.scene.scene import Scene
 
 LAMP: dict[str, ParameterValue] = {"light": "lamp", "lamp_frequency": 1e3, "duty": 0.54}
 """In fiftieths of its period, as it is fitted, it is 27 chips of 50 kHz."""
-"""In fiftieths of its period, as it is fitted, it is 27 chips of 50 kHz."""
 
 
 @pytest.fixture

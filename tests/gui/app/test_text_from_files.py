@@ -120,7 +120,7 @@ def test_a_lessons_title_is_plain_text(
     view, answers = LessonView(), LessonAnswers()
     qtbot.addWidget(view)
     controller = LessonController(application.store.store, application.results_store, view, answers)
-    answers.runner.stop()
+    answers.task.stop()
     controller.set_visible(True)
     assert strip_mnemonics(view.list.choices[0].text()).startswith(f"{TAG} & co")
     controller.choose(hostile[0].name)

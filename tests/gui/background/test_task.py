@@ -27,9 +27,9 @@ class Bench:
         self.results: list[object] = []
         self.result_threads: set[int] = set()
         self.failures: list[str] = []
-        self.runner: Task[object, object] = Task(self._work, "test of the runner")
-        self.runner.finished.connect(self._note_result)
-        self.runner.failed.connect(self.failures.append)
+        self.task: Task[object, object] = Task(self._work, "test of the task")
+        self.task.finished.connect(self._note_result)
+        self.task.failed.connect(self.failures.append)
 
     def _work(self, request: object, report: TaskReporter) -> object:
         self.worked_on.append(request)
@@ -49,7 +49,7 @@ class Bench:
     def ask_and_hold(self, request: object) -> None:
         self.begun.clear()
         self.go_on.clear()
-        self.runner.ask(request)
+        self.task.ask(request)
         assert self.begun.wait(PATIENCE_S)
 
 
@@ -58,7 +58,7 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
     bench = Bench()
     yield bench
     bench.go_on.set()
-    bench.runner.stop()
+    bench.task.stop()
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def finish(qtbot: QtBot, bench: Bench) -> Callable[[], None]:
     """Let the work go on, and wait until it has ended."""
 
     def let_go_and_wait() -> None:
-        with qtbot.waitSignal(bench.runner.idle):
+        with qtbot.waitSignal(bench.task.idle):
             bench.go_on.set()
 
     return let_go_and_wait
@@ -77,10 +77,10 @@ def test_the_first_and_last_of_a_burst_are_computed_on_another_thread_and_shown_
 ) -> None:
     bench.ask_and_hold(1)
     for request in (2, 3, 4, 5):
-        bench.runner.ask(request)
-    assert not bench.runner.is_idle
+        bench.task.ask(request)
+    assert not bench.task.is_idle
     finish()
-    assert bench.runner.is_idle
+    assert bench.task.is_idle
     assert bench.worked_on == [1, 5]
     assert bench.results == ["result of 1", "result of 5"]
     assert len(bench.work_threads) == 1
@@ -91,7 +91,7 @@ def test_a_request_made_by_who_is_shown_a_result_is_computed(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
     again = iter(["follow-up"])
-    bench.runner.finished.connect(lambda _: [bench.runner.ask(r) for r in again])
+    bench.task.finished.connect(lambda _: [bench.task.ask(r) for r in again])
     bench.ask_and_hold("first")
     finish()
     assert bench.results == ["result of first", "result of follow-up"]
@@ -100,12 +100,12 @@ def test_a_request_made_by_who_is_shown_a_result_is_computed(
 @pytest.mark.parametrize(
     ("mistake", "expected"),
     [
-        (RuntimeError("No luck."), "The test of the runner failed: RuntimeError: No luck."),
-        (MemoryError(), "The test of the runner failed: MemoryError."),
+        (RuntimeError("No luck."), "The test of the task failed: RuntimeError: No luck."),
+        (MemoryError(), "The test of the task failed: MemoryError."),
         (occ.ProjectionError("The panel is behind the camera."), "The panel is behind the camera."),
     ],
 )
-def test_an_error_is_a_sentence_and_the_runner_goes_on(
+def test_an_error_is_a_sentence_and_the_task_goes_on(
     bench: Bench,
     finish: Callable[[], None],
     mistake: Exception,
@@ -113,7 +113,7 @@ def test_an_error_is_a_sentence_and_the_runner_goes_on(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     bench.ask_and_hold(mistake)
-    bench.runner.ask("next")
+    bench.task.ask("next")
     finish()
     assert bench.failures == [expected]
     assert bench.results == ["result of next"]
@@ -125,14 +125,14 @@ def test_nothing_arrives_after_stopping_once_or_twice_and_nothing_more_is_done(
 ) -> None:
     bench.ask_and_hold(1)
     bench.go_on.set()
-    bench.runner.stop()
+    bench.task.stop()
     QApplication.processEvents()
     assert bench.worked_on == [1]
     assert bench.results == []
-    bench.runner.stop()
-    bench.runner.ask(2)
+    bench.task.stop()
+    bench.task.ask(2)
     qtbot.wait(20)
-    assert bench.runner.is_idle
+    assert bench.task.is_idle
     assert bench.worked_on == [1]
 
 
@@ -140,7 +140,7 @@ def test_work_that_gives_way_ends_without_a_result(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
     bench.ask_and_hold("gives way")
-    bench.runner.ask("newer")
+    bench.task.ask("newer")
     finish()
     assert bench.worked_on == ["gives way", "newer"]
     assert (bench.results, bench.failures) == (["result of newer"], [])
@@ -148,7 +148,7 @@ def test_work_that_gives_way_ends_without_a_result(
 
 def test_work_gives_way_to_a_newer_request_only(bench: Bench, finish: Callable[[], None]) -> None:
     bench.ask_and_hold("older")
-    bench.runner.ask("gives way")
+    bench.task.ask("gives way")
     finish()
     assert bench.results == ["result of older", "result of gives way"]
 
@@ -157,10 +157,10 @@ def test_cancelled_work_goes_on_unseen_and_the_next_begins_after_it(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
     bench.ask_and_hold(1)
-    bench.runner.ask(2)
-    bench.runner.cancel()
-    assert bench.runner.is_idle
-    bench.runner.ask(3)
+    bench.task.ask(2)
+    bench.task.cancel()
+    assert bench.task.is_idle
+    bench.task.ask(3)
     finish()
     assert bench.worked_on == [1, 3]
     assert bench.results == ["result of 3"]

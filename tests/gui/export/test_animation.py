@@ -8,7 +8,7 @@ from PIL import Image
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import animation
+from occ_gui.app.services import animation
 from occ_gui.export.animation import AnimationExport
 from occ_gui.files.preferences import Preferences
 from occ_gui.widgets.work_bar import WorkBar
@@ -55,7 +55,7 @@ def test_a_cancelled_animation_ends_at_once_and_leaves_no_file(
 ) -> None:
     animation = bench.animation
     animation.write(tmp_path / "a.gif", "iso")
-    with qtbot.waitSignal(animation.writer.runner.reported):
+    with qtbot.waitSignal(animation.writer.task.reported):
         pass
     bench.bar.cancelled.emit()
     assert animation.is_idle

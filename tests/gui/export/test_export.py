@@ -41,7 +41,6 @@ def small_scene() -> Scene:
 
 FIGURES = ("picture", "profile", "decoding-threshold", "decoding-matched")
 """The figures that can be exported when a window has just been opened."""
-"""The figures that can be exported when a window has just been opened."""
 
 
 class Bench(PaneBench):
@@ -79,7 +78,7 @@ class Bench(PaneBench):
     def stop(self) -> None:
         super().stop()
         self.background_rates.stop()
-        self.photos.work.task.stop()
+        self.photos.loading.task.stop()
 
     def lay_over(self, mode: str) -> None:
         self.store.put(replace(self.store.workspace, overlay=mode))

@@ -52,7 +52,7 @@ class FilesBench:
 def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[FilesBench]:
     bench = FilesBench(small_scene)
     yield bench
-    bench.photos.work.task.stop()
+    bench.photos.loading.task.stop()
 
 
 def test_a_saved_scene_is_opened_exactly_as_it_was_in_one_step_that_can_be_undone(
@@ -208,7 +208,7 @@ def test_a_cancelled_dialog_does_nothing(
     ):
         ask_user()
     assert bench.status_message == []
-    assert bench.photos.work.task.is_idle
+    assert bench.photos.loading.task.is_idle
     assert bench.store.scene == small_scene
 
 

@@ -48,12 +48,12 @@ class Lessons(ControlsBench):
         self.store.put(replace(workspace, photo=replace(workspace.photo, form=form)))
 
     def wait_until_idle(self) -> None:
-        task = self.photos.work.task
+        task = self.photos.loading.task
         self._qtbot.waitUntil(lambda: self.shell.is_idle and task.is_idle)
 
     def stop(self) -> None:
         self.shell.stop()
-        self.photos.work.task.stop()
+        self.photos.loading.task.stop()
 
 
 @pytest.fixture

@@ -145,7 +145,7 @@ def test_a_sample_that_is_still_being_read_is_not_opened_after_its_step(
     guide.list.choices[place].click()
     for _ in range(with_photo[0]):
         guide.step.next.click()
-    assert not photos.work.task.is_idle
+    assert not photos.loading.task.is_idle
     if is_left:
         guide.step.all_lessons.click()
     else:

@@ -29,7 +29,7 @@ class PhotoBench:
         self.store = self.scenes.store
         self.results_store = ResultsStore()
         self.photos = PhotoController(self.store, self.results_store)
-        self.photos.work.task.ask = lambda request: None  # type: ignore[method-assign]  # they are read
+        self.photos.loading.task.ask = lambda request: None  # type: ignore[method-assign]  # they are read
 
     @property
     def choice(self) -> PhotoChoice:

@@ -46,7 +46,7 @@ class Bench:
 
     def wait_until_idle(self) -> None:
         self.go_on.set()
-        self._qtbot.waitUntil(lambda: self.controller.work.task.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.loading.task.is_idle)
 
     def open(self, path: Path) -> None:
         self.controller.open(path)
@@ -70,7 +70,7 @@ def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     bench = Bench(qtbot, monkeypatch)
     yield bench
     bench.go_on.set()
-    bench.controller.work.task.stop()
+    bench.controller.loading.task.stop()
 
 
 @pytest.fixture
@@ -84,10 +84,10 @@ def test_a_photo_is_read_shown_and_announced_with_progress_from_start_to_end(
     bench: Bench, photo_file: Path, stripes: Grey
 ) -> None:
     received: list[object] = []
-    work = bench.controller.work
-    work.begun.connect(lambda: received.append("begun"))
-    work.task.reported.connect(received.append)
-    work.ended.connect(lambda: received.append("ended"))
+    loading = bench.controller.loading
+    loading.begun.connect(lambda: received.append("begun"))
+    loading.task.reported.connect(received.append)
+    loading.ended.connect(lambda: received.append("ended"))
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes)
     assert len(bench.shown) == 1
@@ -120,10 +120,10 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
 ) -> None:
     bench.open(photo_file)
     ended: list[bool] = []
-    bench.controller.work.ended.connect(lambda: ended.append(True))
+    bench.controller.loading.ended.connect(lambda: ended.append(True))
     bench.open_and_hold(other_file)
     bench.controller.cancel()
-    assert bench.controller.work.task.is_idle
+    assert bench.controller.loading.task.is_idle
     assert ended == [True]
     bench.go_on.set()
     bench.controller.set_scan_axis("lines")

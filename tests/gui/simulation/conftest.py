@@ -42,7 +42,7 @@ class SimulationBench:
         self._qtbot = qtbot
 
     def wait_until_idle(self) -> None:
-        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.task.is_idle)
 
     def change(self, **parameters: Any) -> None:
         self.store.change(**parameters)

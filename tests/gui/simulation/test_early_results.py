@@ -208,7 +208,7 @@ def test_a_picture_under_way_gives_way_to_a_newer_scene(
     def record_and_change(scene: Scene, *arguments: Any, **options: Any) -> Any:
         scenes.append(scene)
         if len(scenes) == 1:
-            bench.controller.runner.ask(SimulationRequest(scene.replace(iso=300.0), SETTINGS))
+            bench.controller.task.ask(SimulationRequest(scene.replace(iso=300.0), SETTINGS))
         return render_with(scene, *arguments, **options)
 
     monkeypatch.setattr(controller, "render_with", record_and_change)

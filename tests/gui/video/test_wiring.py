@@ -196,5 +196,5 @@ def test_the_simulated_film_is_saved_or_cancelled(
     pane.view.form.saving.cancelled.emit()
     wait()
     assert said[-1] == "The film was cancelled."
-    pane.saving.runner.stop()
+    pane.saving.task.stop()
     assert not (tmp_path / "other.gif").exists()

@@ -39,7 +39,6 @@ LEAST_CONTRASTS = {
     ],
 }  # fmt: skip
 """Least contrast of running text, of other words, and of frames, marks and focus."""
-"""Least contrast of running text, of other words, and of frames, marks and focus."""
 
 
 @pytest.mark.parametrize("theme", THEMES)

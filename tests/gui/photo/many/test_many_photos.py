@@ -279,7 +279,7 @@ def bench(view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> Generator[Be
     bench = Bench(view, monkeypatch)
     yield bench
     bench.go_on.set()
-    bench.controller.runner.stop()
+    bench.controller.task.stop()
 
 
 def test_rows_appear_as_they_are_found_and_then_the_mean(
@@ -289,7 +289,7 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
     qtbot.waitUntil(lambda: column(view, VERDICT)[0] == "● sure")
     assert column(view, VERDICT)[1:] == [""] * 5
     assert not view.start.isEnabled()
-    with qtbot.waitSignal(bench.controller.runner.finished):
+    with qtbot.waitSignal(bench.controller.task.finished):
         bench.go_on.set()
     (settings,) = bench.settings
     assert (settings.sent, settings.scan_axis, settings.channel) == ("auto", "lines", "green")
@@ -306,11 +306,11 @@ def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
 ) -> None:
     assert enter_known(view, 5, "3 kHz")
     bench.go_on.set()
-    with qtbot.waitSignal(bench.controller.runner.finished):
+    with qtbot.waitSignal(bench.controller.task.finished):
         bench.start()
     assert bench.settings[0].known == ((5, 3e3),)
     assert column(view, KNOWN) == ["10 kHz"] * 5 + ["3 kHz"]
-    with qtbot.waitSignal(bench.controller.runner.finished) as found:
+    with qtbot.waitSignal(bench.controller.task.finished) as found:
         assert enter_known(view, 2, "7")
         assert not view.start.isEnabled()
     (made,) = found.args
@@ -320,7 +320,7 @@ def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
     assert column(view, KNOWN)[2] == "7 kHz"
     assert "if f" not in tip(view, 2, ESTIMATE)
     assert "if f = 10 kHz" in tip(view, 1, ESTIMATE)
-    with qtbot.waitSignal(bench.controller.runner.finished):
+    with qtbot.waitSignal(bench.controller.task.finished):
         assert enter_known(view, 2, "")
     assert column(view, KNOWN)[2] == "10 kHz"
     assert bench.controller.table.rows[2].given is None
@@ -353,7 +353,7 @@ def test_cancelling_ends_the_work_and_keeps_the_rows(
 def test_other_files_cancel_the_work_on_the_first(bench: Bench, view: ManyPhotosView) -> None:
     bench.start()
     show(bench.controller, PATHS[:2])
-    assert bench.controller.runner.is_idle
+    assert bench.controller.task.is_idle
     assert view.rows.paths == PATHS[:2]
 
 
@@ -368,7 +368,7 @@ def test_a_failure_is_a_sentence_in_the_table(
     controller.start(MatchChoice())
     qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")
     assert view.start.isEnabled()
-    controller.runner.stop()
+    controller.task.stop()
 
 
 def test_real_photos_are_matched_from_the_window(
@@ -377,9 +377,9 @@ def test_real_photos_are_matched_from_the_window(
     missing = tmp_path / "missing.jpg"
     controller = controller_of(view)
     show(controller, (missing, missing))
-    with qtbot.waitSignal(controller.runner.finished) as found:
+    with qtbot.waitSignal(controller.task.finished) as found:
         controller.start(MatchChoice())
     (made,) = found.args
     assert [one.verdict for one in made.rows] == ["unreadable", "unreadable"]
     assert replace(made.rows[0], note="") == PhotoRow(missing, "unreadable")
-    controller.runner.stop()
+    controller.task.stop()

@@ -20,9 +20,9 @@ _TINY = 1e-12
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DrawnPixels:
-    """What drawn pixels are after a curve of the grey levels, with one value a level in each array.
+    """What drawn pixels become by a curve of the grey levels, at each level of the law.
 
-    What a noise changes is apart from what it changes in the mean.
+    Variances and changes are those about the mean.
     """
 
     mean: FloatArray
@@ -30,11 +30,10 @@ class DrawnPixels:
     step: FloatArray  # Mean change of the pixels that change at all if their mean changes a little
     spread: FloatArray  # Standard deviation beyond that of two levels next to each other
 
-    variances: tuple[FloatArray, FloatArray]
-    """What the numbers that are drawn, and what the gains add to the variance."""
-
-    changes: tuple[FloatArray, FloatArray]
-    """Mean square change if no number is drawn, and if all gains are 1."""
+    variances: tuple[FloatArray, FloatArray]  # Added by the drawn numbers, and by the gains
+    changes: tuple[
+        FloatArray, FloatArray
+    ]  # Mean square if no number is drawn, and if all gains are 1
 
 
 def step_of(means: FloatArray, squared_steps: FloatArray) -> FloatArray:
@@ -67,9 +66,9 @@ def drawn_pixels(law: GreyLaw, curve: bytes, *, is_rounded: bool) -> DrawnPixels
     values = law.values * gain
     places, at_mean = known.places(values), known.places(law.values)
     own_mean, own_square, own_steps = (interpolate_at(each, places) for each in of_known)
-    unread = np.minimum(values, WHITE * min(noise.full / noise.white, 1.0) ** (1.0 / noise.gamma))
+    undrawn = np.minimum(values, WHITE * min(noise.full / noise.white, 1.0) ** (1.0 / noise.gamma))
     if is_rounded:
-        unread = greys[np.rint(unread).astype(np.int64)]
+        undrawn = greys[np.rint(undrawn).astype(np.int64)]
     moved = own_mean - interpolate_at(of_known[0], at_mean)
     moved_steps = own_steps - interpolate_at(of_known[2], at_mean)
     read = _mean(np.maximum(own_square - own_mean**2, 0.0))
@@ -81,7 +80,7 @@ def drawn_pixels(law: GreyLaw, curve: bytes, *, is_rounded: bool) -> DrawnPixels
         spread=np.sqrt(np.maximum(square - mean**2 - step**2 / 4.0, 0.0)),
         variances=(read, _variance(own_mean)),
         changes=(
-            read + _variance(own_mean - unread),
+            read + _variance(own_mean - undrawn),
             _variance(moved) + _mean(growth_by_steps(moved, moved_steps)),
         ),
     )

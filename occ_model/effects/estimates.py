@@ -142,7 +142,7 @@ def observe(pixels: SampledPixels, observable: Observable) -> SampledObservable:
         doubt = pixels.file.undithered_square()
         rims = pixels.rims.fraction  # without noise, these blocks may round differently
         square = rims * max(pixels.view.swing, pixels.table.contrast) ** 2 / 64.0
-        at_rims = pixels.file.undithered_fraction * pixels.file.growth_at_rim(rims, square)
+        at_rims = pixels.file.undithered_fraction * float(pixels.file.growth_at_rims(rims, square))
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
         observed.add_doubt(pixels.names, doubt)
     return observed

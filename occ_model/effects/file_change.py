@@ -46,7 +46,7 @@ _ROUNDING_VARIANCE = 1.0 / 12.0  # mean square error of rounding to whole grey l
 
 
 @lru_cache(maxsize=4)
-def _tabulate_noise_read_back(steps: bytes) -> FloatArray:
+def _tabulate_spread_read_back(steps: bytes) -> FloatArray:
     """Tabulate the standard deviation of noise after storage in the file."""
     step, q = np.split(np.frombuffer(steps), [8])
     noise = np.sqrt(_NOISES**2 + _ROUNDING_VARIANCE)[:, None]
@@ -99,7 +99,7 @@ class FileChange:
         self._moved = moved
         self._x = self._coefficients(self._inside)
         seen = np.append(stack[0], around)
-        along = self._spectrum_along(float(seen.min()), rims.is_level)
+        along = self._spectrum_along(float(seen.min()), rims.is_upright)
         edge = np.ptp(seen) * np.outer(_EDGE_SPECTRUM, along)
         self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
         self._density_at_rims = density_at_boundaries(self._of_rims)
@@ -209,10 +209,13 @@ class FileChange:
         return np.asarray(np.minimum(density, 1.0))
 
     def _growth_at_rims(self, size: FloatArray, spectrum: FloatArray) -> FloatArray:
-        """Return what rounding adds to changes in blocks at a rim, from their spectrum."""
+        """Return what rounding adds to changes of some RMS in blocks at a rim.
+
+        ``spectrum`` is the relative amplitude of each coefficient, in steps.
+        """
         return np.asarray(rounding_growth_by_noise(size[..., None] * spectrum) @ self._rim_weights)
 
-    def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
+    def _spectrum_along(self, dark: float, is_upright: bool) -> FloatArray:
         """Return the relative amplitude of each horizontal frequency in a row of the panel.
 
         Blocks at a horizontal rim have the frequencies of the stripes; any other rim adds its own.
@@ -220,7 +223,7 @@ class FileChange:
         values = self._x[0] * self._step
         values[:, 0] += 1024.0 - 8.0 * dark
         squares = (values**2).mean(axis=(0, 2))
-        if not is_level:
+        if not is_upright:
             squares = np.maximum(squares, squares.sum() * (_EDGE_SPECTRUM / _EDGE_SPECTRUM[0]) ** 2)
         return np.asarray(np.sqrt(squares / max(float(squares.sum()), _TINY)))
 
@@ -238,21 +241,19 @@ class FileChange:
         sharp = self._step[:2] ** 2 * np.exp(-DAMPING * self._s[:2] ** 2)
         return float(sharp.sum()) / 2.0 / 64.0
 
-    def growth_at_rims(self, fractions: FloatArray, squares: FloatArray) -> FloatArray:
+    def growth_at_rims(
+        self, fractions: FloatArray | float, squares: FloatArray | float
+    ) -> FloatArray:
         """Return how much rounding adds to changes in given fractions of the blocks.
 
         ``squares`` are the changes' mean squares over the whole picture.
         """
-        sizes = np.sqrt(squares / np.maximum(fractions, _TINY))
+        sizes = np.sqrt(np.asarray(squares) / np.maximum(fractions, _TINY))
         return fractions * self._growth_at_rims(sizes, self._along)
 
-    def growth_at_rim(self, fraction: float, square: float) -> float:
-        """Return :meth:`growth_at_rims` for one change."""
-        return float(self.growth_at_rims(np.array(fraction), np.array(square))) if fraction else 0.0
-
-    def spread(self, spread: FloatArray) -> FloatArray:
-        """Return the standard deviation of a pixel's noise after the file."""
-        return np.interp(spread, _NOISES, _tabulate_noise_read_back(self._all.tobytes()))
+    def spread_read_back(self, spread: FloatArray) -> FloatArray:
+        """Return the standard deviation of pixels' noise after the file, from that before it."""
+        return np.interp(spread, _NOISES, _tabulate_spread_read_back(self._all.tobytes()))
 
     def noise_squares(
         self, squares: FloatArray, variances: FloatArray

@@ -85,18 +85,19 @@ class NoisyPixels:
             values = limit.apply(self._scene, values)
         return np.minimum(values, WHITE)
 
-    def _kind(self, name: str) -> int:
-        """Return 1 if pixels are drawn without a noise, which varies the gains, else 0."""
+    def _index_of(self, name: str) -> int:
+        """Return the index of a noise in the pairs of :class:`DrawnPixels`.
+
+        Without the noise of the gains, which has the index 1, pixels are still drawn.
+        """
         return int(self.is_drawn(self._names - {name}))
 
     def variance_at(self, name: str, places: Places) -> FloatArray:
         """Return what one noise adds to the variance of drawn pixels."""
         drawn = self.drawn(self._names)
-        return (
-            np.zeros(1)
-            if drawn is None
-            else interpolate_at(drawn.variances[self._kind(name)], places)
-        )
+        if drawn is None:
+            return np.zeros(1)
+        return interpolate_at(drawn.variances[self._index_of(name)], places)
 
     def places(self, sets: Sequence[Names], exposed: FloatArray) -> list[Places]:
         """Return the places of drawn pixels in the laws of some sets, from their exposed values."""
@@ -127,19 +128,16 @@ class NoisyPixels:
         squares = [*(growth_by_steps(mean, squared_steps) + spread**2)]
         steps = [*step_of(mean, squared_steps)]
         for name in noises:
-            squares.append(interpolate_at(tables[0].changes[self._kind(name)], places[0]))
+            squares.append(interpolate_at(tables[0].changes[self._index_of(name)], places[0]))
             steps.append(np.maximum(interpolate_at(tables[0].step, places[0]), 1.0))
         return np.array(squares), np.array(steps)
 
     def variance_by(self, name: str, levels: FloatArray) -> FloatArray:
         """Return what one noise adds to the variance of pixels of some means."""
-        noise, law, drawn = (
-            self.noise(self._names),
-            self.drawn_law(self._names),
-            self.drawn(self._names),
-        )
+        noise, law = self.noise(self._names), self.drawn_law(self._names)
+        drawn = self.drawn(self._names)
         if law is not None and drawn is not None:
-            return law.at_means(drawn.variances[self._kind(name)], levels)
+            return law.at_means(drawn.variances[self._index_of(name)], levels)
         if noise is None:
             return np.zeros(len(levels))
         values = np.maximum(levels, 0.0)

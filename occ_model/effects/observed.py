@@ -17,18 +17,17 @@ SURE_DEVIATIONS = 3.5
 
 @dataclass(frozen=True, slots=True)
 class RandomSquare:
-    """The mean square change of pixels that move by whole gaps at random."""
+    """The mean square change of pixels that move by whole grey levels at random."""
 
     mean: float = 0.0
     mean_of_squares: float = 0.0  # Mean over the pixels of the square of each one's mean square
     mean_fourth: float = 0.0  # Mean fourth power of the changes
 
-    @property
-    def first_two(self) -> tuple[float, float]:
-        return self.mean, self.mean_of_squares
-
     def doubt(self, values: int, pixels: int = 1) -> float:
-        """Return how far it may be exceeded in one picture, of means over so many pixels each."""
+        """Return how far it may be exceeded in one picture of ``values``.
+
+        Each of these is the mean of some ``pixels``.
+        """
         variance = 2.0 * self.mean_of_squares + self.mean_fourth / pixels
         return SURE_DEVIATIONS * math.sqrt(variance / values) / pixels
 

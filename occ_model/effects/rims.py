@@ -16,7 +16,7 @@ class Rims:
 
     def __init__(self, view: PaperView, sample: PixelSample) -> None:
         self._region, self._camera = view.region, view.scene.camera
-        self.is_level = view.sides is not None
+        self.is_upright = view.sides is not None  # an upright rectangle in the picture
         self._sample = sample
         self.rows = view.region.rows
 
@@ -45,7 +45,7 @@ class Rims:
             return 0.0, 0.0
         ends = (region.first_row > 0) + (region.last_row < camera.rows)
         sides = (region.first_column > 0) + (region.last_column < camera.columns)
-        if not self.is_level:
+        if not self.is_upright:
             ends = sides = 2
         return min(1.0, 4.0 * ends / region.rows), min(1.0, 4.0 * sides / region.columns)
 

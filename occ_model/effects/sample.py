@@ -96,12 +96,13 @@ class PixelSample:
 
 
 def choose_sample(
-    region: Region, level: bool, optics: Mapping[str, Optics], plain: Optics, in_blocks: bool
+    region: Region, fills_region: bool, optics: Mapping[str, Optics], plain: Optics, in_blocks: bool
 ) -> PixelSample:
-    """Sample the pixels of the observed region, which a ``level`` panel fills.
+    """Sample the pixels of the observed region.
 
-    ``optics`` holds the optics with each effect alone, ``plain`` those without any. With
-    ``in_blocks``, the columns are whole blocks of a file.
+    ``optics`` holds the optics with each effect alone, ``plain`` those without any; with these, the
+    panel ``fills_region`` if it is an upright rectangle. With ``in_blocks``, the columns are whole
+    blocks of a file.
     """
     moved_outlines = {
         name: lens.outline for name, lens in optics.items() if lens.outline is not plain.outline
@@ -112,20 +113,16 @@ def choose_sample(
     main = np.arange(region.first_column + step // 2, region.last_column, step)
     if not len(main):
         main = np.array([region.first_column])
-    columns = main.astype(np.float64)
-    if in_blocks and step > 1:
-        count = COLUMNS // 8
-        middles = region.first_column + (np.arange(count) + 0.5) * (region.columns / count)
-        starts = np.maximum(middles.astype(np.int64) // 8 * 8, -(-region.first_column // 8) * 8)
-        columns = (starts[:, None] + np.arange(8.0)).ravel()
-    covers: dict[frozenset[str], FloatArray | None]
+    columns = _columns_of_blocks(region) if in_blocks and step > 1 else main.astype(np.float64)
     weights = np.full(len(columns), 1.0 / len(columns))
     outlines = [plain.outline, *moved_outlines.values()]
     blur = max(blurs.values(), default=0.0)
-    if (outlines[1:] or blur) and not few:
+    is_moved = bool(moved_outlines or blur)
+    if is_moved and not few:
         columns, weights = _add_side_columns(columns, region, outlines, blur)
+    covers: dict[frozenset[str], FloatArray | None]
     is_covered = _is_covered(region, outlines, blur)
-    if is_covered or (level and not (moved_outlines or blur)):
+    if is_covered or (fills_region and not is_moved):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
@@ -133,7 +130,7 @@ def choose_sample(
         covers = dict.fromkeys(subsets_of([*moved_outlines, *blurs]))
     else:
         spans = [spans_of(outline, columns, 0) for outline in outlines]
-        rows, row_weights, first = _choose_rows(region, spans, bool(moved_outlines or blur), blur)
+        rows, row_weights, first = _choose_rows(region, spans, is_moved, blur)
         if few and region.rows * region.columns <= _ALL_PIXELS:
             rows, row_weights, first = _take_all_rows(region, rows[:, first : first + len(_GAUSS)])
             covers = exact_covers(region, rows, moved_outlines, blurs, plain)
@@ -142,22 +139,33 @@ def choose_sample(
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
     nearest = np.clip((places - along.start + step // 2) // step, 0, len(main) - 1)
-    gains = {
-        name: _gain_at_sample(lens.emission or lens.transmission, rows, along, nearest, region)
-        for name, lens in optics.items()
-        if lens.emission or lens.transmission
-    }
+
+    def gains_of(factors: Mapping[str, tuple[Gain, ...]]) -> dict[str, FloatArray]:
+        return {
+            name: _gain_at_sample(each, rows, along, nearest, region)
+            for name, each in factors.items()
+            if each
+        }
+
     return PixelSample(
         columns=places,
         weights=weights,
         rows=rows,
         row_weights=row_weights,
         covers=covers,
-        emission={name: gain for name, gain in gains.items() if optics[name].emission},
-        transmission={name: gain for name, gain in gains.items() if optics[name].transmission},
+        emission=gains_of({name: lens.emission for name, lens in optics.items()}),
+        transmission=gains_of({name: lens.transmission for name, lens in optics.items()}),
         inner=slice(first, first + len(_GAUSS)),
         is_covered=is_covered,
     )
+
+
+def _columns_of_blocks(region: Region) -> FloatArray:
+    """Return the columns of blocks that are evenly distributed over a wide region."""
+    count = COLUMNS // 8
+    middles = region.first_column + (np.arange(count) + 0.5) * (region.columns / count)
+    starts = np.maximum(middles.astype(np.int64) // 8 * 8, -(-region.first_column // 8) * 8)
+    return np.asarray((starts[:, None] + np.arange(8.0)).ravel())
 
 
 def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool:

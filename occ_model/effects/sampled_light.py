@@ -39,8 +39,8 @@ def sample_of(view: PaperView, lenses: Sequence[OpticsEffect], *, in_blocks: boo
     def make() -> PixelSample:
         plain = Optics(view.corners)
         optics = {effect.name: effect.apply(scene, plain) for effect in lenses}
-        level = view.sides is not None and view.is_visible
-        return choose_sample(view.region, level, optics, plain, in_blocks)
+        fills_region = view.sides is not None and view.is_visible
+        return choose_sample(view.region, fills_region, optics, plain, in_blocks)
 
     return MEMORY.recall(key, make, lambda sample: sample.arrays)
 

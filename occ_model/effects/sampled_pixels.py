@@ -158,6 +158,7 @@ class SampledPixels:
         """How the file changes the pixels; None if the scene has no file effect."""
         if not self.files:
             return None
+        moved = [RandomSquare(), *(self.drawn_changes[name] for name in self.moving)]
         return FileChange(
             quantization_steps(self.scene.camera.jpeg_quality),
             self.sample,
@@ -165,7 +166,7 @@ class SampledPixels:
             self.noise_rms(self.names),
             self.rims,
             around=np.zeros(0) if self.sample.is_covered else self._around,
-            moved=np.array([(0.0, 0.0), *(self.drawn_changes[n].first_two for n in self.moving)]).T,
+            moved=np.array([(each.mean, each.mean_of_squares) for each in moved]).T,
         )
 
     @cached_property

@@ -30,7 +30,7 @@ def unsampled_rim_square(pixels: SampledPixels, square: float) -> float:
     if pixels.file is not None:
         region = pixels.view.region
         blocks = min(64.0 / (region.rows * region.columns), pixels.rims.fraction)
-        unsampled += pixels.file.growth_at_rim(blocks, unsampled)
+        unsampled += float(pixels.file.growth_at_rims(blocks, unsampled))
     return unsampled
 
 
@@ -44,7 +44,7 @@ def cut_block_square(pixels: SampledPixels) -> float:
     if file is None:
         return 0.0
     upright = pixels.rims.fractions[1]
-    added = file.growth_at_rim(upright, upright * pixels.table.contrast**2 / 8.0)
+    added = float(file.growth_at_rims(upright, upright * pixels.table.contrast**2 / 8.0))
     equal_fraction = file.undithered_fraction
     return added * (equal_fraction + (1.0 - equal_fraction) / file.block_rows)
 
@@ -69,7 +69,7 @@ class SmoothedCurves:
         if key not in self._spreads:
             spread, file = self._pixels.spread(included), self._pixels.file
             has_file = file is not None and self.files & included
-            self._spreads[key] = file.spread(spread) if file and has_file else spread
+            self._spreads[key] = file.spread_read_back(spread) if file and has_file else spread
         return self._spreads[key]
 
     def tabulate(self, included: Names, of_greys: FloatArray) -> FloatArray:
@@ -96,7 +96,7 @@ class SmoothedCurves:
         if file is None or not self.files & included:
             return of_greys
         before = self._pixels.noise_rms(included)
-        after = float(file.spread(np.array([before]))[0])
+        after = float(file.spread_read_back(np.array([before]))[0])
         error = np.full(256, math.sqrt(max(after**2 - before**2, 0.0)))
         return LevelSteps.of(GREY_LEVELS, error).mean_of(of_greys)
 

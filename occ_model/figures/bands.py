@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from occ_model import colours
+from occ_model.figures.caption import write_caption
 from occ_model.figures.drawing import Drawing
-from occ_model.figures.window_panes import write_caption
 from occ_model.results.bands import DepthMap, EyeFlicker
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

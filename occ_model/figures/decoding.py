@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import one_line, printable
+from occ_model.figures.caption import caption, write_caption
 from occ_model.figures.drawing import THRESHOLD, Drawing
-from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results.decoding import Cause, DecodeResult, symptom
 from occ_model.scene.declaration import in_sentence
 from occ_model.scene.scene import Scene

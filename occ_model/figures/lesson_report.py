@@ -11,6 +11,7 @@ from matplotlib.font_manager import FontProperties
 
 from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError, one_line, printable
+from occ_model.figures.caption import caption
 from occ_model.figures.drawing import (
     PHOTO,
     SIMULATION,
@@ -19,7 +20,6 @@ from occ_model.figures.drawing import (
     house_style,
 )
 from occ_model.figures.page import break_lines, replace_missing_letters
-from occ_model.figures.window_panes import caption
 from occ_model.files.writing import write_whole
 from occ_model.results.match import Match
 from occ_model.results.teaching import AnsweredStep, Lesson

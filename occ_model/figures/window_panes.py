@@ -12,13 +12,11 @@ from matplotlib.patches import Rectangle
 
 from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.figures.caption import caption, write_caption
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, THRESHOLD, Drawing
 from occ_model.results.comparison import Comparison
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.frame import PICTURES, Frame
-from occ_model.scene.light_words import blinking_lamp, describe_light
-from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
 from occ_model.teaching.packet_fields import threshold_levels
 
 
@@ -98,44 +96,9 @@ MOST_CELLS = 900  # most cells on each side of a printed picture; print resolves
 
 _RESIDUAL = "photo minus simulation, weighted by the height of the photo's stripes"
 _PHOTO = "photo, fitted levels"  # with the mean and the contrast of the simulation's profile
-_CAPTION_SIZE = 7  # points, of a caption's letters
 _MIN_HEIGHT = 1.3  # inches, of the figure of a flat picture with the texts above and below it
 
 _AXIS_OF_RESIDUAL = 2.0  # range of the residual's axis, as a multiple of the usual residual
-_FREQUENCY = "switching_frequency"
-_CAPTION_PARAMETERS = ("exposure_time", _FREQUENCY, "readout_time", "distance")
-
-
-def caption(scene: Scene, about: str = "") -> str:
-    """Describe a scene and, with a sentence ``about`` it, the photo beside it."""
-    values = ", ".join(_caption_values(scene, about))
-    return f"{values}; {about}" if about else values
-
-
-def _caption_values(scene: Scene, about: str) -> list[str]:
-    # A photo does not tell the distance: the scene still has that of the preset before the match.
-    names = (name for name in _CAPTION_PARAMETERS if not about or name != "distance")
-    return [_caption_value(scene, name) for name in names]
-
-
-def _caption_value(scene: Scene, name: str) -> str:
-    transmitter = scene.transmitter
-    if name == _FREQUENCY and (
-        transmitter.light != "code" or blinking_lamp(transmitter) is not None
-    ):
-        return describe_light(transmitter)
-    parameter = PARAMETERS[name]
-    value = parameter.format(scene.value(name))  # type: ignore[arg-type]
-    return f"{parameter.in_sentence} {value}"
-
-
-def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
-    """Write the caption of a figure: its scene, and a sentence ``about`` its photo."""
-    # With non-breaking spaces, lines end only after a comma.
-    values = [value.replace(" ", "\xa0") for value in _caption_values(scene, about)]
-    text = "\n".join(filter(None, (", ".join(values), about)))
-    # A file's name may contain characters of a formula.
-    figure.supxlabel(text, fontsize=_CAPTION_SIZE, parse_math=False)
 
 
 def picture_drawing(

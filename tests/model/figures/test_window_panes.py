@@ -10,10 +10,11 @@ from amount import amount
 from matplotlib.figure import Figure
 
 import occ_model as occ
+from occ_model.figures.caption import caption
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import Drawing, house_style, write_all
 from occ_model.figures.page import fit_texts
-from occ_model.figures.window_panes import caption, picture_drawing, profile_drawing
+from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import ENDINGS, Provenance, scene_inside
 from occ_model.study.cause.cause import cause_of
 

@@ -50,6 +50,7 @@ from .results.bands import (
 from .results.bars_answer import BarsAnswer as BarsAnswer, UnlitRows as UnlitRows
 from .results.bit_errors import BitErrors as BitErrors, MostBits as MostBits
 from .results.camera import CameraMeasurement as CameraMeasurement
+from .results.chip_reading import ChipReading as ChipReading
 from .results.clock import Clock as Clock
 from .results.colour import (
     ColourFrame as ColourFrame,
@@ -70,7 +71,6 @@ from .results.lamp import Lamp as Lamp
 from .results.limits import Limits as Limits
 from .results.match import (
     Alternative as Alternative,
-    ChipReading as ChipReading,
     Match as Match,
     Stripes as Stripes,
 )

@@ -19,9 +19,10 @@ from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.bands import Cure
+from occ_model.results.chip_reading import ChipReading
 from occ_model.results.comparison import Comparison
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Match, known_value
+from occ_model.results.match import Match, known_value
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import cure_of
 

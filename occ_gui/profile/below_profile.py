@@ -15,8 +15,8 @@ from occ_gui.widgets.colours import PHOTO, THRESHOLD, thin_pen
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.plot import Plot, new_plot
+from occ_model.results.chip_reading import ChipReading
 from occ_model.results.comparison import Comparison
-from occ_model.results.match import ChipReading
 
 if TYPE_CHECKING:
     from occ_model.photo.reading.load import Photo

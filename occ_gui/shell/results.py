@@ -23,7 +23,8 @@ if TYPE_CHECKING:  # a window without a photo or film starts without them
         StripeSearch,
     )
     from occ_model.photo.reading.load import Photo
-    from occ_model.results.match import ChipReading, Match
+    from occ_model.results.chip_reading import ChipReading
+    from occ_model.results.match import Match
     from occ_model.results.video import Video
 
 

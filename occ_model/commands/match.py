@@ -25,9 +25,10 @@ from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.match_facts import format_facts, match_facts
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
+from occ_model.results.chip_reading import ChipReading
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Match, known_parameter
+from occ_model.results.match import Match, known_parameter
 from occ_model.results.match_sentence import describe_match
 from occ_model.results.photo_table import assumption
 from occ_model.scene.from_text import write_scene_file

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.light_words import (
     BlinkingLamp,
@@ -115,36 +115,6 @@ class Alternative:
     def lamp_frequency(self) -> float | None:
         """The frequency of that lamp in Hz, or None."""
         return None if self.lamp is None else self.lamp.frequency
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ChipReading:
-    """Chips read from a photo's stripes without knowledge of the code or its repetition.
-
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        The chips between the first and the last edge in view.
-    columns_per_chip
-        Length of a chip in columns.
-    confidence
-        Probability, from 0 to 1, that all chips are right, calibrated on simulated messages.
-    start
-        Column of the photo at which the first chip starts.
-    region
-        The rectangle of the photo that was read.
-    """
-
-    chips: ByteArray
-    columns_per_chip: float
-    confidence: float
-    start: float
-    region: Region
-
-    @property
-    def text(self) -> str:
-        """The chips as a text of zeros and ones."""
-        return "".join(map(str, self.chips.tolist()))
 
 
 _EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")

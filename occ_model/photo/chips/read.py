@@ -20,8 +20,8 @@ from occ_model.photo.chips.edges import (
 )
 from occ_model.photo.reading.load import Corners, Photo
 from occ_model.photo.stripes.find import find_stripes
+from occ_model.results.chip_reading import ChipReading
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading
 
 _EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])  # exposures to try, in chips
 

@@ -27,10 +27,11 @@ from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
 from occ_model.photo.reading.load import Photo
+from occ_model.results.chip_reading import ChipReading
 from occ_model.results.comparison import Comparison
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Stripes
+from occ_model.results.match import Stripes
 
 SENTENCE = "No stripes at all."
 

@@ -18,9 +18,9 @@ from occ_gui.simulation.snapshot import Snapshot, Source
 from occ_gui.values.photo_results import PhotoProfile
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
+from occ_model.results.chip_reading import ChipReading
 from occ_model.results.comparison import Comparison
 from occ_model.results.decoding import DecodeResult, Region
-from occ_model.results.match import ChipReading
 from occ_model.scene.scene import Scene, SimulationSettings
 
 

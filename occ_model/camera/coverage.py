@@ -1,9 +1,9 @@
 """Coverage: the fraction of each pixel that a panel covers, with any outline, sharp or blurred."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -21,38 +21,51 @@ _MAX_EXACT_ROWS = 4096  # largest height in rows of an outline of which all rows
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CoveredPart:
+    """Columns of some rows with light of the panel."""
+
     columns: slice
-    # The fraction of each pixel's light that comes from the panel: one number for all pixels, or an
-    # array of float32, shape (rows, columns)
-    fraction: float | Pixels
+    # Shape (rows, columns): fraction of each pixel's light that comes from the panel; None for all
+    fraction: Pixels | None
+
+    def crop(self, columns: slice) -> "CoveredPart":
+        """Return the part in some columns, which is empty if they are beside it."""
+        part = slice(max(self.columns.start, columns.start), min(self.columns.stop, columns.stop))
+        if self.fraction is None:
+            return CoveredPart(part, None)
+        first = self.columns.start
+        return CoveredPart(part, self.fraction[:, part.start - first : part.stop - first])
+
+    def cut_out(self, spans: Sequence[slice]) -> "list[CoveredPart]":
+        """Return what is left of the part without some spans of columns, from the left."""
+        starts = [self.columns.start, *(span.stop for span in spans)]
+        stops = [*(span.start for span in spans), self.columns.stop]
+        pieces = (self.crop(slice(*ends)) for ends in zip(starts, stops, strict=True))
+        return [piece for piece in pieces if piece.columns.start < piece.columns.stop]
 
 
 def _split_rim(columns: slice, fraction: Pixels) -> list[CoveredPart]:
-    """Split a rim of equal rows into runs of columns that are covered fully or not at all."""
+    """Split a rim of equal rows into runs of columns that the panel covers, if it is sharp."""
     first = fraction[0]
     if not ((first == 0.0) | (first == 1.0)).all() or (fraction != first).any():
         return [CoveredPart(columns, fraction)]
-    ends = [0, *(np.flatnonzero(np.diff(first)) + 1).tolist(), len(first)]
-    return [
-        CoveredPart(slice(columns.start + start, columns.start + stop), float(first[start]))
-        for start, stop in pairwise(ends)
-    ]
+    ends = np.flatnonzero(np.diff(first, prepend=0.0, append=0.0)) + columns.start
+    return [CoveredPart(slice(*run), None) for run in ends.reshape(-1, 2).tolist()]
 
 
 def _join_parts(parts: list[CoveredPart]) -> list[CoveredPart]:
     joined: list[CoveredPart] = []
     for part in parts:
         before = joined[-1] if joined else part
-        are_plain = isinstance(part.fraction, float) and isinstance(before.fraction, float)
-        if joined and are_plain and part.fraction == before.fraction:
-            joined[-1] = CoveredPart(slice(before.columns.start, part.columns.stop), part.fraction)
+        are_covered = part.fraction is None and before.fraction is None
+        if joined and are_covered and before.columns.stop == part.columns.start:
+            joined[-1] = CoveredPart(slice(before.columns.start, part.columns.stop), None)
         else:
             joined.append(part)
     return joined
 
 
 def _fractions(parts: list[CoveredPart]) -> list[Pixels]:
-    return [part.fraction for part in parts if isinstance(part.fraction, np.ndarray)]
+    return [part.fraction for part in parts if part.fraction is not None]
 
 
 class Coverage:
@@ -84,9 +97,9 @@ class Coverage:
 
     def rows(self, rows: range) -> Pixels:
         """Return some rows, shape (number of rows, columns), 0 to 1."""
-        covered = np.empty((len(rows), self._columns), dtype=np.float32)
+        covered = np.zeros((len(rows), self._columns), dtype=np.float32)
         for part in self.parts(rows):
-            covered[:, part.columns] = part.fraction
+            covered[:, part.columns] = 1.0 if part.fraction is None else part.fraction
         return covered
 
     def reaches(self, rows: range) -> bool:
@@ -95,21 +108,20 @@ class Coverage:
         return bool(line.min() - reach <= rows[-1] and line.max() + reach >= rows[0])
 
     def parts(self, rows: range) -> list[CoveredPart]:
-        """Return the parts of some rows from the left: the panel's rims, and those between them.
+        """Return the parts of some rows with light of the panel, from the left.
 
-        Between rims the panel covers all of each pixel, or nothing.
+        They are the panel's rims, and what it covers between them.
         """
         return MEMORY.recall((*self._key, rows), lambda: self._compute_parts(rows), _fractions)
 
     def _compute_parts(self, rows: range) -> list[CoveredPart]:
         parts, before = [], 0
-        for start, stop in self._find_rims(rows):
-            if start > before:
-                parts.append(self._even_part(rows, slice(before, start)))
-            parts += _split_rim(slice(start, stop), self._cover_rim(rows, slice(start, stop)))
+        for start, stop in (*self._find_rims(rows), (self._columns, self._columns)):
+            if start > before and self._encloses(rows[0], before):
+                parts.append(CoveredPart(slice(before, start), None))
+            if stop > start:
+                parts += _split_rim(slice(start, stop), self._cover_rim(rows, slice(start, stop)))
             before = stop
-        if before < self._columns:
-            parts.append(self._even_part(rows, slice(before, self._columns)))
         return _join_parts(parts)
 
     def _find_rims(self, rows: range) -> list[tuple[int, int]]:
@@ -132,14 +144,13 @@ class Coverage:
         lasts = np.append(firsts[1:], len(start))[: len(firsts)] - 1
         return list(zip(start[firsts].tolist(), stop[lasts].astype(int).tolist(), strict=True))
 
-    def _even_part(self, rows: range, columns: slice) -> CoveredPart:
-        """Return columns away from the outline, covered if it encloses the first of them."""
+    def _encloses(self, row: int, column: int) -> bool:
+        """Return whether a pixel away from the outline is inside it."""
         (x0, y0), (x1, y1) = self._starts, self._ends
-        crossed = (y0 <= rows[0]) != (y1 <= rows[0])
+        crossed = (y0 <= row) != (y1 <= row)
         x0, y0, x1, y1 = x0[crossed], y0[crossed], x1[crossed], y1[crossed]
-        x = x0 + (rows[0] - y0) / (y1 - y0) * (x1 - x0)
-        turns = np.sign(y1 - y0)[x < columns.start].sum()
-        return CoveredPart(columns, float(turns != 0.0))
+        x = x0 + (row - y0) / (y1 - y0) * (x1 - x0)
+        return bool(np.sign(y1 - y0)[x < column].sum() != 0.0)
 
     def _cover_rim(self, rows: range, columns: slice) -> Pixels:
         if self._coarse is not None:

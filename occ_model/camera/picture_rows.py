@@ -10,13 +10,14 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TypeAlias
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
-from occ_model.camera.coverage import Coverage
+from occ_model.camera.coverage import Coverage, CoveredPart
 from occ_model.camera.optics import STAGE, Gain, Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
 from occ_model.camera.row_interpolation import (
@@ -137,23 +138,7 @@ class _Panel:
         return light
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _LitColumns:
-    """Columns of some rows with a panel's light, in a fraction of each pixel or (None) in all."""
-
-    panel: _Panel
-    columns: slice
-    fraction: Pixels | None
-
-    def crop(self, columns: slice) -> "_LitColumns":
-        part = slice(max(self.columns.start, columns.start), min(self.columns.stop, columns.stop))
-        first = self.columns.start
-        fraction = (
-            None
-            if self.fraction is None
-            else self.fraction[:, part.start - first : part.stop - first]
-        )
-        return _LitColumns(self.panel, part, fraction)
+_LitPart: TypeAlias = tuple[_Panel, CoveredPart]  # columns of some rows with a panel's light
 
 
 class PictureRows:
@@ -185,38 +170,37 @@ class PictureRows:
     def of(self, rows: range, end_stage: Callable[[str], object] = lambda _stage: None) -> Rows:
         """Compute some rows; ``end_stage`` is called with the name of each stage at its end."""
         lit = [
-            _LitColumns(
-                panel, part.columns, None if isinstance(part.fraction, float) else part.fraction
-            )
+            (panel, part)
             for panel in self._panels
             if panel.coverage.reaches(rows)
             for part in panel.coverage.parts(rows)
-            if isinstance(part.fraction, np.ndarray) or part.fraction
         ]
         end_stage(self._cover_stage)
-        shared = self._find_shared_columns(lit)
-        unshared = [cut for piece in lit for cut in _cut_shared(piece, shared)] if shared else lit
-        inside = [(piece.panel, piece.columns) for piece in unshared if piece.fraction is None]
+        shared = self._find_shared_columns([part.columns for _, part in lit])
+        unshared = [(panel, cut) for panel, part in lit for cut in part.cut_out(shared)]
+        inside = [(panel, part.columns) for panel, part in unshared if part.fraction is None]
         rims = [
-            self._compute_rim(rows, piece.columns, [piece], end_stage)
-            for piece in unshared
-            if piece.fraction is not None
+            self._compute_rim(rows, part.columns, [(panel, part)], end_stage)
+            for panel, part in unshared
+            if part.fraction is not None
         ]
         rims += [
-            self._compute_rim(rows, columns, [piece.crop(columns) for piece in lit], end_stage)
+            self._compute_rim(
+                rows, columns, [(panel, part.crop(columns)) for panel, part in lit], end_stage
+            )
             for columns in shared
         ]
         nodes, weights = self._compute_nodes(rows, inside, end_stage)
         end_stage(STAGE)
         return Rows(rows, nodes, weights, tuple(rims), tuple(columns for _, columns in inside))
 
-    def _find_shared_columns(self, lit: Sequence[_LitColumns]) -> list[slice]:
+    def _find_shared_columns(self, lit: Sequence[slice]) -> list[slice]:
         if len(self._panels) == 1:
             return []
         steps = np.zeros(self._columns + 1, dtype=np.int64)
-        for piece in lit:
-            steps[piece.columns.start] += 1
-            steps[piece.columns.stop] -= 1
+        for columns in lit:
+            steps[columns.start] += 1
+            steps[columns.stop] -= 1
         is_shared = (np.cumsum(steps) > 1).astype(np.int8)
         ends: IndexArray = np.flatnonzero(np.diff(is_shared, prepend=0))
         return [slice(start, stop) for start, stop in ends.reshape(-1, 2).tolist()]
@@ -225,24 +209,25 @@ class PictureRows:
         self,
         rows: range,
         columns: slice,
-        lit: Sequence[_LitColumns],
+        lit: Sequence[_LitPart],
         end_stage: Callable[[str], object],
     ) -> Rim:
-        if self._is_plain and len(lit) == 1 and lit[0].fraction is not None:
-            is_panel = lit[0].fraction >= np.float32(0.5)
-            panel, around = lit[0].panel.values[:, columns], self._surroundings[:, columns]
-            return Rim(columns, np.where(is_panel, panel, around), is_panel)
+        (panel, part), *others = lit
+        if self._is_plain and not others and part.fraction is not None:
+            is_panel = part.fraction >= np.float32(0.5)
+            values, around = panel.values[:, columns], self._surroundings[:, columns]
+            return Rim(columns, np.where(is_panel, values, around), is_panel)
         line = np.asarray(rows, dtype=np.float64)
         shape = len(rows), columns.stop - columns.start
         light, is_panel = np.zeros(shape, dtype=np.float32), np.zeros(shape, dtype=np.bool_)
-        for piece in lit:
-            if piece.columns.stop <= piece.columns.start:
+        for panel, part in lit:
+            if part.columns.stop <= part.columns.start:
                 continue
-            fraction = np.ones(1, dtype=np.float32) if piece.fraction is None else piece.fraction
-            start, stop = piece.columns.start - columns.start, piece.columns.stop - columns.start
-            part = np.s_[:, start:stop]
-            light[part] += fraction * piece.panel.emitted_light(line, piece.columns, end_stage)
-            is_panel[part] |= fraction >= np.float32(0.5)
+            fraction = np.ones(1, dtype=np.float32) if part.fraction is None else part.fraction
+            start, stop = part.columns.start - columns.start, part.columns.stop - columns.start
+            place = np.s_[:, start:stop]
+            light[place] += fraction * panel.emitted_light(line, part.columns, end_stage)
+            is_panel[place] |= fraction >= np.float32(0.5)
         light += self._around[columns]
         return Rim(columns, self._encode(light, line, columns, end_stage), is_panel)
 
@@ -298,16 +283,3 @@ class PictureRows:
         values *= np.float32(self._unit)
         end_stage(STAGE)
         return values
-
-
-def _cut_shared(lit: _LitColumns, shared: Sequence[slice]) -> list[_LitColumns]:
-    pieces, start = [], lit.columns.start
-    for columns in shared:
-        if columns.stop <= start or columns.start >= lit.columns.stop:
-            continue
-        if columns.start > start:
-            pieces.append(lit.crop(slice(start, columns.start)))
-        start = columns.stop
-    if start < lit.columns.stop:
-        pieces.append(lit.crop(slice(start, lit.columns.stop)))
-    return pieces

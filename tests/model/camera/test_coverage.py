@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from amount import amount
 
-from occ_model.camera.coverage import Coverage
+from occ_model.camera.coverage import Coverage, CoveredPart
 
 ROWS, COLUMNS = 90, 120
 STAR = np.array(
@@ -73,8 +73,26 @@ def test_rows_are_the_same_however_many_are_asked_for(blur: float) -> None:
 
 @pytest.mark.parametrize("left", [-0.4, 30.3, COLUMNS + 0.6])
 @pytest.mark.parametrize("blur", [0.0, 0.7, 3.0, 20.0])
-def test_a_part_with_one_fraction_is_covered_fully_or_not_at_all(blur: float, left: float) -> None:
-    # With upright edges all rows are equal, also in the blurred rims.
+def test_parts_without_fractions_are_covered_fully_and_columns_beside_parts_not_at_all(
+    blur: float, left: float
+) -> None:
     square = np.array([[left, -900.0], [left + 50, -900], [left + 50, 900], [left, 900]])
-    parts = Coverage(square, ROWS, COLUMNS, blur).parts(range(ROWS))
-    assert {part.fraction for part in parts if isinstance(part.fraction, float)} <= {0.0, 1.0}
+    expected = np.clip(blur_directly(square, max(blur, 1e-3), (ROWS, COLUMNS)), 0.0, 1.0)
+    is_beside = np.ones(COLUMNS, dtype=bool)
+    for part in Coverage(square, ROWS, COLUMNS, blur).parts(range(ROWS)):
+        is_beside[part.columns] = False
+        if part.fraction is None:
+            np.testing.assert_allclose(expected[:, part.columns], 1.0, atol=1e-4)
+        else:
+            assert blur > 0.0  # with upright edges all rows are equal
+    np.testing.assert_allclose(expected[:, is_beside], 0.0, atol=1e-4)
+    assert blur or is_beside.sum() == (expected == 0.0).all(axis=0).sum()
+
+
+def test_a_part_without_some_columns_is_what_lies_between_them() -> None:
+    fraction = np.arange(12.0, dtype=np.float32)[None, :]
+    part = CoveredPart(slice(10, 22), fraction)
+    pieces = part.cut_out([slice(0, 11), slice(13, 15), slice(21, 40), slice(50, 60)])
+    assert [piece.columns for piece in pieces] == [slice(11, 13), slice(15, 21)]
+    assert [piece.fraction.tolist()[0] for piece in pieces] == [[1, 2], [5, 6, 7, 8, 9, 10]]
+    assert part.cut_out([])[0].fraction.tolist() == fraction.tolist()

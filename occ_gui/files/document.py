@@ -1,4 +1,4 @@
-"""Document: the file of the scene; the window's title shows its name and a mark for changes."""
+"""The document: the file of the scene, its name and unsaved changes in the window's title."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -49,7 +49,7 @@ class Document(QObject):
             self._files.save_scene(self.path)
 
     def may_close(self) -> bool:
-        """Ask whether to save the scene if its file has not its changes; False to stay open."""
+        """Ask whether to save a scene that has changed since it was saved; False to stay open."""
         if self.path is None or not self._window.isWindowModified():
             return True
         buttons = QMessageBox.StandardButton

@@ -51,7 +51,7 @@ class SessionFile:
         self._path: Path | None = None
         self.crashed: SavedSession | None = None
         self.last: SavedSession | None = None
-        """The session written last, but for those of windows that are open."""
+        """The session written last, except those of windows that are open."""
         self.invalid_file_message: str | None = None  # None if every session file is valid
         # If the folder cannot be made, the first writing reports it.
         with suppress(OccError, OSError):

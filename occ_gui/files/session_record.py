@@ -1,6 +1,6 @@
-"""Record of a session: a workspace with its steps, written as plain values and read again.
+"""Record of a session: a workspace with its steps, as values of JSON.
 
-Unreadable parts keep their first values: a window starts whatever its file contains.
+An invalid part is replaced by its first value, so that a window starts whatever its file contains.
 """
 
 import json
@@ -33,15 +33,9 @@ from occ_model.results.decoding import Region
 from occ_model.results.frame import PICTURES
 from occ_model.results.match import ESTIMATES
 from occ_model.results.sweep_request import SHOWN_QUANTITIES
-from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import DECLARED, FRAME_RATE
-from occ_model.scene.scene import (
-    OBSERVABLES,
-    TOLERANCE,
-    Scene,
-    SimulationSettings,
-)
+from occ_model.scene.scene import Scene, SimulationSettings
 
 T = TypeVar("T")
 
@@ -299,15 +293,8 @@ def _read_scene(text: Any) -> Scene:
 
 
 def _read_settings(values: Any) -> SimulationSettings:
-    force = _read_force(values["force"])
-    _require(values["observable"] in OBSERVABLES)
-    check_seed(values["seed"])
-    return SimulationSettings(
-        tolerance=TOLERANCE.check(values["tolerance"]),
-        observable=values["observable"],
-        force={name: on for name, on in force.items() if name in NAMES},
-        seed=values["seed"],
-    )
+    force = {name: on for name, on in dict(values["force"]).items() if name in NAMES}
+    return SimulationSettings(**{**values, "force": force}).check(NAMES)
 
 
 def _read_region(values: Any) -> Region:

@@ -55,8 +55,8 @@ class LessonController(QObject):
         self._view, self._answers = view, answers
         self._loaded = LoadedLessons(())
         self.current: Lesson | None = None
-        self._finished_steps: dict[str, int] = {}
         self._places: dict[str, int] = {}
+        """The step reached in each lesson, by its name; after its end, the number of its steps."""
         self._workspace_before: Workspace | None = None
         self._has_set_room = False
         self._first_photo: Path | None = None
@@ -89,7 +89,7 @@ class LessonController(QObject):
             self._list_lessons(failure)
 
     def _list_lessons(self, failure: str = "") -> None:
-        self._view.list.show_lessons(self._loaded, self._places | self._finished_steps, failure)
+        self._view.list.show_lessons(self._loaded, self._places, failure)
         self._view.setCurrentWidget(self._view.list)
 
     def begin_first(self) -> None:
@@ -104,7 +104,8 @@ class LessonController(QObject):
                     self._workspace_before = self._store.workspace
                     self._first_photo = self._workspace_before.photo.path
                 self.current, self._ended_lesson = lesson, None
-                self._go_to(self._places.get(name, 0))
+                place = self._places.get(name, 0)
+                self._go_to(place if place < len(lesson.steps) else 0)
 
     def go(self, steps: int) -> None:
         """Go forward or back by some steps; end the lesson after its last step."""
@@ -115,8 +116,7 @@ class LessonController(QObject):
         if place < count:
             self._go_to(max(place, 0))
             return
-        self._finished_steps[name] = count
-        self._places[name] = 0
+        self._places[name] = count
         self._ended_lesson, self.current = self.current, None
         self.control_wanted.emit("")
         self.restore_user()
@@ -180,7 +180,6 @@ class LessonController(QObject):
         if lesson is None:
             return
         self._places[lesson.name] = place
-        self._finished_steps.pop(lesson.name, None)
         step = lesson.steps[place]
         self._view.step.show_step(lesson, place, self._answers.find_answer(lesson, place))
         self._view.setCurrentWidget(self._view.step)

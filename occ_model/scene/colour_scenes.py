@@ -101,14 +101,14 @@ def led_scene(scene: Scene, index: int) -> Scene:
 def channel_scene(scene: Scene, index: int) -> Scene:
     """Return the monochrome scene of one channel: of its sensitivity to white, and its gain.
 
-    Its transmitter is the LED's of that colour alone; the lights are mixed when it is exposed.
+    Its transmitter is the LED of that colour alone; the lights are mixed when it is exposed.
     """
-    own, colours = led_scene(scene, index), scene.colours
+    led, colours = led_scene(scene, index), scene.colours
     sensitivity = sum(colours.matrix[index])
-    return own.replace(
-        iso=own.camera.iso * colours.gains[index],
-        luminance=own.transmitter.luminance * sensitivity,
-        illuminance=own.surroundings.illuminance * sensitivity,
+    return led.replace(
+        iso=led.camera.iso * colours.gains[index],
+        luminance=led.transmitter.luminance * sensitivity,
+        illuminance=led.surroundings.illuminance * sensitivity,
     )
 
 
@@ -130,32 +130,32 @@ def colour_scene(scene: Scene, name: str) -> Scene:
         raise ParameterError.of("colour", quote(name), ", ".join(COLOURS))
     check_colour(scene)
     index = COLOURS.index(name)
-    own, camera = led_scene(scene, index), scene.camera
-    own = own.replace(iso=camera.iso * scene.colours.gains[index])
+    led, camera = led_scene(scene, index), scene.camera
+    led = led.replace(iso=camera.iso * scene.colours.gains[index])
     row, column = scene.colours.first_pixel(name)
     rows = len(range(row, camera.rows, 2)) / noise_gain(scene, index) ** 2
     every = 1 if name == "green" else 2
-    return pixels_scene(own, max(1, round(rows)), range(column % every, camera.columns, every))
+    return pixels_scene(led, max(1, round(rows)), range(column % every, camera.columns, every))
 
 
-def filter_scene(own: Scene, place: int) -> Scene:
+def filter_scene(scene: Scene, place: int) -> Scene:
     """Return the scene of the pixels at one of the four places of a Bayer pattern."""
     row, column = divmod(place, 2)
-    camera, sensor = own.camera, own.sensor
+    camera, sensor = scene.camera, scene.sensor
     # The four places are different pixels, whose gains differ.
-    own = own.replace(sensor_seed=(4 * sensor.sensor_seed + place) % 2**31)
-    return pixels_scene(own, len(range(row, camera.rows, 2)), range(column, camera.columns, 2))
+    scene = scene.replace(sensor_seed=(4 * sensor.sensor_seed + place) % 2**31)
+    return pixels_scene(scene, len(range(row, camera.rows, 2)), range(column, camera.columns, 2))
 
 
-def pixels_scene(own: Scene, rows: int, columns: range) -> Scene:
+def pixels_scene(scene: Scene, rows: int, columns: range) -> Scene:
     """Return the scene of a camera that has some rows, and every k-th column, of another."""
-    camera, sensor, sent, every = own.camera, own.sensor, own.transmitter, columns.step
+    camera, sensor, sent, every = scene.camera, scene.sensor, scene.transmitter, columns.step
     # Pixels need not be square: a panel of another height stands for rows of another height.
     height = rows / camera.rows * every
     focal = camera.focal_length_pixels / every
-    return own.replace(
+    return scene.replace(
         panel_height=sent.panel_height * height,
-        offset_y=own.pose.offset_y * height,
+        offset_y=scene.pose.offset_y * height,
         rows=rows,
         columns=len(columns),
         readout_time=every * camera.readout_time,
@@ -163,6 +163,6 @@ def pixels_scene(own: Scene, rows: int, columns: range) -> Scene:
         # A pixel of twice the pitch that catches a quarter of the light is as noisy.
         pixel_pitch=sensor.pixel_pitch * every,
         quantum_efficiency=sensor.quantum_efficiency / every**2,
-        point_spread=own.lens.point_spread / every,
-        start_time=own.model.start_time + columns.start * camera.readout_time,
+        point_spread=scene.lens.point_spread / every,
+        start_time=scene.model.start_time + columns.start * camera.readout_time,
     )

@@ -52,9 +52,9 @@ def check_answer(
         value = result_text(quantity.unit, model_value)
         source = "The match" if own_match else "The model"
         return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
-    if quantity.called:
+    if quantity.identified:
         return CheckedAnswer(
-            text, "wrong", f"Not yet: that is not the {quantity.called}. Try again."
+            text, "wrong", f"Not yet: that is not the {quantity.identified}. Try again."
         )
     direction = "high" if answer > model_value else "low"
     if difference <= max(_NEAR_TOLERANCES * check.tolerance, _MIN_NEAR_DIFFERENCE):

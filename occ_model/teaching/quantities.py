@@ -35,9 +35,8 @@ class LessonQuantity:
     asked_in: str  # The unit of an answer without a unit
     of_scene: Callable[[Scene], float]  # Returns the value in SI units
     of_photo: bool = False  # Whether it is computed from the scene matched to a photo
-    # The noun for a number that is only a name, such as "code", so that no answer is nearly right;
-    # empty for a quantity
-    called: str = ""
+    # What a number identifies if it measures nothing: "code"; then no answer is nearly right
+    identified: str = ""
 
     def compute(self, scene: Scene, photo: str | Match = "") -> float:
         """Return the value; ``photo`` is the name of the step's photo, or a match of another."""
@@ -179,7 +178,7 @@ QUANTITIES = {  # by the name in a lesson's file
         of_photo=True,
     ),
     "photo-code": LessonQuantity(
-        "code that the photo shows", NONE, "", _code, of_photo=True, called="code"
+        "code that the photo shows", NONE, "", _code, of_photo=True, identified="code"
     ),
 }  # fmt: skip
 

@@ -94,7 +94,6 @@ def forget_lessons(application: Application) -> None:
     lessons = application.shell.pane("lessons")
     lessons.controller.leave()
     lessons.controller._places.clear()
-    lessons.controller._finished_steps.clear()
     lessons.answers._records.clear()
 
 

@@ -152,7 +152,7 @@ class PhotoPane(Pane[ShownPhoto]):
     def _act_on_change(self, shown: ShownPhoto, last: ShownPhoto) -> None:
         """Act on a change, which may change the photo again; that change is then shown."""
         if shown.choice.listed != last.choice.listed:
-            self.many.show_files(shown.choice.listed)
+            self.many.forget_rows()
         if shown.part != last.part:
             self.matching.cancel()
             if shown.part is not None:

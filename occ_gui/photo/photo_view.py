@@ -129,7 +129,6 @@ class PhotoView(QWidget):
         self._shown = ShownPhoto(Scene())
         fill(QVBoxLayout(self), self.steps, self._pages, margins=(4, 0, 4, 0))
         self.result.hide()
-        self.many.files_shown.connect(self._show_page)
         for form in (self.form, self.placement):
             form.refused.connect(self.refused)
             form.accepted.connect(self.accepted)
@@ -173,17 +172,14 @@ class PhotoView(QWidget):
         last, self._shown = self._shown, shown
         photo, options = shown.photo, shown.choice.load_options
         if photo is not last.photo:
-            path = None if photo is None else photo.path
-            if photo is not None and (last.photo is None or path != last.photo.path):
+            if photo is not None and (last.photo is None or photo.path != last.photo.path):
                 self._scroll.verticalScrollBar().setValue(0)  # its name is at the top
-            self.many.rows.show_open(path)
-            self._show_page()
-        if photo is not None and photo is not last.photo:
-            self.facts.show_photo(photo)
+            if photo is not None:
+                self.facts.show_photo(photo)
+        self._show_page(shown)
         self.facts.show_load_options(options.channel, options.scan_axis)
-        for part in (self.lamps, self.form, self.verdict):
+        for part in (self.lamps, self.form, self.verdict, self.many):
             part.show_photo(shown)
-        self._show_in_table(shown, last)
         placement = (shown.placement, shown.is_placed_by_hand)
         if placement != (last.placement, last.is_placed_by_hand):
             self.placement.show_placement(*placement)
@@ -194,16 +190,6 @@ class PhotoView(QWidget):
             has_photo=photo is not None, match=verdict, is_applied=shown.is_applied
         )
 
-    def _show_in_table(self, shown: ShownPhoto, last: ShownPhoto) -> None:
-        if shown.scene is not last.scene:
-            self.many.show_scene(shown.scene)
-        if shown.choice.certain != last.choice.certain:
-            self.many.show_certain(shown.choice.certain)
-        if shown.match is not last.match:
-            is_own = shown.outcome is not None and not shown.outcome.is_listed
-            own_path = shown.photo.path if shown.photo is not None and is_own else None
-            self.many.rows.mark_earlier(own_path)
-
     def _show_result(self, shown: ShownPhoto, last: ShownPhoto) -> None:
         bar = self._scroll.verticalScrollBar()
         scroll_position = bar.value()
@@ -213,10 +199,10 @@ class PhotoView(QWidget):
             if shown.outcome.is_listed:  # the table stays where it was
                 bar.setValue(scroll_position)
 
-    def _show_page(self) -> None:
+    def _show_page(self, shown: ShownPhoto) -> None:
         """Show the forms if there is a photo or a table, else the invitation."""
-        has_photo = self._shown.photo is not None
-        self._pages.setCurrentIndex(1 if has_photo or self.many.rows.paths else 0)
+        has_photo = shown.photo is not None
+        self._pages.setCurrentIndex(1 if has_photo or shown.choice.listed else 0)
         for part in (self.facts, self.form.start, self.placement):
             part.setVisible(has_photo)
 

@@ -10,7 +10,7 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.values.choices import PhotoChoice, PhotoFrame, Placement
-from occ_gui.values.photo_results import MatchOutcome, PhotoDocument, StripeSearch
+from occ_gui.values.photo_results import ListedRows, MatchOutcome, PhotoDocument, StripeSearch
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within
 from occ_model.results.bands import Cure
@@ -83,6 +83,7 @@ class ShownPhoto:
     document: PhotoDocument | None = None
     part: Part = None
     outcome: MatchOutcome | None = None
+    listed: ListedRows | None = None  # the results for the photos of the table
     cure: Cure | None = None  # the remedy for the bars of the match, once it is known
     row: PhotoRow | None = None  # the photo's row of the table
     stripe_search: StripeSearch | None = None
@@ -94,7 +95,10 @@ class ShownPhoto:
     @classmethod
     def of(cls, workspace: Workspace, results: Results) -> "ShownPhoto":
         choice, document, reading = workspace.photo, results.document, results.reading
-        shown = cls(workspace.scene, choice, reading)
+        listed = results.listed
+        if listed is not None and listed.paths != choice.listed:
+            listed = None
+        shown = cls(workspace.scene, choice, reading, listed=listed)
         if document is None:
             return shown
         placed, placement = choice.placed_photo, Placement()
@@ -108,7 +112,7 @@ class ShownPhoto:
             document=document,
             part=part_of(choice, results),
             outcome=find_match(results),
-            row=None if results.listed is None else results.listed.row_of(document),
+            row=None if listed is None else listed.row_of(document),
             stripe_search=results.stripes,
             placement=placement,
             is_placed_by_hand=is_placed_by_hand,

@@ -1,6 +1,8 @@
 """Results computed from a photo, each with what it was computed from."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -11,11 +13,12 @@ from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:  # a window without a photo starts without them
+    from occ_model.photo.many.row import MatchSettings
     from occ_model.photo.reading.load import Photo
     from occ_model.results.comparison import Comparison
     from occ_model.results.lamp import Lamp
     from occ_model.results.match import Match, Stripes
-    from occ_model.results.photo_table import PhotoRow
+    from occ_model.results.photo_table import PhotoRow, PhotoTable
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -80,17 +83,22 @@ class PhotoDocument:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ListedRows:
-    """The results so far for the photos of the table, and how the photos were loaded."""
+    """The results so far for the photos of the table, and how they were loaded and matched."""
 
-    rows: "tuple[PhotoRow, ...]"
+    paths: tuple[Path, ...]
+    rows: "Mapping[int, PhotoRow]"  # by the index of the photo
     load_options: LoadOptions
-    given: tuple[str, float]  # the known value of the scene when they were matched, as above
+    given: tuple[str, float]  # the known value of the scene at the request, as above
+    settings: "MatchSettings"
+    table: "PhotoTable | None" = None  # the rows with their mean, once all photos are matched
+    is_running: bool = False
 
     def row_of(self, document: PhotoDocument) -> "PhotoRow | None":
         """Return the row of a photo; None before it is matched, or if it was loaded otherwise."""
         if document.source.load_options != self.load_options:
             return None
-        return next((row for row in self.rows if row.path == document.photo.path), None)
+        rows = self.rows.values()
+        return next((row for row in rows if row.path == document.photo.path), None)
 
     def match_of(self, document: PhotoDocument) -> MatchOutcome | None:
         row = self.row_of(document)

@@ -34,7 +34,6 @@ from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.values.choices import (
     OVERLAYS,
     FilmChoice,
-    MatchChoice,
     PhotoChoice,
     RoomChoice,
 )
@@ -150,16 +149,13 @@ class Home:
 
     size: QSize
     docks: list[bool]
-    choice: MatchChoice
     column: int
 
     @classmethod
     def of(cls, application: Application) -> "Home":
         docks = [dock.isHidden() for dock in application.window.docks.values()]
         column = application.story.rows.crosshair.column or 0
-        return cls(
-            application.window.size(), docks, application.view("photo").form.choice(), column
-        )
+        return cls(application.window.size(), docks, column)
 
 
 class SharedWindow:

@@ -73,25 +73,27 @@ class ManyPhotosController(QObject):
         self.photos = photos
         self._scenes, self._results_store = scenes, results_store
         self._view, self._jobs = view, jobs
-        self._settings: MatchSettings | None = None
-        self._rows: dict[int, PhotoRow] = {}
-        self._finished_count = 0
-        self.table: PhotoTable | None = None
         self.task: Task[ManyRequest, PhotoTable] = Task(
             match_all, "match of several photos", impatient=True
         )
         self.task.reported.connect(self._take_row)
         self.task.finished.connect(self._take_table)
-        self.task.failed.connect(view.show_failure)
+        self.task.failed.connect(self._fail)
         view.cancelled.connect(self.cancel)
         view.closed.connect(lambda: photos.list_files(()))
         view.rows.known_entered.connect(self._match_again)
 
-    def show_files(self, paths: tuple[Path, ...]) -> None:
+    def forget_rows(self) -> None:
+        """End the work on the previous photos, and forget its results."""
         self.task.cancel()
-        self._rows, self.table = {}, None
-        self._results_store.put(replace(self._results_store.results, listed=None))
-        self._view.show_files(paths)
+        self._put(None)
+
+    @property
+    def listed(self) -> ListedRows | None:
+        return self._results_store.results.listed
+
+    def _put(self, listed: ListedRows | None) -> None:
+        self._results_store.put(replace(self._results_store.results, listed=listed))
 
     def start(self, choice: MatchChoice) -> None:
         paths, options = self.photos.choice.listed, self.photos.choice.load_options
@@ -100,12 +102,12 @@ class ManyPhotosController(QObject):
         try:
             scene, sent = put_known_values(self._scenes.scene, choice)
         except OccError as error:
-            self._view.show_failure(str(error))
+            self._view.show_note(str(error))
             return
         from occ_model.photo.many.row import MatchSettings
 
         known = known_parameter(choice.estimate, scene.transmitter)
-        settings = self._settings = MatchSettings(
+        settings = MatchSettings(
             scene,
             choice.estimate,
             sent,
@@ -114,45 +116,42 @@ class ManyPhotosController(QObject):
             channel=options.channel,
             known=self._view.rows.entered_values(known),
         )
-        self._rows, self._finished_count, self.table = {}, 0, None
-        self._listed = ListedRows((), options, known_value(choice.estimate, self._scenes.scene))
-        self._put_rows()
-        self._view.begin_match(choice.estimate, scene)
+        given = known_value(choice.estimate, self._scenes.scene)
+        self._put(ListedRows(paths, {}, options, given, settings, is_running=True))
         self.task.ask(ManyRequest(paths, settings, self._jobs))
 
     def _match_again(self, index: int) -> None:
         """Match a photo again after its known value was entered, if all have been matched."""
-        table, settings = self.table, self._settings
-        if table is None or settings is None:
+        listed = self.listed
+        if listed is None:
             return
+        settings, table = listed.settings, listed.table
         parameter = known_parameter(settings.estimate, settings.scene.transmitter)
-        known = self._view.rows.entered_values(parameter)
-        self._settings = settings = replace(settings, known=known)
-        self._finished_count, self.table = len(table.rows) - 1, None
-        self._view.show_busy(settings.estimate, settings.scene)
-        paths = self.photos.choice.listed
-        self.task.ask(ManyRequest(paths, settings, self._jobs, table.rows, index))
+        settings = replace(settings, known=self._view.rows.entered_values(parameter))
+        rows = {place: row for place, row in listed.rows.items() if place != index}
+        is_running = table is not None
+        self._put(replace(listed, rows=rows, settings=settings, table=None, is_running=is_running))
+        if table is not None:
+            self.task.ask(ManyRequest(listed.paths, settings, self._jobs, table.rows, index))
 
     def cancel(self) -> None:
         """Cancel the work; finished rows stay."""
         if not self.task.is_idle:
             self.task.cancel()
-            self._view.end_match()
+            self._change(is_running=False)
+
+    def _change(self, **changes: object) -> None:
+        if self.listed is not None:
+            self._put(replace(self.listed, **changes))  # type: ignore[arg-type]  # its fields
 
     def _take_row(self, result: tuple[int, PhotoRow] | None) -> None:
-        if result is not None:
+        if result is not None and self.listed is not None:
             index, row = result
-            self._rows[index] = row
-            self._finished_count += 1
-            self._view.show_row(index, row, self._finished_count)
-            self._put_rows()
+            self._change(rows={**self.listed.rows, index: row})
 
     def _take_table(self, table: PhotoTable) -> None:
-        self.table = table
-        self._rows = dict(enumerate(table.rows))
-        self._view.show_table(table)
-        self._put_rows()
+        self._change(rows=dict(enumerate(table.rows)), table=table, is_running=False)
 
-    def _put_rows(self) -> None:
-        listed = replace(self._listed, rows=tuple(self._rows.values()))
-        self._results_store.put(replace(self._results_store.results, listed=listed))
+    def _fail(self, sentence: str) -> None:
+        self._change(is_running=False)
+        self._view.show_note(sentence)

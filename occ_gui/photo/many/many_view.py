@@ -1,33 +1,37 @@
 """Table of several photos: the match of each, their mean, and lines for other programs."""
 
-import math
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QModelIndex, QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
-from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
+from occ_gui.photo.many.rows_model import (
+    KNOWN,
+    NOTE,
+    PHOTO,
+    PhotoRowsModel,
+    condition_of_table,
+)
 from occ_gui.photo.match_figures import (
     WHAT_ERRORS_MEAN,
     PasteLines,
     describe_stale_value,
     is_certain,
 )
+from occ_gui.photo.shown_photo import ShownPhoto
+from occ_gui.values.photo_results import ListedRows
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import inflect
 from occ_model.photo.many.other_programs import format_lines, frame_readout_time, lines_to_paste
 from occ_model.photo.match_facts import LABELS
-from occ_model.results.match import known_parameter, known_value
+from occ_model.results.match import known_value
 from occ_model.results.match_sentence import estimate_text
 from occ_model.results.photo_table import (
     VERDICTS,
     CombinedEstimate,
-    PhotoRow,
     PhotoTable,
-    assumption,
     csv_text,
 )
 from occ_model.scene.parameters import quantity
@@ -46,13 +50,12 @@ class ManyPhotosView(QWidget):
     save_asked = Signal(str)  # the user saves the table: its text as CSV
     cancelled = Signal()
     closed = Signal()  # the user closes the table
-    files_shown = Signal()  # other files are listed, or none
     photo_chosen = Signal(Path)  # the user opens one of the photos
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.rows = PhotoRowsModel(self)
-        self.rows.refused.connect(self._show_note)
+        self.rows.refused.connect(self.show_note)
         self._make_buttons()
         self._make_table()
         self.work = WorkBar("Photos that are matched")
@@ -72,14 +75,9 @@ class ManyPhotosView(QWidget):
         self.paste.copied.connect(self.copied)
         for label in (self.mean, self.exposure, self.frame):
             label.setToolTip(WHAT_ERRORS_MEAN)
-        self._results: PhotoTable | None = None
-        self._request: tuple[str, Scene] | None = None
-        self._counts = ""
-        self._scene: Scene | None = None
-        self._known_at_match = ("", math.nan)
-        self._certain: Mapping[str, float] = {}
+        self._shown = ShownPhoto(Scene())
         self._lay_out()
-        self._show_title()
+        self._show_listed(self._shown)
 
     def _lay_out(self) -> None:
         """Put the table beside the combined results, because the pane is wide and low."""
@@ -157,123 +155,80 @@ class ManyPhotosView(QWidget):
         if index.column() != KNOWN:  # a click on that column edits it
             self.photo_chosen.emit(self.rows.paths[index.row()])
 
-    def show_files(self, paths: Sequence[Path]) -> None:
-        """Show these files in place of the previous ones, or hide the table."""
-        self.rows.show_files(paths)
-        self._show_results(None)
-        self.work.end()
-        self._request = None
-        self._show_title()
-        self._fit_columns()
-        for button in (self.start, self.close_table):
-            button.setEnabled(bool(paths))
-        self.files_shown.emit()
+    def show_photo(self, shown: ShownPhoto) -> None:
+        """Show the photos of the table, and mark the open one."""
+        last, self._shown = self._shown, shown
+        self.rows.show_photo(shown)
+        if shown.listed is not last.listed or shown.choice.listed != last.choice.listed:
+            self._show_work(shown.listed, last.listed)
+            self._show_listed(shown)
+        elif shown.choice.certain != last.choice.certain:
+            self._show_listed(shown)
+        if shown.choice.listed != last.choice.listed:
+            self._fit_columns()
+        self._warn_if_stale(shown)
 
-    def begin_match(self, estimate: str, scene: Scene) -> None:
-        known = known_parameter(estimate, scene.transmitter)
-        self.rows.clear_results(estimate, known, float(scene.value(known)))
-        self.show_busy(estimate, scene)
+    def _show_work(self, listed: ListedRows | None, last: ListedRows | None) -> None:
+        """Show how many photos have been matched while the work is running."""
+        is_running = listed is not None and listed.is_running
+        was_running = last is not None and last.is_running
+        if is_running and not was_running:
+            self.work.begin()
+            self.table.horizontalScrollBar().setValue(0)
+        elif was_running and not is_running:
+            self.work.end()
+            self._fit_columns()
+        if listed is not None and is_running:
+            done, count = len(listed.rows), len(self.rows.paths)
+            self.work.progress.setFormat(f"{done} of {count}")
+            self.work.show_progress(done / count)
 
-    def show_busy(self, estimate: str, scene: Scene) -> None:
-        """Show that photos are being matched, and no mean yet."""
-        self.rows.is_busy = True
-        self._show_results(None)
-        self._request, self._counts = (estimate, scene), ""
-        self._show_title()
-        self.start.setEnabled(False)
-        self._show_count(0)
-        self.work.begin()
-        self.table.horizontalScrollBar().setValue(0)
+    def _show_listed(self, shown: ShownPhoto) -> None:
+        listed, has_photos = shown.listed, bool(shown.choice.listed)
+        table = None if listed is None else listed.table
+        self.start.setEnabled(has_photos and not (listed is not None and listed.is_running))
+        self.close_table.setEnabled(has_photos)
+        for button in (self.copy, self.save):
+            button.setEnabled(table is not None)
+        self.title.setText(self._title(shown))
+        self._show_mean(table)
 
-    def _show_count(self, done: int) -> None:
-        count = len(self.rows.paths)
-        self.work.progress.setFormat(f"{done} of {count}")
-        self.work.show_progress(done / count)
+    def _title(self, shown: ShownPhoto) -> str:
+        text = inflect(len(shown.choice.listed), "photo")
+        if not shown.choice.listed:
+            return "Open several photos together, or drop them, to match them all."
+        if shown.listed is None:
+            return f"{text}, not matched yet: say in the pane Photo what is known."
+        table, condition = shown.listed.table, condition_of_table(shown)
+        if table is not None:
+            counts = {verdict: table.count(verdict) for verdict in VERDICTS}
+            text += ": " + ", ".join(f"{n} {verdict}" for verdict, n in counts.items() if n)
+        if condition:
+            text += f". These values hold only {condition.removesuffix(': ')}."
+        return text
 
-    def _show_title(self) -> None:
-        text = inflect(len(self.rows.paths), "photo")
-        if not self.rows.paths:
-            text = "Open several photos together, or drop them, to match them all."
-        elif self._request is None:
-            text += ", not matched yet: say in the pane Photo what is known."
-        else:
-            text += f": {self._counts}" if self._counts else ""
-            condition = self._condition(*self._request)
-            self.rows.show_condition(condition)
-            if condition:
-                text += f". These values hold only {condition.removesuffix(': ')}."
-        self.title.setText(text)
-
-    def show_row(self, index: int, row: PhotoRow, done: int) -> None:
-        self.rows.show_row(index, row)
-        self._show_count(done)
-
-    def end_match(self) -> None:
-        self.work.end()
-        self.rows.is_busy = False
-        self.start.setEnabled(True)
-        self._fit_columns()
-
-    def show_failure(self, sentence: str) -> None:
-        self.end_match()
-        self._show_note(sentence)
-
-    def _show_note(self, sentence: str) -> None:
+    def show_note(self, sentence: str) -> None:
         self.notes.setText(sentence)
         self.notes.show()
         self._results_pane.show()
 
-    def show_table(self, table: PhotoTable) -> None:
-        self.rows.show_table(table)
-        self.end_match()
-        self._request = (table.estimate, table.scene)
-        self._counts = ", ".join(
-            f"{table.count(verdict)} {verdict}" for verdict in VERDICTS if table.count(verdict)
-        )
-        self._show_title()
-        self._show_results(table)
-
-    def show_certain(self, certain: Mapping[str, float]) -> None:
-        self._certain = certain
-        self._show_title()
-        self._show_results(self._results)
-
-    def show_scene(self, scene: Scene) -> None:
-        self._scene = scene
-        self._warn_if_stale()
-
-    def _warn_if_stale(self) -> None:
-        table, scene = self._results, self._scene
-        self.warning.hide()
-        if table is None or scene is None:
-            return
-        warning = ""
-        if not is_certain(table.known, float(table.scene.value(table.known)), self._certain):
-            known = known_value(table.estimate, table.scene)
-            warning = describe_stale_value(scene, table.estimate, known, self._known_at_match)
+    def _warn_if_stale(self, shown: ShownPhoto) -> None:
+        listed, warning = shown.listed, ""
+        if listed is not None and listed.table is not None:
+            table = listed.table
+            value = float(table.scene.value(table.known))
+            if not is_certain(table.known, value, shown.choice.certain):
+                used = known_value(table.estimate, table.scene)
+                # The known value of a lamp stated in the form is its own, not the scene's.
+                warning = describe_stale_value(shown.scene, table.estimate, used, listed.given)
         self.warning.setText(f"{warning}match all again.")
         self.warning.setVisible(bool(warning))
 
-    def _condition(self, estimate: str, scene: Scene) -> str:
-        """Name the known value that an estimate assumes, unless the user is certain of it."""
-        if self._results is not None and not self._results.rests_on_the_scene:
-            return ""  # a value was entered for each photo
-        known = known_parameter(estimate, scene.transmitter)
-        if is_certain(known, float(scene.value(known)), self._certain):
-            return ""
-        return assumption(*known_value(estimate, scene))
-
-    def _show_results(self, table: PhotoTable | None) -> None:
-        if table is not None and table is not self._results and self._scene is not None:
-            # The known value of a lamp stated in the form is its own frequency, not the scene's.
-            self._known_at_match = known_value(table.estimate, self._scene)
-        self._results = table
-        self._warn_if_stale()
-        for button in (self.copy, self.save):
-            button.setEnabled(table is not None)
+    def _show_mean(self, table: PhotoTable | None) -> None:
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
+        self.paste.show_lines({})
         if table is not None:
-            condition = self._condition(table.estimate, table.scene)
+            condition = condition_of_table(self._shown)
             texts[self.mean] = self._describe_mean(table.estimate, table.estimated, condition)
             texts[self.exposure] = self._describe_mean(
                 "exposure_time", table.exposure_time, condition
@@ -284,8 +239,6 @@ class ManyPhotosView(QWidget):
                 texts[self.frame] = f"Readout of the whole frame, sure photos: {condition + time}"
             texts[self.notes] = "\n".join(table.notes)
             self.paste.show_lines(lines_to_paste(table), condition)
-        else:
-            self.paste.show_lines({})
         for label, text in texts.items():
             label.setText(text)
             label.setVisible(bool(text))
@@ -309,8 +262,8 @@ class ManyPhotosView(QWidget):
 
     def csv(self) -> str:
         """Return the table as CSV, with the lines to paste; empty before the photos are matched."""
-        table = self._results
-        if table is None:
+        listed = self._shown.listed
+        if listed is None or listed.table is None:
             return ""
-        condition = self._condition(table.estimate, table.scene)
+        table, condition = listed.table, condition_of_table(self._shown)
         return csv_text(table, format_lines(table, condition), condition)

@@ -1,6 +1,5 @@
 """Rows of the table of several photos, as a model for Qt's views."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +13,19 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QGuiApplication, QPalette
 
+from occ_gui.photo.match_figures import is_certain
 from occ_gui.photo.match_result import SIGNS
+from occ_gui.photo.shown_photo import ShownPhoto
+from occ_gui.values.photo_results import ListedRows
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import ParameterError, one_line
 from occ_model.photo.match_facts import LABELS
+from occ_model.results.match import known_parameter, known_value
 from occ_model.results.match_sentence import estimate_text
-from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable
+from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, assumption
 from occ_model.scene.parameters import quantity
 from occ_model.scene.refusal import refusal_of
+from occ_model.scene.scene import Scene
 
 _Index = QModelIndex | QPersistentModelIndex
 
@@ -39,70 +43,63 @@ class PhotoRowsModel(QAbstractTableModel):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.paths: tuple[Path, ...] = ()
-        self._rows: dict[int, PhotoRow] = {}
-        self._table: PhotoTable | None = None
-        self._estimate, self.known = "readout_time", "switching_frequency"
-        self._condition = ""
-        self._rematched_path: Path | None = None
-        self._open_path: Path | None = None
+        self._shown = ShownPhoto(Scene())
         self._entered_values: dict[str, dict[int, float]] = {}
         """Values entered for single photos, by the kind of value and the photo's index."""
-        self._common_value: float | None = None
-        """Known value of all other photos, in SI units; None before they are matched."""
-        self.is_busy = False
-        """Whether the photos are being matched, so that no value can be entered for them."""
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        return self._shown.choice.listed
+
+    @property
+    def _listed(self) -> ListedRows | None:
+        return self._shown.listed
+
+    @property
+    def _estimate(self) -> str:
+        if self._listed is None:
+            return self._shown.choice.form.estimate
+        return self._listed.settings.estimate
+
+    @property
+    def known(self) -> str:
+        """The parameter that must be known of each photo."""
+        scene = self._shown.scene if self._listed is None else self._listed.settings.scene
+        return known_parameter(self._estimate, scene.transmitter)
 
     def entered_values(self, name: str) -> tuple[tuple[int, float], ...]:
         """Return the values of a known parameter entered for single photos, in SI units."""
         return tuple(sorted(self._entered_values.get(_kind_of_value(name), {}).items()))
 
-    def show_open(self, path: Path | None) -> None:
-        self._open_path = path
-        self._redraw()
-
-    def _redraw(self) -> None:
-        if self.paths:
-            self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
-
-    def show_files(self, paths: Sequence[Path]) -> None:
-        self.beginResetModel()
-        self.paths = tuple(paths)
-        self._rows, self._table, self._rematched_path = {}, None, None
-        self._entered_values, self._common_value = {}, None
-        self.endResetModel()
-
-    def clear_results(self, estimate: str, known: str, common_value: float) -> None:
-        """Clear the results before all photos are matched again to estimate this parameter.
-
-        ``common_value``: the known parameter, in SI units, of photos without a value of their own.
-        """
-        self.beginResetModel()
-        self._rows, self._table = {}, None
-        self._estimate, self.known = estimate, known
-        self._rematched_path, self._common_value = None, common_value
-        self.endResetModel()
-
-    def show_row(self, place: int, row: PhotoRow) -> None:
-        self._rows[place] = row
-        self.dataChanged.emit(self.index(place, PHOTO), self.index(place, NOTE))
-
-    def show_table(self, table: PhotoTable) -> None:
-        self._rows, self._table = dict(enumerate(table.rows)), table
-        self._estimate = table.estimate
-        self._common_value = float(table.scene.value(table.known))
-        self._redraw()
-
-    def show_condition(self, condition: str) -> None:
-        """Show the assumed value that the times depend on; empty if it is certain."""
-        self._condition = condition
-
-    def mark_earlier(self, path: Path | None) -> None:
-        """Mark the row of a photo that has since been matched on its own."""
-        if path == self._rematched_path:
+    def show_photo(self, shown: ShownPhoto) -> None:
+        """Show the photos of the table, and which of them is open."""
+        last = self._shown
+        if shown.choice.listed != last.choice.listed:
+            self.beginResetModel()
+            self._shown, self._entered_values = shown, {}
+            self.endResetModel()
             return
-        self._rematched_path = path
-        self._redraw()
+        self._shown = shown
+        changed = [
+            (each.listed, each.photo, each.match, each.choice.certain, each.choice.form)
+            for each in (shown, last)
+        ]
+        if self.paths and changed[0] != changed[1]:
+            self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
+            self.headerDataChanged.emit(Qt.Orientation.Horizontal, KNOWN, ESTIMATE)
+
+    def _row(self, place: int) -> PhotoRow | None:
+        return None if self._listed is None else self._listed.rows.get(place)
+
+    def _is_open(self, place: int) -> bool:
+        return self._shown.photo is not None and self.paths[place] == self._shown.photo.path
+
+    def _is_earlier(self, place: int) -> bool:
+        """Whether the photo has been matched on its own since."""
+        outcome = self._shown.outcome
+        if outcome is None or outcome.match is None or outcome.is_listed:
+            return False
+        return self._is_open(place)
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
         return 0 if parent.isValid() else len(self.paths)
@@ -134,15 +131,16 @@ class PhotoRowsModel(QAbstractTableModel):
                 return in_tool_tip(self._tool_tip_text(place, column))
             case Qt.ItemDataRole.TextAlignmentRole:
                 return _alignment_of(column)
-            case Qt.ItemDataRole.BackgroundRole if self.paths[place] == self._open_path:
+            case Qt.ItemDataRole.BackgroundRole if self._is_open(place):
                 return QGuiApplication.palette().brush(QPalette.ColorRole.Highlight)
-            case Qt.ItemDataRole.ForegroundRole if self.paths[place] == self._open_path:
+            case Qt.ItemDataRole.ForegroundRole if self._is_open(place):
                 return QGuiApplication.palette().brush(QPalette.ColorRole.HighlightedText)
         return None
 
     def flags(self, index: _Index) -> Qt.ItemFlag:
         flags = super().flags(index)
-        if index.column() == KNOWN and not self.is_busy:
+        is_running = self._listed is not None and self._listed.is_running
+        if index.column() == KNOWN and not is_running:
             flags |= Qt.ItemFlag.ItemIsEditable
         return flags
 
@@ -166,18 +164,16 @@ class PhotoRowsModel(QAbstractTableModel):
             values.pop(place, None)
         else:
             values[place] = entered
-        self._rows.pop(place, None)  # its result belongs to the old value
-        self._redraw()
+        self.dataChanged.emit(index, index)
         self.known_entered.emit(place)
         return True
 
     def _tool_tip_text(self, place: int, column: int) -> str:
         """Return what a cell depends on, or why the photo is not sure."""
-        row = self._rows.get(place)
-        text = self.text(place, column)
+        row, text = self._row(place), self.text(place, column)
         if column in (ESTIMATE, EXPOSURE) and text:
             is_own = row is not None and row.given is not None
-            return text if is_own else f"{self._condition}{text}"
+            return text if is_own else f"{condition_of_table(self._shown)}{text}"
         if column == KNOWN:
             return (
                 "The known value of this photo. Double-click to enter a value for this photo "
@@ -192,11 +188,11 @@ class PhotoRowsModel(QAbstractTableModel):
         if column == PHOTO:
             return one_line(self.paths[place].name)
         if column == KNOWN:
-            known = self._entered_values.get(_kind_of_value(self.known), {}).get(
-                place, self._common_value
-            )
+            known = self._entered_values.get(_kind_of_value(self.known), {}).get(place)
+            if known is None and self._listed is not None:
+                known = float(self._listed.settings.scene.value(self.known))
             return "" if known is None else quantity(self.known).format(known)
-        row = self._rows.get(place)
+        row = self._row(place)
         return "" if row is None else self._row_texts(place, row)[column]
 
     def _row_texts(self, place: int, row: PhotoRow) -> dict[int, str]:
@@ -217,9 +213,22 @@ class PhotoRowsModel(QAbstractTableModel):
 
     def _verdict_text(self, place: int, row: PhotoRow) -> str:
         text = f"{SIGNS[row.verdict]} {row.verdict}"
-        if self._table is not None and self._table.is_outlier(place):
+        table = None if self._listed is None else self._listed.table
+        if table is not None and table.is_outlier(place):
             text += ", outlier"
-        return f"{text}, earlier match" if self.paths[place] == self._rematched_path else text
+        return f"{text}, earlier match" if self._is_earlier(place) else text
+
+
+def condition_of_table(shown: ShownPhoto) -> str:
+    """Name the known value that the times of the table assume, unless the user is certain of it."""
+    listed = shown.listed
+    if listed is None or (listed.table is not None and not listed.table.rests_on_the_scene):
+        return ""  # a value was entered for each photo
+    estimate, scene = listed.settings.estimate, listed.settings.scene
+    known = known_parameter(estimate, scene.transmitter)
+    if is_certain(known, float(scene.value(known)), shown.choice.certain):
+        return ""
+    return assumption(*known_value(estimate, scene))
 
 
 def _format_estimate(row: PhotoRow, name: str) -> str:

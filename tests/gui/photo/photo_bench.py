@@ -101,7 +101,6 @@ class LiveView(PhotoView):
         self.form.certain_chosen.connect(
             lambda name, value: self.choose(self.choice.with_certain(name, value))
         )
-        self.many.files_shown.connect(self._list)
 
     @property
     def choice(self) -> PhotoChoice:
@@ -111,8 +110,8 @@ class LiveView(PhotoView):
         self.shown = replace(self.shown, **changes)  # type: ignore[arg-type]  # fields of its own
         self.show_photo(self.shown)
 
-    def _list(self) -> None:
-        self.choose(replace(self.choice.drop_assumptions(), listed=self.many.rows.paths))
+    def list_files(self, paths: tuple[Path, ...]) -> None:
+        self.choose(replace(self.choice.drop_assumptions(), listed=paths))
 
     def choose(self, choice: PhotoChoice) -> None:
         self.change(choice=choice)

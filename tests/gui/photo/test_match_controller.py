@@ -19,6 +19,7 @@ from occ_gui.photo.shown_photo import PartEdits
 from occ_gui.values.choices import LoadOptions, MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import MatchError
+from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match
@@ -227,7 +228,8 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
     row = PhotoRow(photo.path, "sure", "", match_with())
 
     def show_listed(options: LoadOptions) -> None:
-        listed = ListedRows((row,), options, ("switching_frequency", 1e4))
+        given, settings = ("switching_frequency", 1e4), MatchSettings(bench.scenes.scene)
+        listed = ListedRows((photo.path,), {0: row}, options, given, settings)
         bench.results_store.put(replace(bench.results_store.results, listed=listed))
 
     show_listed(LoadOptions("lines"))

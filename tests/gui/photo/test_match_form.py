@@ -173,7 +173,7 @@ def test_what_was_said_of_one_photo_is_not_assumed_of_the_next(
     view.form.match_lamp()
     others = [Path("b.png"), Path("c.png")]
     if how == "several photos":
-        view.many.show_files(others)
+        view.list_files(tuple(others))
     view.open(replace(photo, path=others[0]))
     assert (view.form.sent.key(), view.form.certain.isChecked()) == ("auto", False)
     assert not view.form.lamp.isVisible()

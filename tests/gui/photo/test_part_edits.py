@@ -21,6 +21,7 @@ from occ_gui.photo.pane import PhotoPane
 from occ_gui.picture.image_view import ImageView
 from occ_gui.values.choices import LoadOptions, PhotoChoice
 from occ_gui.values.photo_results import ListedRows, MatchOutcome
+from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -39,6 +40,9 @@ LAMPS = (
     lamp_at(Region(30, 50, 50, 90), modulated=False),
     lamp_at(Region(30, 50, 10, 45), periods=2.1),
 )
+
+
+GIVEN = ("switching_frequency", 1e4)
 
 
 class Bench(PhotoBench):
@@ -200,7 +204,7 @@ def test_what_was_found_in_the_whole_photo_is_stated_while_its_match_is_shown(
 ) -> None:
     target, to_come = bench.form.target, "The whole photo will be searched for stripes."
     assert target.text() == to_come
-    bench.change(outcome=MatchOutcome(None, match_with(), ("switching_frequency", 1e4)))
+    bench.change(outcome=MatchOutcome(None, match_with(), GIVEN))
     assert target.text() == "Found in the whole photo: columns 0 to 2, rows 0 to 8."
     bench.parts.draw(Region(5, 25, 10, 40))
     assert target.text().startswith("A drawn region will be matched")
@@ -255,20 +259,17 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     bench: Bench, photo: Photo
 ) -> None:
     row, many = PhotoRow(photo.path, "sure", "", match_with()), bench.pane.view.many
-    many.show_files((photo.path,))
-    many.show_row(0, row, 1)
+    bench.photos.list_files((photo.path,))
     is_marked = many.rows.data(many.rows.index(0, 0), Qt.ItemDataRole.BackgroundRole) is not None
     assert is_marked, "it is the photo that is open"
     listed = replace(
         bench.results_store.results,
-        listed=ListedRows((row,), LoadOptions(), ("switching_frequency", 1e4)),
+        listed=ListedRows((photo.path,), {0: row}, LoadOptions(), GIVEN, MatchSettings(Scene())),
     )
     document = listed.document
     own = replace(
         listed,
-        document=replace(
-            document, outcome=MatchOutcome(None, match_with(), ("switching_frequency", 1e4))
-        ),
+        document=replace(document, outcome=MatchOutcome(None, match_with(), GIVEN)),
     )
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):
         bench.results_store.put(results)

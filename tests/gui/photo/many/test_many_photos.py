@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from gui.kinds import add_widget, collect
-from gui.stores import store_of
+from gui.photo.photo_bench import PhotoBench
 from gui.user import PATIENCE_S
 from matches import match_with
 from PySide6.QtCore import Qt
@@ -19,13 +19,13 @@ import occ_model as occ
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, KNOWN, NOTE, PHOTO, VERDICT
-from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.shell.results import ResultsStore
 from occ_gui.values.choices import LoadOptions, MatchChoice
+from occ_gui.values.photo_results import ListedRows, MatchOutcome
 from occ_model.photo.many import match_photos
 from occ_model.photo.many.other_programs import format_lines
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
+from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import PhotoRow, PhotoTable, csv_text
 
@@ -60,27 +60,55 @@ def table() -> PhotoTable:
     return table_of(MatchSettings(occ.Scene()), ROWS)
 
 
-def controller_of(view: ManyPhotosView) -> ManyPhotosController:
-    """Make a controller on a view, of photos that are read along their lines, in green."""
-    scenes, results_store = store_of(), ResultsStore()
-    photos = PhotoController(scenes.store, results_store)
-    photos.edit(lambda choice: replace(choice, load_options=LoadOptions("lines", "green")))
-    controller = ManyPhotosController(scenes, photos, view, results_store, jobs=1)
-    show(controller, PATHS)
-    return controller
+GIVEN = ("switching_frequency", 1e4)
 
 
-def show(controller: ManyPhotosController, paths: tuple[Path, ...]) -> None:
-    controller.photos.list_files(paths)
-    controller.show_files(paths)
+class Listed(PhotoBench):
+    """Photos in a table that shows what is found in them."""
+
+    def __init__(self, qtbot: QtBot) -> None:
+        super().__init__()
+        self.view = add_widget(qtbot, ManyPhotosView())
+        self.view.resize(420, 500)
+        self.store.select(lambda workspace: workspace).changed.connect(self._show)
+        self.results_store.changed.connect(self._show)
+        self.photos.list_files(PATHS)
+
+    def _show(self) -> None:
+        self.view.show_photo(self.shown)
+
+    def put(self, listed: ListedRows) -> None:
+        self.results_store.put(replace(self.results_store.results, listed=listed))
+
+    def begin(self, rows: dict[int, PhotoRow] | None = None) -> None:
+        """Begin to match the photos; some have their rows already."""
+        settings = MatchSettings(occ.Scene())
+        self.put(ListedRows(PATHS, rows or {}, LoadOptions(), GIVEN, settings, is_running=True))
+
+    def show_table(self, table: PhotoTable) -> None:
+        rows, settings = dict(enumerate(table.rows)), MatchSettings(table.scene)
+        self.put(ListedRows(PATHS, rows, LoadOptions(), GIVEN, settings, table))
+
+    def confirm(self, certain: dict[str, float]) -> None:
+        self.choose(certain=certain)
 
 
 @pytest.fixture
-def view(qtbot: QtBot) -> ManyPhotosView:
-    view = add_widget(qtbot, ManyPhotosView())
-    view.resize(420, 500)
-    view.show_files(PATHS)
-    return view
+def listed(qtbot: QtBot) -> Listed:
+    return Listed(qtbot)
+
+
+@pytest.fixture
+def view(listed: Listed) -> ManyPhotosView:
+    return listed.view
+
+
+def controller_of(listed: Listed) -> ManyPhotosController:
+    """Make a controller of photos that are read along their lines, in green."""
+    listed.choose(load_options=LoadOptions("lines", "green"))
+    return ManyPhotosController(
+        listed.scenes, listed.photos, listed.view, listed.results_store, jobs=1
+    )
 
 
 CERTAIN = {"switching_frequency": occ.Scene().transmitter.switching_frequency}
@@ -94,18 +122,22 @@ def column(view: ManyPhotosView, which: int) -> list[str]:
     return [view.rows.text(place, which) for place in range(len(PATHS))]
 
 
-def test_without_files_nothing_can_be_matched_and_what_to_do_is_said(view: ManyPhotosView) -> None:
+def test_without_files_nothing_can_be_matched_and_what_to_do_is_said(
+    view: ManyPhotosView, listed: Listed
+) -> None:
     assert view.start.isEnabled()
     assert view.table.columnWidth(PHOTO) == view.table.sizeHintForColumn(PHOTO)
-    view.show_files(())
+    listed.photos.list_files(())
     assert not view.start.isEnabled()
     assert view.title.text().startswith("Open several photos together")
 
 
 def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
     view: ManyPhotosView,
+    listed: Listed,
+    photo: Photo,
 ) -> None:
-    view.show_table(table())
+    listed.show_table(table())
     assert column(view, PHOTO) == [path.name for path in PATHS]
     sure, unreadable = "● sure", "✕ unreadable"
     assert column(view, VERDICT) == [
@@ -115,20 +147,22 @@ def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
     assert column(view, EXPOSURE)[4] == ""
     assert column(view, NOTE)[3:5] == [ROWS[3].note, ROWS[4].note]
     rows = (replace(ROWS[0], match=found_with(7e-6, "Few edges.")), *ROWS[1:])
-    view.show_table(table_of(MatchSettings(occ.Scene()), rows))
+    listed.show_table(table_of(MatchSettings(occ.Scene()), rows))
     assert column(view, VERDICT)[0] == "● sure"
     assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
-    view.rows.mark_earlier(PATHS[0])
+    listed.show_photo(replace(photo, path=PATHS[0]))
+    listed.change(outcome=MatchOutcome(None, found_with(7e-6), GIVEN))
     assert column(view, VERDICT)[:2] == ["● sure, earlier match", "● sure"]
 
 
 def test_the_mean_is_that_of_the_model_and_named_by_the_frequency_that_it_rests_on(
     view: ManyPhotosView,
+    listed: Listed,
 ) -> None:
     labels = (view.mean, view.exposure, view.frame)
-    view.show_table(table())
+    listed.show_table(table())
     assert all(": if f = 10 kHz: " in label.text() for label in labels)
-    view.show_certain(CERTAIN)
+    listed.confirm(CERTAIN)
     assert table().estimated.value == pytest.approx(7e-6)
     assert view.mean.text() == (
         "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3 sure photos; χ² 0.5 of 2: they agree; "
@@ -141,8 +175,9 @@ def test_the_mean_is_that_of_the_model_and_named_by_the_frequency_that_it_rests_
 
 def test_another_frequency_asks_to_match_again_unless_that_of_the_photos_is_certain(
     view: ManyPhotosView,
+    listed: Listed,
 ) -> None:
-    view.show_table(table())
+    listed.show_table(table())
     other = occ.Scene().replace(switching_frequency=4321.0)
     for scene, certain, is_stale in (
         (occ.Scene(), {}, False),
@@ -150,16 +185,18 @@ def test_another_frequency_asks_to_match_again_unless_that_of_the_photos_is_cert
         (other, CERTAIN, False),
         (occ.Scene().replace(exposure_time=1e-4), {}, False),
     ):
-        view.show_scene(scene)
-        view.show_certain(certain)
+        listed.scenes.put(scene, "scene")
+        listed.confirm(certain)
         assert view.warning.isHidden() != is_stale
         if is_stale:
             assert "the scene has 4.321 kHz now: match all again." in view.warning.text()
 
 
-def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:
-    view.show_certain(CERTAIN)
-    view.show_table(table())
+def test_lines_for_other_programs_are_copied(
+    view: ManyPhotosView, listed: Listed, qtbot: QtBot
+) -> None:
+    listed.confirm(CERTAIN)
+    listed.show_table(table())
     assert list(view.paste.lines) == ["OpenDroneMap", "Gyroflow"]
     said = collect(view.copied)
     for button in view.findChildren(QToolButton):
@@ -167,17 +204,17 @@ def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot)
         copied = QGuiApplication.clipboard().text()
         assert copied in {f.text() for f in view.paste.lines.values()}
         assert said.pop() == f"Copied: {copied}"
-    view.begin_match("readout_time", occ.Scene())
+    listed.begin()
     assert view.paste.lines == {}
     assert view.mean.isHidden()
 
 
 def test_the_table_is_copied_and_saved_as_the_shell_has_it(
-    view: ManyPhotosView, qtbot: QtBot
+    view: ManyPhotosView, listed: Listed, qtbot: QtBot
 ) -> None:
     for button in (view.copy, view.save):
         assert not button.isEnabled()
-    view.show_table(table())
+    listed.show_table(table())
     said = collect(view.copied)
     for condition in ("if f = 10 kHz: ", ""):
         paste = format_lines(table(), condition)
@@ -190,22 +227,23 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
         with qtbot.waitSignal(view.save_asked) as saved:
             qtbot.mouseClick(view.save, Qt.MouseButton.LeftButton)
         assert saved.args == [csv_text(table(), paste, condition)]
-        view.show_certain(CERTAIN)
+        listed.confirm(CERTAIN)
 
 
-def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(view: ManyPhotosView) -> None:
-    view.show_table(table())
+def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(
+    view: ManyPhotosView, listed: Listed
+) -> None:
+    listed.show_table(table())
     assert not view.findChildren(QToolButton)
     assert "hold only if f = 10 kHz" in view.paste.reason.text()
     assert "hold only if f = 10 kHz" in view.title.text()
     assert all("if f = 10 kHz" in tip(view, 0, column) for column in (ESTIMATE, EXPOSURE))
-    view.show_certain(CERTAIN)
+    listed.confirm(CERTAIN)
     assert len(view.findChildren(QToolButton)) == 2
     assert view.paste.reason.isHidden()
     assert "if f" not in view.title.text() + tip(view, 0, ESTIMATE)
-    view.show_certain({})
-    view.begin_match("readout_time", occ.Scene())
-    view.show_row(0, ROWS[0], 1)
+    listed.confirm({})
+    listed.begin({0: ROWS[0]})
     assert "if f = 10 kHz" in view.title.text()
     assert view.work.progress.text() == "1 of 6"
 
@@ -219,18 +257,18 @@ def marked(view: ManyPhotosView) -> list[str]:
 
 
 def test_a_click_on_a_row_opens_its_photo_which_is_marked_however_it_was_opened(
-    view: ManyPhotosView, qtbot: QtBot
+    view: ManyPhotosView, listed: Listed, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show()
     place = view.table.visualRect(view.rows.index(2, PHOTO)).center()
     qtbot.mouseClick(view.table.viewport(), Qt.MouseButton.LeftButton, pos=place)
     assert marked(view) == [], "it may be no photo"
-    view.rows.show_open(PATHS[2])
+    listed.show_photo(replace(photo, path=PATHS[2]))
     assert marked(view) == [PATHS[2].name]
-    view.rows.show_open(PATHS[4])
+    listed.show_photo(replace(photo, path=PATHS[4]))
     qtbot.keyClick(view.table, Qt.Key.Key_Up)
     assert marked(view) == [PATHS[4].name]
-    view.rows.show_open(Path("another.jpg"))
+    listed.show_photo(replace(photo, path=Path("another.jpg")))
     assert marked(view) == []
     with qtbot.waitSignal(view.photo_chosen) as chosen:
         view.table.clicked.emit(view.rows.index(2, VERDICT))
@@ -244,10 +282,10 @@ def enter_known(view: ManyPhotosView, place: int, text: str) -> bool:
 class Bench:
     """A controller, and a model that gives the rows above when it is let."""
 
-    def __init__(self, view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(self, listed: Listed, monkeypatch: pytest.MonkeyPatch) -> None:
         self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
         monkeypatch.setattr(match_photos, "match_rows", self._rows)
-        self.controller = controller_of(view)
+        self.controller = controller_of(listed)
 
     def _rows(
         self,
@@ -275,8 +313,8 @@ class Bench:
 
 
 @pytest.fixture
-def bench(view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> Generator[Bench, None, None]:
-    bench = Bench(view, monkeypatch)
+def bench(listed: Listed, monkeypatch: pytest.MonkeyPatch) -> Generator[Bench, None, None]:
+    bench = Bench(listed, monkeypatch)
     yield bench
     bench.go_on.set()
     bench.controller.task.stop()
@@ -296,7 +334,7 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
     assert (settings.scene.transmitter.light, settings.scene.transmitter.lamp_frequency) == (
         "lamp", 1e3,
     )  # fmt: skip
-    assert bench.controller.table.rows == ROWS
+    assert bench.controller.listed.table.rows == ROWS
     assert view.mean.text()
     assert view.start.isEnabled()
 
@@ -323,13 +361,13 @@ def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
     with qtbot.waitSignal(bench.controller.task.finished):
         assert enter_known(view, 2, "")
     assert column(view, KNOWN)[2] == "10 kHz"
-    assert bench.controller.table.rows[2].given is None
+    assert bench.controller.listed.table.rows[2].given is None
 
 
 def test_a_frequency_that_cannot_be_stays_out_and_says_why(
-    bench: Bench, view: ManyPhotosView
+    bench: Bench, view: ManyPhotosView, listed: Listed
 ) -> None:
-    view.show_table(table())
+    listed.show_table(table())
     for wrong in ("-3 kHz", "fast"):
         assert not enter_known(view, 1, wrong)
         assert wrong.split()[0] in view.notes.text()
@@ -346,25 +384,26 @@ def test_cancelling_ends_the_work_and_keeps_the_rows(
     view.cancelled.emit()
     assert bench.closed.wait(PATIENCE_S)
     assert column(view, VERDICT) == ["● sure"] + [""] * 5
-    assert (view.start.isEnabled(), bench.controller.table) == (True, None)
+    assert (view.start.isEnabled(), bench.controller.listed.table) == (True, None)
     assert view.mean.isHidden()
 
 
 def test_other_files_cancel_the_work_on_the_first(bench: Bench, view: ManyPhotosView) -> None:
     bench.start()
-    show(bench.controller, PATHS[:2])
+    bench.controller.photos.list_files(PATHS[:2])
+    bench.controller.forget_rows()
     assert bench.controller.task.is_idle
     assert view.rows.paths == PATHS[:2]
 
 
 def test_a_failure_is_a_sentence_in_the_table(
-    view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    view: ManyPhotosView, listed: Listed, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     def fail(*_arguments: object) -> None:
         raise occ.MatchError("Nothing works.")
 
     monkeypatch.setattr(match_photos, "match_rows", fail)
-    controller = controller_of(view)
+    controller = controller_of(listed)
     controller.start(MatchChoice())
     qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")
     assert view.start.isEnabled()
@@ -372,11 +411,11 @@ def test_a_failure_is_a_sentence_in_the_table(
 
 
 def test_real_photos_are_matched_from_the_window(
-    view: ManyPhotosView, tmp_path: Path, qtbot: QtBot
+    view: ManyPhotosView, listed: Listed, tmp_path: Path, qtbot: QtBot
 ) -> None:
     missing = tmp_path / "missing.jpg"
-    controller = controller_of(view)
-    show(controller, (missing, missing))
+    controller = controller_of(listed)
+    listed.photos.list_files((missing, missing))
     with qtbot.waitSignal(controller.task.finished) as found:
         controller.start(MatchChoice())
     (made,) = found.args

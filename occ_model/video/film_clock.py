@@ -25,7 +25,7 @@ from occ_model.video.phase_fit import ClockFit, FramePhases, mean_step
 
 _MIN_FRAMES = 3  # minimum number of frames for a clock
 _PHASE_ERRORS = 4.0  # standard errors of the phases by which the searched range is widened
-_MIN_EXTENT = 1e-12
+_MIN_EXTENT = 1e-12  # ticks from the first frame to the last
 _MAX_HIDDEN = 0.5  # periods within the times' resolution from which it hides the clock
 _EQUAL_STEPS = 1e-9  # periods up to which times that deviate from equal steps are the same
 _ROUNDED = 2.0  # steps of rounding up to which the scatter of times says nothing of the frames

@@ -23,10 +23,11 @@ _COVERED = 4.0  # standard deviations that cover all periods that can be
 
 def fit_line(numbers: FloatArray, times: FloatArray) -> tuple[float, float, float]:
     """Return the slope of times over numbers, its standard deviation, and their scatter."""
-    steps, later = numbers - numbers.mean(), times - times.mean()
-    power = float(steps @ steps)
-    slope = float(steps @ later) / power
-    scatter = float(np.sqrt(np.sum((later - steps * slope) ** 2) / max(len(times) - 2, 1)))
+    centred_numbers, centred_times = numbers - numbers.mean(), times - times.mean()
+    power = float(centred_numbers @ centred_numbers)
+    slope = float(centred_numbers @ centred_times) / power
+    residuals = centred_times - centred_numbers * slope
+    scatter = float(np.sqrt(np.sum(residuals**2) / max(len(times) - 2, 1)))
     return slope, scatter / np.sqrt(power), scatter
 
 
@@ -38,14 +39,14 @@ def fit_rounded_period(numbers: FloatArray, times: FloatArray, step: float) -> M
     if len(times) > _MOST_FRAMES:
         kept = np.linspace(0, len(times) - 1, _MOST_FRAMES).astype(np.int64)
         numbers, times = numbers[kept], times[kept]
-    later = numbers - 0.5 * float(numbers[0] + numbers[-1])
-    residuals = (times - times.mean() - slope * (later - later.mean())) / step
+    centred = numbers - 0.5 * float(numbers[0] + numbers[-1])
+    residuals = (times - times.mean() - slope * (centred - centred.mean())) / step
     # In steps: a period's change while the last frame moves by one, and the start's change.
     extent = float(np.ptp(numbers))
     centre, width = np.zeros(2), np.array([6.0 / extent, 2.0])
     for _ in range(_ZOOMS):
         slopes, starts = (middle + half * _GRID for middle, half in zip(centre, width, strict=True))
-        likelihood = _likelihood(later, residuals, slopes, starts)
+        likelihood = _likelihood(centred, residuals, slopes, starts)
         is_possible = likelihood > np.exp(-_LOG_RANGE)
         for axis, values in enumerate((slopes, starts)):
             inside = values[is_possible.any(axis=1 - axis)]
@@ -55,19 +56,19 @@ def fit_rounded_period(numbers: FloatArray, times: FloatArray, step: float) -> M
     weights = likelihood.sum(axis=1) / likelihood.sum()
     mean = float(weights @ slopes)
     deviation = float(np.sqrt(weights @ (slopes - mean) ** 2))
-    lowest, highest = _possible_slopes(later, residuals)
+    lowest, highest = _possible_slopes(centred, residuals)
     if lowest <= highest:  # nominal rates lie at one of these ends more often than others
         deviation = max(deviation, (mean - lowest) / _COVERED, (highest - mean) / _COVERED)
     return MeasuredValue(slope + step * mean, step * deviation)
 
 
-def _possible_slopes(later: FloatArray, residuals: FloatArray) -> tuple[float, float]:
+def _possible_slopes(centred: FloatArray, residuals: FloatArray) -> tuple[float, float]:
     """Return the lowest and the highest slope if times scatter by their rounding alone; in steps.
 
     The lowest is above the highest if there is none.
     """
-    after, before = np.triu_indices(len(later), 1)[::-1]
-    distances, changes = later[after] - later[before], residuals[after] - residuals[before]
+    after, before = np.triu_indices(len(centred), 1)[::-1]
+    distances, changes = centred[after] - centred[before], residuals[after] - residuals[before]
     is_later = distances > 0
     distances, changes = distances[is_later], changes[is_later]
     return (
@@ -77,12 +78,12 @@ def _possible_slopes(later: FloatArray, residuals: FloatArray) -> tuple[float, f
 
 
 def _likelihood(
-    later: FloatArray, residuals: FloatArray, slopes: FloatArray, starts: FloatArray
+    centred: FloatArray, residuals: FloatArray, slopes: FloatArray, starts: FloatArray
 ) -> FloatArray:
     """Return the likelihood of each slope and start, relative to the largest; in steps."""
     logs = np.empty((len(_SCATTERS), len(slopes), len(starts)))
     for row, slope in enumerate(slopes.tolist()):
-        distances = (residuals - slope * later) - starts[:, None]
+        distances = (residuals - slope * centred) - starts[:, None]
         for layer, scatter in enumerate(_SCATTERS):
             inside = ndtr((0.5 - np.abs(distances)) / scatter)
             beyond = ndtr((-0.5 - np.abs(distances)) / scatter)

@@ -31,6 +31,8 @@ _ROUNDED_INTERVAL = 1.01  # resolutions by which rounding alone changes an inter
 
 @dataclass(frozen=True, slots=True)
 class Part:
+    """A part of a film, within which the times do not jump."""
+
     # The number of its first frame, and of the one after its last
     first: int
     end: int
@@ -54,7 +56,7 @@ class FrameTimes:
         return interval > LEAST_BREAK * self.period.value or interval < -_MIN_INTERVAL
 
     def ends(self, part: Part) -> FloatArray:
-        """Return the numbers of the period that begins a part, and of the one after its end."""
+        """Return the numbers of a part's first frame period and of the one after its last."""
         return np.array([0.0, self.numbers[part.end - 1] + 1.0])
 
     @property

@@ -23,6 +23,8 @@ class PlacedFrame:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CountedPart:
+    """A part of a film, within which the times do not jump, in the numbering of all chips sent."""
+
     frames: list[PlacedFrame]  # Its placed frames, in the order of time
     # Its start by the film's clock, and its duration, in seconds
     start: float

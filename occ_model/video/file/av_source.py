@@ -31,8 +31,11 @@ _THREADS = 2
 more memory than the process may use."""
 
 _UPPER_FIRST, _LOWER_FIRST = (2, 4), (3, 5)
-"""Values of FFmpeg's ``AVFieldOrder`` as its decoders set them, which is not how it explains them:
-4 is that of fields whose upper one is both stored and shown first, as Matroska's 9."""
+"""Values of FFmpeg's ``AVFieldOrder`` by the field that is shown first, as its decoders set them.
+
+Its documentation explains 4 and 5 otherwise, but 4 is set if the upper field is both stored and
+shown first, as by Matroska's 9.
+"""
 
 
 class AvSource(FrameSource):
@@ -132,7 +135,7 @@ class AvSource(FrameSource):
         return 0.0
 
     def _take(self) -> tuple[VideoFrame, int | None] | None:
-        """Return the next picture: a frame and None, or the number of one of its fields."""
+        """Return the next picture: its frame, and the number of its field or None for all of it."""
         if self._field is not None:
             taken, self._field = self._field, None
             return taken
@@ -175,7 +178,7 @@ class AvSource(FrameSource):
         self._frames.extend(frames)
 
     def _number(self, packet: "Packet[VideoStream]", frames: list[VideoFrame]) -> None:
-        """Give frames their numbers as shown, which an AVI file has in the order of storage."""
+        """Give frames their numbers as shown; an AVI file has them in the order of storage."""
         if packet.size and packet.dts is not None:
             heappush(self._numbers, packet.dts)
         for frame in frames:
@@ -204,7 +207,7 @@ class AvSource(FrameSource):
 
 
 def _open(file: BinaryIO, demuxer: str) -> tuple[InputContainer, VideoStream]:
-    """Open a film's best track, which is not the picture of a cover."""
+    """Open a film's best track; the picture of a cover is none."""
     try:
         container = av.open(file, "r", format=demuxer)
     except (av.FFmpegError, ValueError, LookupError):

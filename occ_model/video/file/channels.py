@@ -51,14 +51,14 @@ class ChannelReader:
     def _read_luma(self, frame: VideoFrame, lines: slice) -> Samples:
         form = frame.format
         bits = form.components[0].bits
-        table = _levels(bits, self._is_full(frame), bool(_HIGH_BITS.match(form.name)))
+        table = _tabulate_levels(bits, self._is_full(frame), bool(_HIGH_BITS.match(form.name)))
         samples = _first_plane(frame, form)[lines]
         if table is None:
             return np.ascontiguousarray(samples)
         if bits == 8:
             return np.asarray(cv2.LUT(samples, table), np.uint8)
         levels = np.empty(samples.shape, table.dtype)
-        # In parts, because numpy makes numbers of eight bytes of what it looks up.
+        # In parts, because numpy converts the samples to indices of eight bytes.
         for start in range(0, len(samples), _LINES_AT_ONCE):
             part = slice(start, start + _LINES_AT_ONCE)
             np.take(table, samples[part], out=levels[part], mode="clip")
@@ -100,7 +100,7 @@ def _first_plane(frame: VideoFrame, form: VideoFormat) -> NDArray[Any]:
 
 
 @lru_cache(maxsize=8)
-def _levels(bits: int, is_full: bool, in_high_bits: bool) -> NDArray[Any] | None:
+def _tabulate_levels(bits: int, is_full: bool, in_high_bits: bool) -> NDArray[Any] | None:
     """Return the level of each sample of a file, in 8 or 16 bits; None if they are the same."""
     if is_full and bits in (8, 16):
         return None

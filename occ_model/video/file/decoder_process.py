@@ -21,6 +21,8 @@ _PACKAGES = Path(__file__).resolve().parents[3]  # the folder that contains this
 START = "import sys; sys.path.insert(0, sys.argv[1]); " \
     "from occ_model.video.file.decoder_main import main; main()"  # fmt: skip
 
+_FRAMES_A_REQUEST = 16  # frames skipped at a time
+
 _ENVIRONMENT = {
     # Threads take memory, and FFmpeg decodes with its own threads.
     "OPENBLAS_NUM_THREADS": "1",
@@ -112,7 +114,7 @@ class DecoderProcess:
         """Discard the answer that was requested in advance."""
         if self._has_advance_request:
             self._has_advance_request = False
-            self._receive(refuses=False)
+            self._receive(raises=False)
 
     def _ask(self, request: dict[str, Any]) -> tuple[dict[str, Any], bytearray]:
         self._send(request)
@@ -128,11 +130,11 @@ class DecoderProcess:
         except OSError:
             raise self._explain_end() from None
 
-    def _receive(self, refuses: bool = True) -> tuple[dict[str, Any], bytearray]:
+    def _receive(self, raises: bool = True) -> tuple[dict[str, Any], bytearray]:
         size, content = HEADER.unpack(self._read_bytes(HEADER.size))
         answer: dict[str, Any] = json.loads(bytes(self._read_bytes(size)))
         pixels = self._read_bytes(content)
-        if refuses and "refused" in answer:
+        if raises and "refused" in answer:
             raise VideoError(answer["refused"])
         return answer, pixels
 
@@ -155,9 +157,6 @@ class DecoderProcess:
         if code == TIMEOUT_CODE:
             return DecoderStoppedError("decoding it takes too long")
         return DecoderStoppedError("the decoder failed")
-
-
-_FRAMES_A_REQUEST = 16
 
 
 def _command() -> list[str]:

@@ -15,7 +15,7 @@ _MICROSECONDS = 1e6
 _DURATION = re.compile(r"(\d+):(\d\d):(\d\d(?:\.\d+)?)")  # Matroska's tag of a track
 
 _CAPTURE_RATE = "com.android.capture.fps"
-_LEAST_CHANGE = 1.5  # of the rate by slow motion or time lapse; smaller ones are rounded rates
+_LEAST_CHANGE = 1.5  # ratio of rates from which it is slow motion or time lapse, not rounding
 
 
 def describe_film(container: InputContainer, stream: VideoStream) -> FilmFacts:

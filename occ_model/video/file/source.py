@@ -16,21 +16,27 @@ _BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to continue: four colour
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StoredFrame:
+    """A decoded frame, or a field of an interlaced film."""
+
     time: float  # In seconds of the recording, as the file states it
-    pixels: Samples  # Shape (lines, columns) or (..., 3), upright, with white as largest number
-    first_line: float = 0.0  # Where a field's first line lies, in its lines from the film's first
+    pixels: Samples  # Shape (lines, columns) or (..., 3), upright; the largest number is white
+    first_line: float = (
+        0.0  # Place of its first line, in lines of a field from the film's first line
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class FilmFacts:
-    """What a file states of its film, or nothing; times and rates are those of the recording."""
+    """What a file states of its film, None if nothing; times and rates are of the recording."""
 
     frame_rate: float | None = None
     frame_count: int | None = None
     duration: float | None = None  # From the first picture to the end of the last one, in seconds
     resolution: float = 0.0  # Step in seconds to which times are rounded; 0 if they are exact
     slowdown: float = 1.0  # How many times slower it plays than it was recorded
-    field_axis: int | None = None  # Axis of the pixels of which each frame, a field, has each other
+    field_axis: int | None = (
+        None  # Axis along which a field has every other line; None without fields
+    )
 
 
 class FrameSource(ABC):
@@ -58,7 +64,7 @@ class FrameSource(ABC):
 
 
 def check_memory(pixels: int) -> None:
-    """Raise MemoryError if a few more frames would exceed the memory: FFmpeg gives no reason."""
+    """Raise MemoryError without memory for a few more frames, which FFmpeg does not state."""
     np.empty(_BYTES_A_PIXEL_LEFT * pixels, np.uint8)
 
 

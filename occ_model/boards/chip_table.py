@@ -1,7 +1,5 @@
 """The packet in a sketch: the comment at the head, and the table of packed chips."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from occ_model.arrays import ByteArray
@@ -18,24 +16,20 @@ _BYTES_A_LINE = 12
 _SHOWN_CHIPS = 72  # longest packet that the comment shows as zeros and ones
 
 
-def pack_chips(chips: ByteArray) -> bytes:
-    """Pack chips into bytes, the first chip into the highest bit of the first byte."""
-    return np.packbits(chips).tobytes()
-
-
 def c_table(chips: ByteArray) -> str:
-    octets = [f"0x{octet:02X}" for octet in pack_chips(chips)]
-    return "\n".join(f"    {', '.join(line)}," for line in _split_lines(octets))
+    return _write_table(chips, "0x{:02X}", ", ", "    {},")
 
 
 def python_table(chips: ByteArray) -> str:
-    octets = [f"\\x{octet:02x}" for octet in pack_chips(chips)]
-    return "\n".join(f'    b"{"".join(line)}"' for line in _split_lines(octets))
+    return _write_table(chips, "\\x{:02x}", "", '    b"{}"')
 
 
-def _split_lines(octets: Sequence[str]) -> list[Sequence[str]]:
+def _write_table(chips: ByteArray, octet_form: str, separator: str, line_form: str) -> str:
+    """Write chips as lines of bytes, the first chip as the highest bit of the first byte."""
+    octets = [octet_form.format(octet) for octet in np.packbits(chips).tolist()]
     starts = range(0, len(octets), _BYTES_A_LINE)
-    return [octets[start : start + _BYTES_A_LINE] for start in starts]
+    lines = (separator.join(octets[start : start + _BYTES_A_LINE]) for start in starts)
+    return "\n".join(map(line_form.format, lines))
 
 
 def head_comment(transmission: Transmission, mark: str) -> str:

@@ -17,7 +17,9 @@ from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
     Framing,
+    binary_digits,
     find_preambles,
+    number_of,
     own_preamble,
 )
 
@@ -38,10 +40,6 @@ class _SubPacketLayout:
     @property
     def bits(self) -> int:
         return self.part_bits + 2 * self.asynchronous
-
-    def encode_number(self, part: int) -> ByteArray:
-        places = reversed(range(self.asynchronous))
-        return np.array([part >> place & 1 for place in places], dtype=np.uint8)
 
 
 def count_sub_packets(bits: int) -> int:
@@ -97,7 +95,7 @@ def _read_number(
     bits = decoded.bits[skipped : skipped + layout.asynchronous]
     if decoded.failure is not None or len(bits) < layout.asynchronous:
         return None
-    number = int("".join(map(str, bits.tolist())), 2)
+    number = number_of(bits)
     return number if number < layout.parts else None
 
 
@@ -107,7 +105,7 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
     parts = np.pad(np.asarray(bits, dtype=np.uint8), (0, padding))
     pieces = []
     for part_number, part in enumerate(parts.reshape(layout.parts, -1)):
-        number_bits = layout.encode_number(part_number)
+        number_bits = binary_digits(part_number, layout.asynchronous)
         data = np.concatenate([number_bits, part, number_bits])
         pieces += [preamble, form.line_code.encode(data, int(preamble[-1]))]
     return np.concatenate(pieces)
@@ -170,7 +168,7 @@ def _check_number(bits: ByteArray, layout: _SubPacketLayout) -> tuple[int, str |
         return 0, "The asynchronous bits at a sub-packet's start and end differ."
     if bits[layout.bits :].any():
         return 0, "The bits that fill a sub-packet's last block are not 0."
-    number = int("".join(map(str, first.tolist())), 2)
+    number = number_of(first)
     if number >= layout.parts:
         return 0, f"A sub-packet has the number {number + 1} of {layout.parts}."
     return number, None

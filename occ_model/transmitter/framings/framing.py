@@ -123,6 +123,15 @@ def _chips_of(text: str) -> ByteArray:
     return np.array([int(chip) for chip in text], dtype=np.uint8)
 
 
+def binary_digits(number: int, places: int) -> ByteArray:
+    return np.array([number >> place & 1 for place in reversed(range(places))], dtype=np.uint8)
+
+
+def number_of(bits: ByteArray) -> int:
+    """Read bits, the most significant first, as a number."""
+    return int("".join(map(str, bits.tolist())), 2)
+
+
 def is_unique(preamble: ByteArray, line_code: LineCode) -> bool:
     """Return whether no payload contains a preamble: the code's own, or one with too long a run."""
     if line_code.preamble and np.array_equal(preamble, _chips_of(line_code.preamble)):

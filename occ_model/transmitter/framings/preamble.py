@@ -103,10 +103,8 @@ def _list_candidates(
     headers = find_preambles(chips, preamble)
     has_many = len(headers) > _MAX_WHOLE_FRAMES
     contents: set[bytes] = set()
-    frames = (
-        _cut_whole_frames(chips, preamble, length, headers),
-        _join_frame_ends(chips, preamble, length),
-    )
+    whole = (chips[each + len(preamble) :] for each in headers if each + length <= len(chips))
+    frames = whole, _join_frame_ends(chips, preamble, length)
     for is_joined, candidates in enumerate(frames):
         for data in candidates:
             content = data[: length - len(preamble)].tobytes()
@@ -120,15 +118,6 @@ def _obeys_line_code(chips: ByteArray, preamble: ByteArray, form: FrameFormat) -
     """Return whether the first chips after a preamble obey the line code."""
     whole = len(chips) - len(chips) % form.line_code.block_chips
     return form.line_code.decode(chips[:whole], int(preamble[-1])).failure is None
-
-
-def _cut_whole_frames(
-    chips: ByteArray, preamble: ByteArray, length: int, headers: tuple[int, ...]
-) -> Iterator[ByteArray]:
-    """Yield the chips after each preamble that a whole period follows."""
-    for header in headers:
-        if header + length <= len(chips):
-            yield chips[header + len(preamble) :]
 
 
 def _join_frame_ends(chips: ByteArray, preamble: ByteArray, length: int) -> Iterator[ByteArray]:

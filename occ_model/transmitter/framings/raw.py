@@ -14,6 +14,8 @@ from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
     Framing,
+    binary_digits,
+    number_of,
     preamble_of,
 )
 from occ_model.transmitter.framings.preamble import read_repeated
@@ -39,12 +41,8 @@ def count_length_bits(bits: int) -> int:
 
 def _length_field(bits: int) -> ByteArray:
     if bits < 1 << _SHORT_LENGTH_BITS - 1:
-        return _binary_digits(bits, _SHORT_LENGTH_BITS)
-    return _binary_digits(bits | 1 << _LONG_LENGTH_BITS - 1, _LONG_LENGTH_BITS)
-
-
-def _binary_digits(number: int, places: int) -> ByteArray:
-    return np.array([number >> place & 1 for place in reversed(range(places))], dtype=np.uint8)
+        return binary_digits(bits, _SHORT_LENGTH_BITS)
+    return binary_digits(bits | 1 << _LONG_LENGTH_BITS - 1, _LONG_LENGTH_BITS)
 
 
 def check_sum(body: ByteArray) -> ByteArray:
@@ -55,7 +53,7 @@ def check_sum(body: ByteArray) -> ByteArray:
         remainder = remainder << 1 & 0xFFFF
         if is_divided:
             remainder ^= _POLYNOMIAL
-    return _binary_digits(remainder, _CRC_BITS)
+    return binary_digits(remainder, _CRC_BITS)
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
@@ -71,7 +69,7 @@ def _read_frame(data: ByteArray, level: int, form: FrameFormat) -> Framed:
         return Framed.nothing("The frame ends inside its number of bits.")
     is_long = bool(length_field[0])
     start = _LONG_LENGTH_BITS if is_long else _SHORT_LENGTH_BITS
-    count = int("".join(map(str, length_field[is_long:start].tolist())), 2)
+    count = number_of(length_field[is_long:start])
     frame_bits = start + count + _CRC_BITS
     if code.chips_for(frame_bits) > len(data):
         return Framed.nothing(

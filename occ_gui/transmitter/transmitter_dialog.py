@@ -61,7 +61,7 @@ class TransmitterDialog(QDialog):
         )
         self.copy = buttons.addButton("&Copy the sketch", roles.ActionRole)
         self.copy.setToolTip("Copy the text of the sketch, to paste it into the board's editor.")
-        self.copy.clicked.connect(self._copy_sketch)
+        self.copy.clicked.connect(lambda: copy_text(self.sketch.toPlainText()))
         self.take = buttons.addButton("&Use this frequency", roles.ActionRole)
         self.take.setToolTip("Set the scene to the frequency that the board actually sends.")
         close: QPushButton = buttons.button(QDialogButtonBox.StandardButton.Close)
@@ -77,9 +77,6 @@ class TransmitterDialog(QDialog):
         self.take.setEnabled(is_rounded)
         self.save.setEnabled(True)
         self.replace_wiring("Drawing the wiring…")
-
-    def _copy_sketch(self) -> None:
-        copy_text(self.sketch.toPlainText())
 
     def _show_sketch(self, text: str) -> None:
         self.sketch.setPlainText(text)

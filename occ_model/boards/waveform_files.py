@@ -96,7 +96,11 @@ def choose_wav_timing(transmission: Transmission) -> WavTiming:
             f"{transmission.frequency} is {HERTZ.format(float(frequency))}."
         )
     sample_counts = range(max(fewest, most - _MAX_RATES), most + 1)
-    timings = (_wav_timing(frequency, samples) for samples in sample_counts)
+    rates = {each: min(round(frequency * each), HIGHEST_SAMPLE_RATE) for each in sample_counts}
+    timings = (
+        WavTiming(rate, samples, (Fraction(rate, samples) / frequency - 1) * 10**6)
+        for samples, rate in rates.items()
+    )
     return min(
         timings,
         key=lambda timing: (
@@ -105,11 +109,6 @@ def choose_wav_timing(transmission: Transmission) -> WavTiming:
             -timing.sample_rate,
         ),
     )
-
-
-def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
-    rate = min(round(frequency * samples), HIGHEST_SAMPLE_RATE)
-    return WavTiming(rate, samples, (Fraction(rate, samples) / frequency - 1) * 10**6)
 
 
 def wav_bytes(transmission: Transmission) -> bytes:

@@ -276,16 +276,12 @@ class Room:
             raise SceneFileError("A room file has a list of lamps: 'lamps = [{name = ...}, ...]'.")
         scene = base.with_tables(tables)
         lamps = tuple(_read_lamp(row, scene.transmitter, n) for n, row in enumerate(rows, 1))
-        return cls(lamps=lamps, scene=scene, camera=_read_place(place))
+        place = toml_format.table_of(place, "place")
+        _check_keys(place, tuple(Place.__dataclass_fields__), "Table [place]")
+        return cls(lamps=lamps, scene=scene, camera=Place(**place))
 
 
 _LAMP_KEYS = tuple(n for n in RoomLamp.__dataclass_fields__ if n != "transmitter")
-
-
-def _read_place(value: object) -> Place:
-    table = toml_format.table_of(value, "place")
-    _check_keys(table, tuple(Place.__dataclass_fields__), "Table [place]")
-    return Place(**table)
 
 
 def _read_lamp(row: Mapping[str, Any], shared: Transmitter, number: int) -> RoomLamp:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
+from occ_model.errors import inflect
 from occ_model.results.clock import MeasuredValue
 from occ_model.scene.units import SECOND
 from occ_model.video.frame_period import fit_line, fit_rounded_period
@@ -151,7 +152,8 @@ def _describe_problems(steps: FloatArray, counts: IndexArray, usual: float) -> l
     problems = []
     missing = np.flatnonzero(counts > 1)
     if missing.size:
-        frames = _count_frames(int((counts[missing] - 1).sum()))
+        count = int((counts[missing] - 1).sum())
+        frames = f"{inflect(count, 'frame')} {'is' if count == 1 else 'are'}"
         problems.append(
             f"According to the frame times {frames} missing after {_list_frames(missing)}."
         )
@@ -167,10 +169,6 @@ def _describe_problems(steps: FloatArray, counts: IndexArray, usual: float) -> l
             f"whole number of {SECOND.format(usual)}, the first after {_list_frames(uneven[:1])}."
         )
     return problems
-
-
-def _count_frames(count: int) -> str:
-    return "1 frame is" if count == 1 else f"{count} frames are"
 
 
 def _list_frames(frames: IndexArray) -> str:

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import FloatArray
 from occ_model.results.clock import Clock
 from occ_model.results.video_reading import FrameReading
 from occ_model.scene.light_words import blinking_lamp
@@ -111,7 +111,8 @@ class PlacedFrames:
         numbers = [
             number for number in range(part.first, part.end) if self._places[number] is not None
         ]
-        offsets, places = self._offsets_and_places(fit.step, numbers)
+        offsets = _offsets(fit.step, [self.frames[number] for number in numbers])
+        places = np.array([self._places[number] for number in numbers], dtype=np.int64)
         if found.is_by_number:
             ticks, ends = times.numbers[numbers].astype(np.float64), times.ends(part)
         else:
@@ -260,13 +261,6 @@ class PlacedFrames:
             cycle = self._period.length if is_lamp else 0
             self.clock = describe_clock(self._clocks, film, part, cycle)
 
-    def _offsets_and_places(
-        self, step: float, numbers: Sequence[int]
-    ) -> tuple[FloatArray, IndexArray]:
-        """Return the chips from each frame's start to its first chip, and that chip's place."""
-        places = np.array([self._places[number] for number in numbers], dtype=np.int64)
-        return _offsets(step, [self.frames[number] for number in numbers]), places
-
 
 def _fullest_part(times: FrameTimes, frames: Iterable[int]) -> Part:
     counts = np.zeros(len(times.parts), dtype=np.int64)
@@ -280,6 +274,7 @@ def _next_count(count: int) -> int:
 
 
 def _offsets(step: float, frames: Sequence[TimedFrame]) -> FloatArray:
+    """Return the chips from each frame's start to its first chip."""
     return np.array([step * timed.column - timed.middle for timed in frames])
 
 

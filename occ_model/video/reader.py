@@ -132,8 +132,9 @@ class VideoReader:
         self._update_payload()
         soft = self._read_soft_frame()
         failure = self._explain_failure(soft)
-        if failure is not None:
-            failure += self._describe_overexposure()
+        if failure is not None:  # overexposure need not be the cause
+            white = float(np.mean([frame.white for frame in placed.frames] or [0.0]))
+            failure += f" {overexposed_text(white)}" if white else ""
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
         times, clock, no_clock = placed.times(), placed.clock, placed.no_clock
         is_followed = clock is not None and placed.placed >= _MIN_PLACED_FRACTION * len(
@@ -169,11 +170,6 @@ class VideoReader:
             if number is None or times is None or placed.clock is None
             else times.elapsed(number),
         )
-
-    def _describe_overexposure(self) -> str:
-        """State that frames are overexposed, if they are; this need not be the cause."""
-        white = float(np.mean([frame.white for frame in self._placed.frames] or [0.0]))
-        return f" {overexposed_text(white)}" if white else ""
 
     def _describe_problems(self, times: FrameTimes | None, no_clock: str) -> tuple[str, ...]:
         """Report irregular times of frames that do not determine a clock, and why there is none."""

@@ -44,7 +44,7 @@ def write_gif(path: Path, pictures: Iterator[Samples], rate: float, note: str) -
                 )
             if count == 0:
                 file.write(b"GIF89a" + struct.pack("<HHBBB", columns, lines, 0, 0, 0))
-                file.write(_LOOP_EXTENSION + b"\x21\xfe" + _split_into_blocks(note.encode()))
+                file.write(_LOOP_EXTENSION + _comment(note.encode()))
             step = round((count + 1) * 100 / rate) - round(count * 100 / rate)
             file.write(struct.pack("<BBBBHBB", 0x21, 0xF9, 4, 4, step, 0, 0))
             file.write(_encode_gif(picture))
@@ -53,9 +53,9 @@ def write_gif(path: Path, pictures: Iterator[Samples], rate: float, note: str) -
     return count
 
 
-def _split_into_blocks(content: bytes) -> bytes:
+def _comment(content: bytes) -> bytes:
     parts = [content[start : start + _BLOCK] for start in range(0, len(content), _BLOCK)]
-    return b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
+    return b"\x21\xfe" + b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
 
 
 def _encode_gif(picture: Samples) -> bytes:

@@ -23,6 +23,7 @@ _LIMITED_BLACK, _LIMITED_WHITE = 16, 235  # of 8 bits: ITU-R BT.601 and BT.709
 _LINES_AT_ONCE = 32
 _LINES_OF_HD = 720  # from which colours are by BT.709 where nothing is stated
 _BT709, _BT601, _UNSTATED = 1, 6, 2  # ISO/IEC 23091-2, matrix coefficients
+_MATRICES = {_BT709: Colorspace.ITU709, 9: Colorspace.BT2020}
 
 
 class ChannelReader:
@@ -80,13 +81,10 @@ class ChannelReader:
         is_luma = not form.startswith("bgr")
         # With more threads, the reformatter keeps them alive.
         return self._reformatter.reformat(
-            frame, format=form, src_colorspace=_matrix_of(matrix), src_color_range=extent,
+            frame, format=form, src_colorspace=_MATRICES.get(matrix, Colorspace.ITU601),
+            src_color_range=extent,
             dst_color_range=extent if is_luma else ColorRange.JPEG, threads=1,
         )  # fmt: skip
-
-
-def _matrix_of(number: int) -> Colorspace | int:
-    return {_BT709: Colorspace.ITU709, 9: Colorspace.BT2020}.get(number, Colorspace.ITU601)
 
 
 def _first_plane(frame: VideoFrame, form: VideoFormat) -> NDArray[Any]:

@@ -30,5 +30,5 @@ def blurred_light(
     shape: BlurShape = "normal",
 ) -> FloatArray:  # fmt: skip
     """Return the lit fractions as the program blurs them, each time on being longer by chips."""
-    light = ChipLight(chips, columns, BLUR_REACH).exposed(timing, longer).lit
+    light = ChipLight(chips, columns, BLUR_REACH).expose(timing, longer).lit
     return blur_rows(light, blur_kernel(blur, shape))

@@ -13,9 +13,9 @@ import numpy as np
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.camera.advice import mains_advice
 from occ_model.photo.evidence.candidates import Candidates
-from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
+from occ_model.photo.evidence.hypothesis import Hypothesis, is_rotation
 from occ_model.photo.evidence.unexplained import why_not_as_sent, why_unread
-from occ_model.photo.evidence.verdict import Judge, rows_alike
+from occ_model.photo.evidence.verdict import Judge, correlate_rows
 from occ_model.photo.fit.best_timing import EXPLAINED_CORRELATION
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraResponse, camera_responses
 from occ_model.photo.fitted_scene import exposure_time, make_match, readout_and_frequency
@@ -156,15 +156,15 @@ def _match_chips(photo: Photo, scene: Scene, how: _Settings, report: "_Progress"
         report.again,
     )
     report(0.2)
-    judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=how.sent == "read")
+    judge = Judge(stripes, correlate_rows(photo, stripes.region), blinks=how.sent == "read")
     hypotheses, unread = _hypotheses(candidates, how.sent, report)
     try:
         chosen = judge.choose(hypotheses)
     except MatchError as error:
         raise MatchError(*unread, *error.reasons) from None
-    found, beside = candidates.corrected(chosen)
+    found, beside = candidates.correct(chosen)
     others = [*(one for one in hypotheses if one is not chosen), *beside]
-    different = [one for one in others if not is_turned(one, found)]
+    different = [one for one in others if not is_rotation(one, found)]
     verdict = judge.verdict(found, different, is_given=how.sent == "scene")
     report(0.9)
     match = make_match(
@@ -230,10 +230,10 @@ def _hypotheses(
         agreed = [
             replace(one, sent=as_sent.sent, bits=0.0, was_read=False)
             for one in found
-            if is_turned(one, as_sent)
+            if is_rotation(one, as_sent)
         ]
         best = min([as_sent, *agreed], key=lambda one: one.fit.residual)
-        found = [best, *(one for one in found if not is_turned(one, as_sent))]
+        found = [best, *(one for one in found if not is_rotation(one, as_sent))]
     if not found:
         chips = sent_chips(candidates.scene.transmitter)
         varies = bool(chips.min() < chips.max())

@@ -64,8 +64,8 @@ def test_gamma_comes_back_where_it_is_asked_for() -> None:
 def test_exposures_that_add_up_to_whole_periods_look_alike(exposure: float, turns: int) -> None:
     """The moving average is a trapezoid whose ramps last the exposure modulo the period."""
     light = ChipLight(np.array([1, 0], dtype=np.uint8), 500)
-    one = light.exposed(Timing(0.07, exposure, 0.3, 2.22)).lit
-    other = light.exposed(Timing(0.07, 2.0 * turns - exposure, 0.3, 2.22)).lit
+    one = light.expose(Timing(0.07, exposure, 0.3, 2.22)).lit
+    other = light.expose(Timing(0.07, 2.0 * turns - exposure, 0.3, 2.22)).lit
     swing = np.ptp(other) / np.ptp(one)
     turned = np.abs(np.corrcoef(one, other)[0, 1])
     assert turned == pytest.approx(1.0, abs=1e-9)

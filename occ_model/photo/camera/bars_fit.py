@@ -95,7 +95,7 @@ class _BarsSearch:
         )  # fmt: skip
         return float(found.x), -float(found.fun)
 
-    def weighted_for(self, bars: float, shape: Shape) -> "_BarsSearch":
+    def weight_for(self, bars: float, shape: Shape) -> "_BarsSearch":
         """Fit the scales, and weight the lines by what a number of bars does not explain."""
         model = BarsModel(self.lines, bars, shape)
         scales = _fit_scales(model, _first_scales(self.given))
@@ -106,7 +106,7 @@ class _BarsSearch:
         factors, inflation = _weights(lines, fitted)
         if shape is COARSE:  # what it does not explain is mostly the wave's higher harmonics
             inflation = 1.0
-        return replace(self, lines=lines.weighted(factors / inflation), scales=scales, bars=bars)
+        return replace(self, lines=lines.weight(factors / inflation), scales=scales, bars=bars)
 
 
 def _first_scales(given: LineValues) -> Scales:
@@ -124,9 +124,9 @@ def fit_bars(given: LineValues) -> BarsFit:
     search = _BarsSearch(given, Lines.of(given, start.slow), start)
     for _ in range(_ROUNDS):
         top = float(grid[int(np.argmax(search.evidences(grid)))])
-        search = search.weighted_for(search.refine(top, COARSE)[0], COARSE)
-    search = search.weighted_for(search.bars, FINE)
-    search = search.weighted_for(search.refine(search.bars, FINE)[0], FINE)
+        search = search.weight_for(search.refine(top, COARSE)[0], COARSE)
+    search = search.weight_for(search.bars, FINE)
+    search = search.weight_for(search.refine(search.bars, FINE)[0], FINE)
     tops = [search.bars, *_maxima(grid, search.evidences(grid))]
     tried = {*tops, *(search.bars * factor for factor in (1 / 3, 0.5, 2.0, 3.0))}
     found = [search.refine(bars, FINE) for bars in tried if FEWEST_BARS <= bars <= grid[-1]]

@@ -82,7 +82,7 @@ class Lines:
             lines.lines / lines.columns,
         )
 
-    def weighted(self, factors: FloatArray) -> "Lines":
+    def weight(self, factors: FloatArray) -> "Lines":
         return replace(self, weights=self.weights * factors)
 
     def positions(self, bend: float) -> FloatArray:

@@ -136,23 +136,23 @@ def _fit(profile: FloatArray, inside: tuple[int, int]) -> _BandFit:
     noise = max(1.4826 * float(np.median(np.abs(np.diff(profile)))) / math.sqrt(2.0), 0.1)
     first, last = inside
 
-    def off(values: FloatArray) -> FloatArray:
+    def residual_of(values: FloatArray) -> FloatArray:
         model = _levels(lines, values)
         return np.concatenate([(model - profile) / noise, (values[5:] - _LIKELY) / _DEVIATIONS])
 
-    def fitted(edge: float) -> tuple[float, FloatArray, FloatArray]:
+    def fit_from(edge: float) -> tuple[float, FloatArray, FloatArray]:
         low, high = np.clip(np.array([profile.min(), profile.max()]) / WHITE, 1e-3, 1.0) ** 2.2
         start = [0.5 * (first + last), last - first, edge, low, math.log(high - low + 1e-3)]
         found = least_squares(
-            off, np.concatenate([start, _LIKELY]),
+            residual_of, np.concatenate([start, _LIKELY]),
             bounds=(_LEAST, [count, 2 * count, count, *_MOST]), x_scale=_SCALES, max_nfev=60,
         )  # fmt: skip
         return float(found.cost), np.asarray(found.x), np.asarray(found.jac)
 
     _, values, slopes = min(
-        (fitted(part * (last - first)) for part in (0.05, 0.3, 0.8)), key=lambda each: each[0]
+        (fit_from(part * (last - first)) for part in (0.05, 0.3, 0.8)), key=lambda each: each[0]
     )
-    residual = off(values)[:count]
+    residual = residual_of(values)[:count]
     variance = float(residual @ residual) / (count - len(values)) * correlated_columns(residual)
     # The priors keep their own weight, whatever the lines scatter.
     products = slopes[:count].T @ slopes[:count] / max(variance, 1.0)

@@ -76,15 +76,15 @@ def measure_camera(
     for number, axis in enumerate(axes, 1):
         lines = quotient_of_lines(loaded, axis)
         refuse_unseen(lines)
-        found.append(_Along(axis, lines, fit_bars(lines), len(loaded) == 1))
+        found.append(_AxisBars(axis, lines, fit_bars(lines), len(loaded) == 1))
         report(0.2 + 0.7 * number / len(axes))
-    best = max(found, key=_Along.credit)
+    best = max(found, key=_AxisBars.credit)
     refuse(loaded, axes, best.lines, best.fit)
     report(1.0)
     return _result(best, float(mains_frequency))
 
 
-def _result(best: "_Along", mains_frequency: float) -> CameraMeasurement:
+def _result(best: "_AxisBars", mains_frequency: float) -> CameraMeasurement:
     fit, lines, is_single = best.fit, best.lines, best.is_single
     frequency = MAINS_HARMONIC * mains_frequency
     frame = fit.bars / frequency
@@ -114,7 +114,7 @@ def _result(best: "_Along", mains_frequency: float) -> CameraMeasurement:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Along:
+class _AxisBars:
     """The bars along one axis of the pictures."""
 
     axis: str

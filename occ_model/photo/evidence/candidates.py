@@ -51,8 +51,8 @@ class Candidates:
         """Fit what the scene sends; None where that never changes, or has no possible fit."""
         chips = sent_chips(self.scene.transmitter)
         period = self.stripes.period
-        near = [] if period is None else [self._near(len(canonical(chips)) / period)]
-        return self._fitted("what the scene sends", chips, [*near, None], bits=0.0, was_read=False)
+        near = [] if period is None else [self._steps_near(len(canonical(chips)) / period)]
+        return self._fit("what the scene sends", chips, [*near, None], bits=0.0, was_read=False)
 
     def read(self, as_sent: Hypothesis | None = None) -> list[Hypothesis]:
         """Fit the chips read in each way, but not those that ``as_sent`` explains well already."""
@@ -70,20 +70,20 @@ class Candidates:
         if explained and as_sent is not None:
             known = canonical(as_sent.chips)
             read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
-        found = self._fitted_read(read)
+        found = self._fit_read(read)
         best = max((one.fit.correlation for one in found), default=0.0)
         if not explained and best < EXPLAINED_CORRELATION:
             again = read_otherwise(stripes.profile, period, read, self.check)
-            found += [replace(one, read_again=True) for one in self._fitted_read(again)]
+            found += [replace(one, read_again=True) for one in self._fit_read(again)]
         return found
 
-    def _fitted_read(self, read: Sequence[ReadPattern]) -> list[Hypothesis]:
+    def _fit_read(self, read: Sequence[ReadPattern]) -> list[Hypothesis]:
         assert self.stripes.period is not None  # noqa: S101 - else nothing is read
         found = [
-            self._fitted(
-                f"{self._named(one.chips)} read from the photo",
+            self._fit(
+                f"{self._name(one.chips)} read from the photo",
                 one.chips,
-                [self._near(one.times * len(one.chips) / self.stripes.period)],
+                [self._steps_near(one.times * len(one.chips) / self.stripes.period)],
                 bits=len(one.chips) + np.log2(MOST_CHIPS),
                 was_read=True,
             )
@@ -91,7 +91,7 @@ class Candidates:
         ]
         return [one for one in found if one is not None]
 
-    def corrected(self, found: Hypothesis) -> tuple[Hypothesis, list[Hypothesis]]:
+    def correct(self, found: Hypothesis) -> tuple[Hypothesis, list[Hypothesis]]:
         """Take the nearest other chips instead of those that were read, while they explain more.
 
         Chips are read as if white pixels were as bright as the light: where they are not, the fit
@@ -106,7 +106,7 @@ class Candidates:
             if not found.was_read or is_single_pulse(other.chips) or not is_better:
                 return found, [*others, other]
             others.append(found)
-            sent = f"{self._named(other.chips)} read from the photo"
+            sent = f"{self._name(other.chips)} read from the photo"
             found = replace(other, sent=sent, read_again=found.read_again)
         return found, others
 
@@ -120,13 +120,13 @@ class Candidates:
         other = explain_from(
             [found.fit.timing], self.stripes, chips, self.cameras, self.fit_gamma, self.check
         )
-        sent = f"{self._named(chips)} instead"
-        return self._supposed(sent, other, bits=bits, was_read=True)
+        sent = f"{self._name(chips)} instead"
+        return self._suppose(sent, other, bits=bits, was_read=True)
 
-    def _near(self, step: float) -> FloatArray:
+    def _steps_near(self, step: float) -> FloatArray:
         return step + _STEP_CHANGES / len(self.stripes.profile)
 
-    def _named(self, chips: ByteArray) -> str:
+    def _name(self, chips: ByteArray) -> str:
         """Name chips by the lamp or the packet that they are, else by their number."""
         sends = with_chips(self.scene, chips)[0].transmitter
         if not sends.pattern:
@@ -135,7 +135,7 @@ class Candidates:
             return f"a lamp with a duty of {PERCENT.format(float(chips.mean()), 3)}"
         return f"a code of {len(chips)} chips"
 
-    def _fitted(
+    def _fit(
         self,
         sent: str,
         chips: ByteArray,
@@ -154,9 +154,9 @@ class Candidates:
             steps,
             check=self.check,
         )
-        return self._supposed(sent, found, bits=bits, was_read=was_read)
+        return self._suppose(sent, found, bits=bits, was_read=was_read)
 
-    def _supposed(
+    def _suppose(
         self, sent: str, found: Explanation | None, *, bits: float, was_read: bool
     ) -> Hypothesis | None:
         if found is None:

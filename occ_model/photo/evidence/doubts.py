@@ -27,10 +27,10 @@ _MOST_SATURATED_FOR_EXPOSURE = 0.4
 two standard deviations covered 79 % only (seeds 700000 to 700599)."""
 
 
-def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
+def doubts(found: Hypothesis, stripes: Stripes, row_correlation: float) -> list[str]:
     return [
         *_doubts_by_extent(found),
-        *_doubts_by_quality(found, stripes.saturated, rows_alike),
+        *_doubts_by_quality(found, stripes.saturated, row_correlation),
         *(_doubts_by_reading(found, stripes) if found.was_read else ()),
     ]
 
@@ -74,7 +74,7 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
     return reasons
 
 
-def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -> list[str]:
+def _doubts_by_quality(found: Hypothesis, saturated: float, row_correlation: float) -> list[str]:
     reasons = []
     correlation = found.fit.correlation
     if correlation < _LEAST_CORRELATION:
@@ -90,8 +90,8 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"The fit is better than one by chance by {shown} bits only; at least {limit} are "
             "needed."
         )
-    if rows_alike < _LEAST_ROW_CORRELATION:
-        shown, limit = distinct_texts(rows_alike, _LEAST_ROW_CORRELATION, 2)
+    if row_correlation < _LEAST_ROW_CORRELATION:
+        shown, limit = distinct_texts(row_correlation, _LEAST_ROW_CORRELATION, 2)
         reasons.append(
             f"The rows show the same stripes only with a correlation of {shown}; at least {limit} "
             "is needed."

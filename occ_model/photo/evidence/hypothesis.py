@@ -66,6 +66,6 @@ def log_likelihood(power: float, columns: int, independent: float, freedom: floa
     return -0.5 * independent * math.log(variance) - 0.5 * freedom * math.log(max(independent, 2.0))
 
 
-def is_turned(one: Hypothesis, other: Hypothesis) -> bool:
+def is_rotation(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether two hypotheses are the same endless sequence of chips."""
     return np.array_equal(canonical(one.chips), canonical(other.chips))

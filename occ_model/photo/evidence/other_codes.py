@@ -33,7 +33,7 @@ def nearest_other(
     swing = found.fit.swing
     light = (profile - found.fit.low) / swing
     alone = (ChipLight(one, len(profile)) for one in np.eye(len(chips), dtype=np.uint8))
-    responses = np.stack([one.exposed(found.fit.timing).lit for one in alone])
+    responses = np.stack([one.expose(found.fit.timing).lit for one in alone])
     weight = swing**2 / float((swing**2).sum())
     responses -= row_products(weight, responses)[:, None]
     light = light - dot(weight, light)

@@ -43,13 +43,13 @@ class Verdict:
 class Judge:
     """Compares hypotheses about the same stripes."""
 
-    def __init__(self, stripes: Stripes, rows_alike: float, *, blinks: bool) -> None:
-        self._stripes, self._rows_alike, self._blinks = stripes, rows_alike, blinks
+    def __init__(self, stripes: Stripes, row_correlation: float, *, blinks: bool) -> None:
+        self._stripes, self._row_correlation, self._blinks = stripes, row_correlation, blinks
         swing = float(np.median(stripes.high - stripes.low))
         self._error = len(stripes.profile) * (_MODEL_ERROR * swing) ** 2
 
     def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
-        independent = self._independent(hypotheses)
+        independent = self._count_independent(hypotheses)
         likelihoods = self._likelihoods(hypotheses, independent)
         order = sorted(range(len(likelihoods)), key=lambda i: -likelihoods[i])
         reasons = [self._refusals(hypotheses[i], likelihoods[i], independent) for i in order]
@@ -70,9 +70,9 @@ class Judge:
 
         ``is_given``: whether what was sent is given: as many other chips then change no timing.
         """
-        independent = self._independent([found, *others])
+        independent = self._count_independent([found, *others])
         own, *likelihoods = self._likelihoods([found, *others], independent)
-        reasons = doubts(found, self._stripes, self._rows_alike)
+        reasons = doubts(found, self._stripes, self._row_correlation)
         beside = sorted(
             zip(others, (one - own for one in likelihoods), strict=True), key=lambda pair: -pair[1]
         )
@@ -83,16 +83,17 @@ class Judge:
             if more > -_DECISIVE_LOG_LIKELIHOOD
             and not (is_given and len(other.chips) == len(found.chips))
         ]
-        if own - self._of_curve(found, independent) < _DECISIVE_LOG_LIKELIHOOD:
+        if own - self._curve_likelihood(found, independent) < _DECISIVE_LOG_LIKELIHOOD:
             reasons.append("Light that varies slowly, without any code, is nearly as likely.")
         of_exposure = exposure_doubts(found, self._stripes)
         return Verdict(tuple(reasons), tuple(of_exposure), tuple(beside))
 
     def _refusals(self, found: Hypothesis, likelihood: float, independent: float) -> list[str]:
         """Return why a hypothesis is refused: something else explains the stripes, or chance."""
-        least = _LEAST_CORRELATION_GIVEN
-        if found.was_read:
-            least = _LEAST_CORRELATION_READ if self._blinks else _LEAST_CORRELATION_OF_OBJECTS
+        may_be_object = found.was_read and not self._blinks
+        least = _LEAST_CORRELATION_READ if found.was_read else _LEAST_CORRELATION_GIVEN
+        if may_be_object:
+            least = _LEAST_CORRELATION_OF_OBJECTS
         if found.fit.correlation < least:
             shown, limit = distinct_texts(found.fit.correlation, least, 2)
             return [
@@ -108,7 +109,7 @@ class Judge:
                 f"They repeat after {columns:.1f} columns and are bright for {fraction:.0f} % of "
                 "them, as those of any regular object are, such as a blind.",
             ]
-        elif found.was_read and not self._blinks and likelihood < self._of_wave(found, independent):
+        elif may_be_object and likelihood < self._wave_likelihood(found, independent):
             reasons.append(
                 "A wave of another shape that repeats as often, as of any regular object, explains "
                 f"the stripes better than {found.sent}."
@@ -120,20 +121,20 @@ class Judge:
                 f"only; at least {limit} are needed: more periods in view, a shorter exposure, or "
                 "less noise give more."
             )
-        if likelihood < self._of_curve(found, independent):
+        if likelihood < self._curve_likelihood(found, independent):
             reasons.append(
                 "Light that varies slowly, without any code, explains the stripes better than "
                 f"{found.sent}."
             )
-        if self._rows_alike < _LEAST_ROW_CORRELATION:
-            shown, limit = distinct_texts(self._rows_alike, _LEAST_ROW_CORRELATION, 2)
+        if self._row_correlation < _LEAST_ROW_CORRELATION:
+            shown, limit = distinct_texts(self._row_correlation, _LEAST_ROW_CORRELATION, 2)
             reasons.append(
                 f"The rows do not show the same stripes: their correlation is {shown}; at least "
                 f"{limit} is needed."
             )
         return reasons
 
-    def _independent(self, hypotheses: Sequence[Hypothesis]) -> float:
+    def _count_independent(self, hypotheses: Sequence[Hypothesis]) -> float:
         """Count the independent columns by the least residual: larger ones hold signal."""
         best = min(hypotheses, key=lambda one: one.fit.residual)
         residual = best.residual(self._stripes.profile)
@@ -147,7 +148,7 @@ class Judge:
             for one in hypotheses
         ]
 
-    def _of_wave(self, found: Hypothesis, independent: float) -> float:
+    def _wave_likelihood(self, found: Hypothesis, independent: float) -> float:
         """Return the log-likelihood of any wave of the same period, in the levels of the fit."""
         profile, columns = self._stripes.profile, len(self._stripes.profile)
         period = len(found.chips) / found.fit.timing.step
@@ -157,7 +158,7 @@ class Judge:
         freedom = found.freedom - 2 + 2 * harmonics_within(columns, period)
         return log_likelihood(float(left @ left) + self._error, columns, independent, freedom)
 
-    def _of_curve(self, found: Hypothesis, independent: float) -> float:
+    def _curve_likelihood(self, found: Hypothesis, independent: float) -> float:
         """Return the log-likelihood of as few cosines, from the slowest, as are worth their number.
 
         There are no more than a hypothesis' chips allow: faster ones are stripes.
@@ -177,7 +178,7 @@ class Judge:
         )
 
 
-def rows_alike(photo: Photo, region: Region) -> float:
+def correlate_rows(photo: Photo, region: Region) -> float:
     """Return the correlation of a band of rows with the other ones, in the median of the bands.
 
     Slow changes along the columns are removed: the shape of the lamp differs between the rows. A

@@ -21,7 +21,7 @@ _ROUGH_ROUNDS = 4  # iterations after which only good fits are continued
 _HOPELESS_RATIO = 20.0  # ratio of its residual to the best one above which a fit is not continued
 _MOST_RESIDUAL_RATIO = 4.0  # maximum ratio of a rough fit to the best one for it to be continued
 
-_MOST_FINISHED = 6
+_MOST_FINISHED = 6  # maximum number of fits that are continued to the end
 
 _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
 _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
@@ -83,7 +83,7 @@ def explain(
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
         others = TimingSearch(stripes.flattened, chips).candidates(steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
-    return explain_from(_promising(candidates), stripes, chips, cameras, with_gamma, check)
+    return explain_from(_choose_starts(candidates), stripes, chips, cameras, with_gamma, check)
 
 
 def explain_from(
@@ -104,7 +104,7 @@ def explain_from(
         if found and stripes.saturated <= CLIPPED_FRACTION:  # responses then differ little
             starts = [fit.timing for fit in found[0][1]]
         model = StripeModel(stripes.profile, chips, camera.response, starts[0].step, check)
-        fits = _fits(model, starts, with_gamma)
+        fits = _fit_from_each(model, starts, with_gamma)
         ratio = _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
         if fits:
             found.append((fits[0].residual / ratio, fits, camera))
@@ -117,21 +117,25 @@ def explain_from(
     return Explanation(chips, tuple(good), camera)
 
 
-def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> list[StripeFit]:
+def _fit_from_each(
+    model: StripeModel, starts: Sequence[Timing], with_gamma: bool
+) -> list[StripeFit]:
     """Fit from several timings: roughly from all of them, to the end from the promising ones."""
     rough: list[StripeFit] = []
     for start in starts:
         hopeless = _HOPELESS_RATIO * min((fit.residual for fit in rough), default=math.inf)
         rough.append(model.fit(start, with_gamma, _ROUGH_ROUNDS, hopeless))
-    # What needs darker than black so far may come to need none.
+    # A fit that needs negative light at first may end without.
     rough.sort(key=lambda fit: (not fit.is_possible, fit.residual))
     good = [fit for fit in rough if fit.residual <= _MOST_RESIDUAL_RATIO * rough[0].residual]
-    apart = _apart(good)[:_MOST_FINISHED]
+    apart = _first_of_each_exposure(good)[:_MOST_FINISHED]
     fits = [model.fit(fit.timing, with_gamma) for fit in apart]
-    return _apart(sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual))
+    return _first_of_each_exposure(
+        sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual)
+    )
 
 
-def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
+def _choose_starts(candidates: Sequence[Candidate]) -> list[Timing]:
     """Choose the timings to start fits from: the best ones, and those of the shortest exposures.
 
     Many exposures give similar stripes, so that the search alone does not find the best.
@@ -142,7 +146,7 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
     return list(dict.fromkeys([*good[:_BEST], *shortest[:_SHORTEST]]))
 
 
-def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
+def _first_of_each_exposure(fits: Sequence[StripeFit]) -> list[StripeFit]:
     """Keep the first fit of each exposure."""
     kept: list[StripeFit] = []
     for fit in fits:

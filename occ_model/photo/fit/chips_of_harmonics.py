@@ -56,14 +56,14 @@ def harmonics_of(even: FloatArray, period: float) -> Harmonics:
     return repeated_wave(even, period, count, MEAN_SHAPES)[0]
 
 
-def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
+def best_chips(harmonics: Harmonics, count: int) -> ReadPattern | None:
     """Find the chips, over all exposures and phases, whose harmonics are most like those given."""
-    order = np.arange(1, len(lines) + 1)
+    order = np.arange(1, len(harmonics) + 1)
     exposures, phases = (part.ravel() for part in np.meshgrid(_EXPOSURES, _PHASES))
-    turned = boxes_of(len(lines), count, exposures, phases)
-    chips = rounded_chips(lines, turned, count)
+    turned = boxes_of(len(harmonics), count, exposures, phases)
+    chips = rounded_chips(harmonics, turned, count)
     model = np.fft.fft(chips, axis=1)[:, order % count] * turned
-    explained = _likeness(lines, model)
+    explained = _likeness(harmonics, model)
     best = int(explained.argmax())
     if chips[best].min() == chips[best].max():
         return None
@@ -72,20 +72,22 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
 
 
 def boxes_of(
-    harmonics: int, count: int, exposures: FloatArray, phases: FloatArray
+    number: int, count: int, exposures: FloatArray, phases: FloatArray
 ) -> NDArray[np.complex128]:
     """Return the boxes of chip and exposure that multiply harmonics, shape (trials, harmonics)."""
-    order = np.arange(1, harmonics + 1)
+    order = np.arange(1, number + 1)
     boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
     return np.asarray(boxes * np.exp(-2j * np.pi / count * np.outer(phases, order)), complex)
 
 
-def rounded_chips(lines: Harmonics, boxes: NDArray[np.complex128], count: int) -> ByteArray:
+def rounded_chips(harmonics: Harmonics, boxes: NDArray[np.complex128], count: int) -> ByteArray:
     """Divide harmonics by each row of boxes, and round the chips' levels, shape (trials, chips)."""
-    return _round_levels(_levels(lines, boxes, count))
+    return _round_levels(_levels(harmonics, boxes, count))
 
 
-def refine_timing(lines: Harmonics, found: ReadPattern, column: float | None = None) -> ReadPattern:
+def refine_timing(
+    harmonics: Harmonics, found: ReadPattern, column: float | None = None
+) -> ReadPattern:
     """Refine exposure and phase, and let bright runs be longer or shorter than their chips.
 
     ``column``: chips a column, where no pixel is white. The light then passes half its height
@@ -96,23 +98,22 @@ def refine_timing(lines: Harmonics, found: ReadPattern, column: float | None = N
     # Imported only when a photo is matched: it is slow.
     from scipy.optimize import minimize
 
-    count = len(found.chips)
-    turn = -2j * np.pi * np.arange(1, len(lines) + 1) / count
+    count, order = len(found.chips), np.arange(1, len(harmonics) + 1)
+    turn = -2j * np.pi * order / count
     change = found.chips.astype(np.int64) - np.roll(found.chips, 1)
-    order = np.arange(1, len(lines) + 1) % count
-    rising, falling = (np.fft.fft(kind)[order] / -turn for kind in (change > 0, change < 0))
+    rising, falling = (np.fft.fft(kind)[order % count] / -turn for kind in (change > 0, change < 0))
 
-    def unlike(values: FloatArray) -> float:
+    def unlikeness(values: FloatArray) -> float:
         exposure, phase, longer = values.tolist()
-        box = np.sinc(np.arange(1, len(lines) + 1) * exposure / count)
+        box = np.sinc(order * exposure / count)
         model = (rising - falling * np.exp(turn * longer)) * box * np.exp(turn * phase)
-        return -float(_likeness(lines, model[None])[0])
+        return -float(_likeness(harmonics, model[None])[0])
 
     # A chip's own box is centred half a chip after its rising edge.
     start = [found.exposure, found.phase - 0.5, 0.0]
     steps = np.vstack([start, *(start + 0.1 * np.eye(3))])
     best = minimize(
-        unlike,
+        unlikeness,
         start,
         method="Nelder-Mead",
         options={
@@ -129,7 +130,7 @@ def refine_timing(lines: Harmonics, found: ReadPattern, column: float | None = N
     return ReadPattern(found.chips, -float(best.fun), abs(exposure), phase + 0.5)
 
 
-def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> FloatArray:
+def _levels(harmonics: Harmonics, weights: NDArray[np.complex128], count: int) -> FloatArray:
     """Solve for the chips' levels, shape (trials, chips).
 
     Harmonics that are equal modulo the number of chips give one equation. ``weights``: shape
@@ -142,7 +143,7 @@ def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> Fl
         return np.asarray(whole.reshape(len(values), -1, count).sum(axis=1))
 
     power = fold(np.abs(weights) ** 2 + 0j).real
-    sums = fold(lines * np.conj(weights))
+    sums = fold(harmonics * np.conj(weights))
     spectrum = sums / (power + _LEAST_WEIGHT * power.max(axis=1, keepdims=True))
     # The spectrum of real levels is its own mirror image, conjugated.
     spectrum[:, 0] = 0.0
@@ -163,30 +164,30 @@ def _round_levels(levels: FloatArray) -> ByteArray:
     return np.asarray(levels > split[:, None], dtype=np.uint8)
 
 
-def _likeness(lines: Harmonics, models: Harmonics) -> FloatArray:
+def _likeness(harmonics: Harmonics, models: Harmonics) -> FloatArray:
     """Return the correlation of harmonics with each row of models; -1 with a row of zeros."""
-    energy = np.sqrt((np.abs(models) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
-    products = (lines * np.conj(models)).real.sum(axis=1)
+    energy = np.sqrt((np.abs(models) ** 2).sum(axis=1) * float((np.abs(harmonics) ** 2).sum()))
+    products = (harmonics * np.conj(models)).real.sum(axis=1)
     return np.where(energy > 0.0, products / np.maximum(energy, 1e-300), -1.0)
 
 
 def chips_by_descent(
-    lines: Harmonics, count: int, check: Callable[[], object] = lambda: None
+    harmonics: Harmonics, count: int, check: Callable[[], object] = lambda: None
 ) -> list[ReadPattern]:
     """Find sequences of chips whose harmonics are like those given, the most similar first."""
     exposures, phases = (part.ravel() for part in np.meshgrid(_DENSE_EXPOSURES, _DENSE_PHASES))
-    boxes = boxes_of(len(lines), count, exposures, phases)
-    order = np.arange(1, len(lines) + 1)
+    boxes = boxes_of(len(harmonics), count, exposures, phases)
+    order = np.arange(1, len(harmonics) + 1)
     of_chips = np.exp(-2j * np.pi / count * np.outer(np.arange(count), order))
-    length = float(np.sqrt((np.abs(lines) ** 2).sum()))
+    length = float(np.sqrt((np.abs(harmonics) ** 2).sum()))
     found: dict[bytes, ReadPattern] = {}
-    for box, first, exposure, phase in zip(
-        boxes, rounded_chips(lines, boxes, count), exposures.tolist(), phases.tolist(), strict=True
-    ):
+    rounded = rounded_chips(harmonics, boxes, count)
+    trials = zip(boxes, rounded, exposures.tolist(), phases.tolist(), strict=True)
+    for box, first, exposure, phase in trials:
         check()
         responses = box * of_chips
         parts = np.hstack([responses.real, responses.imag])
-        towards = row_products(np.concatenate([lines.real, lines.imag]), parts) / length
+        towards = row_products(np.concatenate([harmonics.real, harmonics.imag]), parts) / length
         chips, alike = _raise_likeness(first, towards, row_products(parts, parts))
         key = min(np.roll(chips, turn).tobytes() for turn in range(count))
         if chips.min() < chips.max() and (key not in found or found[key].explained < alike):
@@ -218,7 +219,7 @@ def _raise_likeness(
         )
         on, along, energy = on + chips.sum(), along + chips @ towards, energy + chips @ pull
         varies = (on > 0.5) & (on < count - 0.5)
-        # Of next to no energy rounding makes any likeness: that of no step but a higher one counts.
+        # Rounding makes any likeness of next to no energy, which is therefore bounded.
         alike = np.where(varies, along / np.sqrt(np.maximum(energy, 1e-12 * own.sum())), -1.0)
         best = max(best, float(alike[0]))
         most = int(alike.argmax())

@@ -25,7 +25,7 @@ class Bounds:
     high: FloatArray
     most_change: FloatArray | float = math.inf
 
-    def limited(self, place: FloatArray, there: FloatArray) -> FloatArray:
+    def limit(self, place: FloatArray, there: FloatArray) -> FloatArray:
         """Return where a step from a place to another one may end."""
         there = np.clip(there, place - self.most_change, place + self.most_change)
         return np.clip(there, self.low, self.high)
@@ -62,7 +62,7 @@ def minimize_squares(
         gain, before = 0.0, dot(value, value)
         for _ in range(_MOST_TRIES):
             damped = products + np.diag(damping * np.diag(products) + 1e-9)
-            there = bounds.limited(here, here - np.linalg.solve(damped, gradient))
+            there = bounds.limit(here, here - np.linalg.solve(damped, gradient))
             new = residual(there)
             gain = before - dot(new, new)
             if gain > 0.0:

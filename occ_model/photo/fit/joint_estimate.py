@@ -96,7 +96,8 @@ def refine_fits(
         models.append(model_by(1.0))
     model = StripeModel(stripes.profile, chips, explanation.camera.response, step)
     found = mean_fit(models, best.timing)
-    seen, unusual = (of(found.values) for of in (models[0].edges_seen, models[0].unusual))
+    seen = models[0].edges_seen(found.values)
+    unusual = models[0].distance_from_usual(found.values)
     if seen < _LEAST_EDGES:
         found = _with_step_of(found, best)
     fit = _stripe_fit(model, widen_covariance(found, unusual), gamma, with_gamma=with_gamma)

@@ -118,7 +118,7 @@ def average_fits(fits: Sequence[JointFit]) -> JointFit:
     return JointFit(middle, np.asarray(covariance), likeliest.misfit, likeliest.prior)
 
 
-def distinct(fits: Sequence[JointFit]) -> list[JointFit]:
+def keep_distinct(fits: Sequence[JointFit]) -> list[JointFit]:
     """Keep the best fit of each minimum, the best first: several starts may end in the same one.
 
     Two are the same where their exposures differ by less than the better one's deviation.

@@ -114,7 +114,7 @@ class JointModel:
             values[4] = 0.0
         return values
 
-    def adapted(self, values: FloatArray) -> FloatArray:
+    def adapt(self, values: FloatArray) -> FloatArray:
         """Return another model's parameters, what this one does not fit being as usual."""
         return self._usual_but(values, self._free)
 
@@ -202,18 +202,18 @@ class JointModel:
         the swing E changes along the columns, a blur of variance s^2 thus moves an edge towards the
         darker side by s^2 (ln E)': an exponential times a normal distribution is one that is moved.
         """
-        seen = self._seen.by(values, shape)
+        seen = self._seen.at(values, shape)
         slopes = [part.relative_slope(seen) for part in self._parts]
         moved = float(values[0] * values[7] ** 2) * np.concatenate(slopes)
         return np.concatenate([moved, np.zeros(len(PRIORS))])
 
-    def unusual(self, values: FloatArray) -> float:
+    def distance_from_usual(self, values: FloatArray) -> float:
         """Return by how many standard deviations the unknowns of a fit are off what is usual."""
         return float(np.linalg.norm((values[3:] - self._mean) / self._deviation))
 
     def estimate_noise(self, values: FloatArray) -> None:
         """Take a fit's residual as the noise of each profile, neighbours being correlated."""
-        seen = self._seen.by(values)
+        seen = self._seen.at(values)
         for number, part in enumerate(self._parts):
             residual = part.residual(seen)
             slow = part.slow(np.ones(part.data.size))
@@ -230,7 +230,7 @@ class JointModel:
 
         In grey levels, shape (columns,); NaN for a column that none shows unclipped.
         """
-        seen = self._seen.by(values)
+        seen = self._seen.at(values)
         squares, count = np.zeros(self._columns), np.zeros(self._columns)
         for part in self._parts:
             squares[part.kept] += part.residual(seen) ** 2
@@ -239,7 +239,7 @@ class JointModel:
 
     def edges_seen(self, values: FloatArray) -> float:
         """Return the largest unclipped fraction of the edges' columns in a profile."""
-        lit = self._seen.by(values).lit
+        lit = self._seen.at(values).lit
         low, high = float(lit.min()), float(lit.max())
         edges = (lit > low + _EDGE_BAND * (high - low)) & (lit < high - _EDGE_BAND * (high - low))
         count = max(1, int(edges.sum()))
@@ -247,14 +247,14 @@ class JointModel:
 
     def residual(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         self._check()
-        seen = self._seen.by(values, shape)
+        seen = self._seen.at(values, shape)
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*self._whiten([p.residual(seen) for p in self._parts]), unusual])
 
     def slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         """Return the residual's slopes, shape (9, residuals)."""
         self._check()
-        seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape)
+        seen, rates = self._seen.at(values, shape), self._seen.slopes(values, shape)
         found = np.hstack(self._whiten([part.slopes(seen, rates) for part in self._parts]))
         slopes = np.zeros((9, found.shape[1] + len(PRIORS)))
         slopes[IN_ORDER, : -len(PRIORS)] = found

@@ -98,7 +98,7 @@ class StripeModel:
 
     def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         self._check()
-        lit = self._light.exposed(timing).lit
+        lit = self._light.expose(timing).lit
         values = self._response(lit, timing.gamma)
         low, swing = combine(
             self._explained(values, self._kept_profile).reshape(2, -1), self._shapes.all
@@ -116,7 +116,7 @@ class StripeModel:
         What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
         """
         lit, values, low, swing = self._at(timing)
-        by_timing = self._light.exposed(timing).slopes()
+        by_timing = self._light.expose(timing).slopes()
         changes = swing * self._response.slopes(lit, timing.gamma, by_timing)
         levels = self._explained(values, changes[:, self._kept])
         slopes = LitColumns(self._shapes.all, values).light(levels) - changes

@@ -55,7 +55,7 @@ class LitProfile:
             self._shapes.all, ((0, 0), (BLUR_REACH, BLUR_REACH)), mode="edge"
         )
         # Slopes are needed where the residual has just been computed.
-        self._fitted = lru_cache(maxsize=1)(self._fitted_to)
+        self._fitted = lru_cache(maxsize=1)(self._fit_levels)
 
     def residual(self, seen: Seen) -> FloatArray:
         """Return data less model in grey levels, shape (kept,)."""
@@ -63,7 +63,7 @@ class LitProfile:
         if seen.sharp is None:
             return self.data - seen.table.value_of(fitted.kept.light(fitted.levels))
         picture = LitColumns(self._wide_shapes, seen.sharp)
-        return self._less_blurred(seen, picture.light(fitted.shown))
+        return self._residual_of_blurred(seen, picture.light(fitted.shown))
 
     def slopes(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
         """Return the residual's slopes over the light's parameters, then the tone's: (any, kept).
@@ -102,14 +102,14 @@ class LitProfile:
         """
         return orthonormalize(self._slow / noise)
 
-    def _fitted_to(self, seen: Seen) -> _Fitted:
+    def _fit_levels(self, seen: Seen) -> _Fitted:
         kept = LitColumns(self._shapes.kept, seen.lit[self.kept])
         light, slope = seen.table.light_of(self.data), seen.table.slope_at(self.data)
         levels = self._shapes.explaining(kept.lit, slope, slope * light)
-        shown = levels if seen.sharp is None else self._corrected(seen, seen.sharp, levels)
+        shown = levels if seen.sharp is None else self._correct_levels(seen, seen.sharp, levels)
         return _Fitted(kept, levels, shown)
 
-    def _corrected(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
+    def _correct_levels(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
         """Correct levels that were found as if light were blurred, by Gauss and Newton's steps.
 
         Their shapes are so smooth that blur does not change them. Dark columns beside bright ones,
@@ -118,7 +118,9 @@ class LitProfile:
         for _ in range(_MOST_CORRECTIONS):
             light = LitColumns(self._wide_shapes, sharp).light(levels)
             steep, columns = self._steep(seen, sharp, light)
-            change = self._shapes.explaining(columns.lit, steep, self._less_blurred(seen, light))
+            change = self._shapes.explaining(
+                columns.lit, steep, self._residual_of_blurred(seen, light)
+            )
             levels = levels + change
             if np.abs(change).max() < _LEAST_CORRECTION:
                 break
@@ -132,7 +134,7 @@ class LitProfile:
         both = blur_rows(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
         return both[0], LitColumns(self._shapes.kept, both[1] / both[0])
 
-    def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
+    def _residual_of_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
         return self.data - blur_rows(seen.table.value_of(light), seen.kernel)[self.kept]
 
 

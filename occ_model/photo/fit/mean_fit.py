@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.joint_fit import JointFit, average_fits, distinct
+from occ_model.photo.fit.joint_fit import JointFit, average_fits, keep_distinct
 from occ_model.photo.fit.joint_model import JointModel
 from occ_model.photo.fit.seen_stripes import BlurShape
 from occ_model.photo.fit.timing import Timing
@@ -46,7 +46,7 @@ def mean_fit(models: Sequence[JointModel], timing: Timing) -> JointFit:
     first.estimate_noise(usual)
     for model in models[1:]:
         model.take_noise(first)
-    fits = [_fit_near(model, model.adapted(usual)) for model in models]
+    fits = [_fit_near(model, model.adapt(usual)) for model in models]
     # Use the model that explains the stripes best: another one may explain none of them.
     likely, found = min(zip(models, fits, strict=True), key=lambda pair: pair[1].misfit)
     likely.estimate_noise(found.values)
@@ -63,7 +63,7 @@ def mean_fit(models: Sequence[JointModel], timing: Timing) -> JointFit:
     shaped: list[JointFit] = []
     for model, free in again:
         is_likely = free.misfit < least + _MOST_SHAPED_EXCESS
-        shaped += _of_each_shape(model, free) if is_likely else [free]
+        shaped += _fit_each_shape(model, free) if is_likely else [free]
         hopeless = _HOPELESS_RATIO * free.misfit
         other = model.fit(mirror_exposure(free.values), _LAST_ROUNDS, hopeless=hopeless)
         is_apart = abs(other.exposure - free.exposure) > free.deviation
@@ -95,7 +95,7 @@ def _fit_near(model: JointModel, here: FloatArray) -> JointFit:
     return best
 
 
-def _of_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
+def _fit_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
     """Fit also with each shape of the blur, where it may be taken for the exposure.
 
     Each minimum counts once, however many starts end in it.
@@ -123,7 +123,7 @@ def _of_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
     for shape, others in found.items():
         # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
         others.append(model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
-    return [fit for fits in found.values() for fit in distinct(fits)]
+    return [fit for fits in found.values() for fit in keep_distinct(fits)]
 
 
 def _is_short(values: FloatArray) -> bool:

@@ -66,18 +66,18 @@ def read_patterns(
     misread, or not be read, where the exposure is shorter than a column's readout: the position of
     an edge within a column is then unknown.
     """
-    lines = harmonics_of(remove_trend(profile), period)
+    harmonics = harmonics_of(remove_trend(profile), period)
     most = min(MOST_CHIPS, int(period / LEAST_COLUMNS))
     counts = _counts_by_edges(edges_of(flattened), period, most)
     column = None if is_clipped else 1.0 / period
-    found = [_fewest(lines, counts, column, check)]
+    found = [_fewest(harmonics, counts, column, check)]
     by_edges = found[0]
     if (
         by_edges is None
         or _unexplained(by_edges) > _LEAST_UNEXPLAINED
         or by_edges.exposure > _LONGEST_FOR_EDGES
     ):
-        found.append(_chips_by_lines(lines, most, column, check))
+        found.append(_chips_by_harmonics(harmonics, most, column, check))
     read = [_join_chips(one) for one in found if one is not None]
     return list({one.chips.tobytes(): one for one in read}.values())
 
@@ -93,7 +93,7 @@ def read_otherwise(
     It is called where the chips read explain the stripes badly: an exposure of two or three chips
     leaves little of some harmonics, and is easily taken for one of a single chip.
     """
-    lines = harmonics_of(remove_trend(profile), period)
+    harmonics = harmonics_of(remove_trend(profile), period)
     lengths = [one.times * len(one.chips) for one in read]
     counts = {length // part for length in lengths for part in _PARTS if length % part == 0}
     known = {canonical(one.chips).tobytes() for one in read}
@@ -101,7 +101,7 @@ def read_otherwise(
     for count in sorted(counts):
         if count < _LEAST_CHIPS:
             continue
-        for one in chips_by_descent(lines, count, check)[:_MOST_PER_COUNT]:
+        for one in chips_by_descent(harmonics, count, check)[:_MOST_PER_COUNT]:
             short = _join_chips(one)
             if one.explained > _LEAST_HARMONIC_CORRELATION and short.chips.tobytes() not in known:
                 found[short.chips.tobytes()] = short
@@ -109,7 +109,7 @@ def read_otherwise(
 
 
 def _fewest(
-    lines: Harmonics, counts: Sequence[int], column: float | None, check: Callable[[], object]
+    harmonics: Harmonics, counts: Sequence[int], column: float | None, check: Callable[[], object]
 ) -> ReadPattern | None:
     """Find the fewest chips that explain the harmonics about as well as the best number does.
 
@@ -118,17 +118,17 @@ def _fewest(
     read = []
     for count in counts:
         check()
-        rough = best_chips(lines, count)
+        rough = best_chips(harmonics, count)
         if rough is not None:
-            read.append(refine_timing(lines, rough, column and count * column))
+            read.append(refine_timing(harmonics, rough, column and count * column))
             if _unexplained(read[-1]) <= _LEAST_UNEXPLAINED:
                 return read[-1]
     left = [_unexplained(one) for one in read]
-    enough = _enough(left)
-    return next((one for one, rest in zip(read, left, strict=True) if rest <= enough), None)
+    most_left = _most_unexplained(left)
+    return next((one for one, rest in zip(read, left, strict=True) if rest <= most_left), None)
 
 
-def _enough(left: Sequence[float]) -> float:
+def _most_unexplained(left: Sequence[float]) -> float:
     """Return the fraction of the power that the fewest chips may leave unexplained."""
     return min(
         _MOST_UNEXPLAINED, max(_LEAST_UNEXPLAINED, _MOST_EQUAL_RATIO * min(left, default=1.0))
@@ -149,8 +149,8 @@ def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
     return [*divisors, *good[:_MOST_COUNTS]]
 
 
-def _chips_by_lines(
-    lines: Harmonics, most: int, column: float | None, check: Callable[[], object]
+def _chips_by_harmonics(
+    harmonics: Harmonics, most: int, column: float | None, check: Callable[[], object]
 ) -> ReadPattern | None:
     """Find the smallest number of chips that explains the harmonics far better than its neighbours.
 
@@ -159,16 +159,16 @@ def _chips_by_lines(
     read = {}
     for count in range(2, most + 1):
         check()
-        read[count] = best_chips(lines, count)
+        read[count] = best_chips(harmonics, count)
     left = {count: 1.0 if one is None else _unexplained(one) for count, one in read.items()}
-    enough = _enough(list(left.values()))
+    most_left = _most_unexplained(list(left.values()))
     for count, one in read.items():
         beside = [left[count + step] for step in _NEIGHBOURS if count + step in left]
         stands_out = bool(beside) and left[count] <= _MOST_NEIGHBOUR_RATIO * float(
             np.median(beside)
         )
-        if one is not None and left[count] <= enough and stands_out:
-            return refine_timing(lines, one, column and count * column)
+        if one is not None and left[count] <= most_left and stands_out:
+            return refine_timing(harmonics, one, column and count * column)
     return None
 
 

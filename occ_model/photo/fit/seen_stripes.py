@@ -98,16 +98,16 @@ class SeenStripes:
         self._light = ChipLight(chips, columns, BLUR_REACH)
         self._gamma, self._values_blurred = gamma, values_blurred
         # Slopes are needed where the residual has just been computed.
-        self._last = lru_cache(maxsize=1)(self._by)
+        self._last = lru_cache(maxsize=1)(self._compute)
 
-    def by(self, values: FloatArray, shape: BlurShape = "normal") -> Seen:
+    def at(self, values: FloatArray, shape: BlurShape = "normal") -> Seen:
         """Return what is seen by nine parameters, and the blur's shape."""
         return self._last(tuple(values.tolist()), shape)
 
     def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
         """Return the slopes of what is seen, those of the tone over gamma itself."""
         timing, curve, blur, longer = self._parts(values.tolist())
-        seen, exposed = self.by(values, shape), self._light.exposed(timing, longer)
+        seen, exposed = self.at(values, shape), self._light.expose(timing, longer)
         slope_of_kernel = kernel_slope(blur, shape)
         lit = np.zeros((5, len(exposed.lit)))
         lit[:BLUR] = exposed.slopes()
@@ -122,9 +122,9 @@ class SeenStripes:
         """Return the gamma, of which the parameters hold the logarithm over the usual one."""
         return self._gamma * math.exp(values[GAMMA])
 
-    def _by(self, values: Sequence[float], shape: BlurShape) -> Seen:
+    def _compute(self, values: Sequence[float], shape: BlurShape) -> Seen:
         timing, curve, blur, longer = self._parts(values)
-        sharp, kernel = self._light.exposed(timing, longer).lit, blur_kernel(blur, shape)
+        sharp, kernel = self._light.expose(timing, longer).lit, blur_kernel(blur, shape)
         shown = sharp if self._values_blurred else None
         return Seen(blur_rows(sharp, kernel), curve.table(), shown, kernel)
 

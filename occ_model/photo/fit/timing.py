@@ -27,7 +27,7 @@ class Timing:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Exposed:
+class ExposedLight:
     """What the columns' exposures contain, each of shape (columns and those beside,)."""
 
     lit: FloatArray  # the fraction of the time in which the LED is on
@@ -72,9 +72,9 @@ class ChipLight:
         self._levels = np.tile(chips[places], 3).astype(np.float64)
         self._a_period = len(places)
         # Slopes are needed where the light has just been computed.
-        self.exposed = lru_cache(maxsize=1)(self._exposed_in)
+        self.expose = lru_cache(maxsize=1)(self._integrate)
 
-    def _exposed_in(self, timing: Timing, longer: float = 0.0) -> Exposed:
+    def _integrate(self, timing: Timing, longer: float = 0.0) -> ExposedLight:
         """Integrate the light over the exposures of all columns.
 
         ``longer``: chips by which each time on is longer than the chips say.
@@ -91,7 +91,7 @@ class ChipLight:
         level = self._levels.take(passed)
         until = turns * light + integral.take(passed) + level * (ends - edges.take(passed))
         number = passed + turns * self._a_period
-        return Exposed(
+        return ExposedLight(
             (until[1] - until[0]) / timing.exposure,
             (level[0], level[1]),
             number[1] - number[0],

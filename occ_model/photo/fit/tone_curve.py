@@ -33,14 +33,14 @@ class ToneCurve:
     contrast: float = 0.0
 
     def table(self) -> "ToneTable":
-        bent, _ = self._bent()
+        bent, _ = self._bend()
         toe = _TOE**self.gamma * (1.0 + self.gamma * (bent / _TOE - 1.0))
         light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
         return ToneTable(light, 1.0 / np.gradient(light, _STEP))
 
     def slopes(self, table: "ToneTable") -> "ToneSlopes":
         """Tabulate the slopes over gamma, offset, shoulder and contrast."""
-        bent, rises = self._bent()
+        bent, rises = self._bend()
         # The toe is a tangent: by gamma it changes as the point and the slope that it touches.
         steady, below = np.maximum(bent, _TOE), np.minimum(bent / _TOE - 1.0, 0.0)
         steep = self.gamma * steady ** (self.gamma - 1.0)
@@ -49,7 +49,7 @@ class ToneCurve:
         by_bends = np.stack([1.0 - bent, *(_sum_to_white(rises * bend) for bend in _BENDS)])
         return ToneSlopes(table, np.vstack([by_gamma, steep / (1.0 + self.offset) * by_bends]))
 
-    def _bent(self) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _bend(self) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Return what is raised to the power of gamma, and which of its steps are not the least."""
         steps = _STEP + self.shoulder * _BENDS[0] + self.contrast * _BENDS[1]
         least = _LEAST_SLOPE * _STEP

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.photo.lamps.shape import around
+from occ_model.photo.lamps.shape import region_around
 from occ_model.photo.lamps.timing import LampTiming, common_timing
 from occ_model.results.lamp import Lamp
 
@@ -30,7 +30,7 @@ class Blinking:
         return len(self.timing.edges) * self.lamp.area * max(self.light, 0.0)
 
 
-def with_parts_joined(
+def join_parts(
     blinking: Sequence[Blinking], means: FloatArray, bounds: IndexArray
 ) -> list[Blinking]:
     """Join the parts of each lamp: they blink in time, and touch or are lit between each other.
@@ -72,7 +72,7 @@ def _touch(left: Blinking, right: Blinking, bounds: IndexArray) -> bool:
 
 def _is_code(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexArray) -> bool:
     """Whether pulses have a longer stripe between them, so that both are parts of a code."""
-    between = _between(left, right, means, bounds)
+    between = _profile_between(left, right, means, bounds)
     lit = between > _LEAST_LIGHT_RATIO * min(left.lamp.level, right.lamp.level)
     ends = np.flatnonzero(np.diff(lit, prepend=False, append=False))
     longest = int(np.diff(ends)[::2].max(initial=0))
@@ -92,7 +92,9 @@ def _in_line(left: Blinking, right: Blinking) -> bool:
     return not is_code and shared >= _LEAST_SHARED_ROWS * min(here.rows, there.rows)
 
 
-def _between(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexArray) -> FloatArray:
+def _profile_between(
+    left: Blinking, right: Blinking, means: FloatArray, bounds: IndexArray
+) -> FloatArray:
     """Return the profile between two parts in line; empty if they are not."""
     here, there = left.lamp.region, right.lamp.region
     first, last = max(here.first_row, there.first_row), min(here.last_row, there.last_row)
@@ -114,7 +116,7 @@ def _join(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
     whole = np.array(
         [[p[0, 0], p[:, 1].max(), p[:, 2].min(), p[:, 3].max()] for p in of_start], dtype=np.int64
     )
-    region = around(whole)
+    region = region_around(whole)
     seems_code = left.timing.is_code or right.timing.is_code
     is_guess, is_code = is_code and not seems_code, is_code or seems_code
     lamp = replace(

@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.photo.lamps.blinking import Blinking, with_parts_joined
+from occ_model.photo.lamps.blinking import Blinking, join_parts
 from occ_model.photo.lamps.edges import LampEdges, edges_of, matches
 from occ_model.photo.lamps.segments import (
     LEAST_EDGES_OF_STRIP,
@@ -19,7 +19,7 @@ from occ_model.photo.lamps.segments import (
     groups_of,
     segments_of,
 )
-from occ_model.photo.lamps.shape import around, spans_of
+from occ_model.photo.lamps.shape import region_around, spans_of
 from occ_model.photo.lamps.strips import steady_lamps, strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
@@ -86,17 +86,17 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
         report(0.7 + 0.1 * (number + 1) / len(strips))
     blinking = []
     for group in groups_of(segments):
-        blinking += _blinking(group, segments, strips, bounds, means)
+        blinking += _find_blinking(group, segments, strips, bounds, means)
         report(0.85)
-    blinking = _without_parts(with_parts_joined(blinking, means, bounds))
-    lamps = _without_reflections(blinking)
+    blinking = _without_parts(join_parts(blinking, means, bounds))
+    lamps = _assign_reflections(blinking)
     report(0.9)
     lamps += steady_lamps(means, bounds, [one.lamp for one in blinking])
     report(1.0)
     return tuple(sorted(lamps, key=lambda lamp: (-round(lamp.level), -lamp.area)))
 
 
-def _blinking(
+def _find_blinking(
     group: Sequence[Segment],
     segments: Sequence[Segment],
     strips: Sequence[LampEdges],
@@ -133,7 +133,7 @@ def _blinking(
         if _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
             one = _describe_blinking(timing, spans, [strips[strip] for strip in shown])
-            if counts_some(one, means[shown[0] : shown[-1] + 1]):
+            if may_be_miscounted(one, means[shown[0] : shown[-1] + 1]):
                 one = replace(one, lamp=replace(one.lamp, is_blurred=True))
             found.append(one)
     return found
@@ -171,7 +171,7 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
 def _describe_blinking(
     timing: LampTiming, spans: IndexArray, strips: Sequence[LampEdges]
 ) -> Blinking:
-    region = around(spans)
+    region = region_around(spans)
     own = [one.where(matches(one, timing.edges, timing.chip)) for one in strips]
     low = float(np.median(np.concatenate([one.low for one in own])))
     high = float(np.median(np.concatenate([one.high for one in own])))
@@ -191,7 +191,7 @@ def _describe_blinking(
     return Blinking(lamp, timing, light - dark, dark)
 
 
-def counts_some(one: Blinking, means: FloatArray) -> bool:
+def may_be_miscounted(one: Blinking, means: FloatArray) -> bool:
     """Whether a count of edges may have missed some: faint stripes that do not repeat as counted.
 
     Light that an exposure longer than a chip has gathered never falls to that of the surroundings.
@@ -244,7 +244,7 @@ def _shared_fraction(one: Lamp, other: Lamp) -> float:
     return float((np.maximum(high, 0) * np.maximum(wide, 0)).sum() / one.area)
 
 
-def _with_doubts(blinking: Sequence[Blinking]) -> list[Blinking]:
+def _mark_faint(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
     brightest = max((one.light for one in blinking), default=0.0)
     return [
@@ -254,9 +254,9 @@ def _with_doubts(blinking: Sequence[Blinking]) -> list[Blinking]:
     ]
 
 
-def _without_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
+def _assign_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
     """Return the lamps, each with the regions of the fainter ones that blink in time with it."""
-    ordered = sorted(_with_doubts(blinking), key=lambda one: -one.light)
+    ordered = sorted(_mark_faint(blinking), key=lambda one: -one.light)
     kept: list[Blinking] = []
     mirrored: dict[int, list[Region]] = {}
     for one in ordered:

@@ -89,7 +89,7 @@ def segments_of(
             continue
         for left, right in ((first, begin), (end, last)):
             if right - left >= LEAST_EDGES:
-                waiting.append((left, right, clipped_to(progressions, left, right)))
+                waiting.append((left, right, clip_spans(progressions, left, right)))
     return found
 
 
@@ -108,14 +108,15 @@ def _segment(strip: int, edges: LampEdges, chip: float) -> Segment:
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
     """Whether a few long progressions explain edges as well: lamps of about the same period."""
-    inside = clipped_to(progressions, first, last)
+    inside = clip_spans(progressions, first, last)
     long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_PROGRESSION)
     return long >= _LEAST_EXPLAINED_FRACTION * (last - first)
 
 
-def clipped_to(
+def clip_spans(
     progressions: list[tuple[int, int, float]], first: int, last: int
 ) -> list[tuple[int, int, float]]:
+    """Clip progressions to the edges from ``first`` on and before ``last``."""
     parts = [(max(a, first), min(b, last), period) for a, b, period in progressions]
     return [part for part in parts if part[1] - part[0] >= LEAST_EDGES]
 
@@ -150,13 +151,13 @@ def _code_within(
         part = first + begin, first + end
         chip = chip_within(*part)
         if chip is not None:
-            part = _without_strangers(edges, *part, chip)
+            part = _drop_strangers(edges, *part, chip)
             if best is None or part[1] - part[0] > best[1] - best[0]:
                 best = (*part, chip)
     return best
 
 
-def _without_strangers(edges: LampEdges, first: int, last: int, chip: float) -> tuple[int, int]:
+def _drop_strangers(edges: LampEdges, first: int, last: int, chip: float) -> tuple[int, int]:
     """Leave out outer edges that lie far away, or off the lattice of chips."""
     turns = np.exp(2j * np.pi * edges.place[first:last] / chip)
     off = np.zeros(last - first)

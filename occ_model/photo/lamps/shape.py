@@ -99,7 +99,7 @@ def _outermost(edges: LampEdges, at: int, side: int, timing: LampTiming) -> int:
     return at
 
 
-def around(spans: IndexArray) -> Region:
+def region_around(spans: IndexArray) -> Region:
     return Region(
         int(spans[:, 0].min()), int(spans[:, 1].max()),
         int(spans[:, 2].min()), int(spans[:, 3].max()),

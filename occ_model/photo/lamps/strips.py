@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.photo.lamps.shape import around
+from occ_model.photo.lamps.shape import region_around
 from occ_model.photo.reading.load import Photo, column_means
 from occ_model.results.lamp import Lamp
 
@@ -71,7 +71,7 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
             continue
         spans = _spans(place, bounds, columns / narrow)
         level = float(np.median(levels[place]))
-        found.append(Lamp(around(spans), spans, level, modulated=False))
+        found.append(Lamp(region_around(spans), spans, level, modulated=False))
     return found
 
 

@@ -149,7 +149,7 @@ def test_chips_that_are_not_read_are_said_to_be_unread(monkeypatch: pytest.Monke
 
 
 def judged(
-    left: FloatArray | float = 0.0, profile: FloatArray = SQUARE, rows_alike: float = 1.0,
+    left: FloatArray | float = 0.0, profile: FloatArray = SQUARE, row_correlation: float = 1.0,
     sent: str = "110100", blinks: bool = True, **figures: Any,
 ) -> list[str]:  # fmt: skip
     """Return the refusals of a hypothesis that was read: it leaves noise, and something else."""
@@ -160,7 +160,7 @@ def judged(
     ends = np.full(600, profile.min()), np.full(600, profile.max())
     stripes = Stripes(occ.Region(0, 60, 0, 600), profile + NOISE, *ends, 60.0, 0.1, 0.0)
     try:
-        Judge(stripes, rows_alike, blinks=blinks).choose([found])
+        Judge(stripes, row_correlation, blinks=blinks).choose([found])
     except occ.MatchError as error:
         return list(error.reasons)
     return []
@@ -175,8 +175,8 @@ JUDGED: dict[str, tuple[dict[str, Any], str | None]] = {
     "information": ({"information": 29.7}, "by chance by 29.7 bits only; at least 30.0 are needed"),
     "no information": ({"information": -9.0}, "by chance by 0 bits only; at least 30 are needed"),
     "enough information": ({"information": 30.1}, None),
-    "rows": ({"rows_alike": 0.698}, "their correlation is 0.698; at least 0.700 is needed"),
-    "rows that are alike": ({"rows_alike": 0.7}, None),
+    "rows": ({"row_correlation": 0.698}, "their correlation is 0.698; at least 0.700 is needed"),
+    "rows that are alike": ({"row_correlation": 0.7}, None),
     "slow light": (
         {"profile": SINE, "left": SHAPE}, "Light that varies slowly, without any code, explains"),
     "no slow light": ({"left": SHAPE}, None),

@@ -18,14 +18,14 @@ FLAT = np.ones(COLUMNS)
 
 def explained(
     chips: np.ndarray | str = "1110100100", was_read: bool = False, saturated: float = 0.0,
-    rows_alike: float = 1.0, periods: float = 9.0, exposure: float = 0.5, **figures: Any,
+    row_correlation: float = 1.0, periods: float = 9.0, exposure: float = 0.5, **figures: Any,
 ) -> list[str]:  # fmt: skip
     """Return the doubts of chips that are explained well but for some figure."""
     timing = Timing(periods * len(chips) / COLUMNS, exposure, 0.0, 2.2)
     figures = {"information": 900.0, **figures}
     found = hypothesis(chips, timing, COLUMNS, was_read=was_read, **figures)
     stripes = Stripes(Region(0, 9, 0, COLUMNS), FLAT, FLAT, FLAT, None, None, saturated)
-    return doubts(found, stripes, rows_alike)
+    return doubts(found, stripes, row_correlation)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +37,7 @@ def explained(
         ("correlation", 0.9, 0.89, "The correlation is 0.89; below 0.90", False),
         ("information", 40.1, 39.0, "by chance by 39 bits only; at least 40", False),
         ("information", 100.1, 99.0, "by chance by 99 bits only; at least 100", True),
-        ("rows_alike", 0.85, 0.84, "only with a correlation of 0.84; at least 0.85", False),
+        ("row_correlation", 0.85, 0.84, "only with a correlation of 0.84; at least 0.85", False),
         ("saturated", 0.5, 0.51, "51.0 % of the pixels are saturated", True),
     ],
 )

@@ -22,7 +22,7 @@ def chips_of(code: str) -> np.ndarray:
 @pytest.mark.parametrize("timing", TIMINGS)
 def test_it_is_the_exact_exposure_integral(code: str, timing: Timing) -> None:
     chips = chips_of(code)
-    lit = ChipLight(chips, COLUMNS).exposed(timing).lit
+    lit = ChipLight(chips, COLUMNS).expose(timing).lit
     assert lit == pytest.approx(light_of(chips, timing, COLUMNS), abs=1e-9)
 
 
@@ -32,14 +32,14 @@ def test_each_time_on_is_longer_by_as_many_chips(code: str, longer: float) -> No
     """An exposure of a whole period sees all of them, wherever it starts."""
     chips = chips_of(code)
     whole = Timing(0.17, float(len(chips)), 1.3, 2.2)
-    lit = ChipLight(chips, COLUMNS).exposed(whole, longer).lit
+    lit = ChipLight(chips, COLUMNS).expose(whole, longer).lit
     pulses = np.count_nonzero(chips > np.roll(chips, 1))
     assert lit == pytest.approx((chips.sum() + pulses * longer) / len(chips), abs=1e-9)
 
 
 def test_a_time_on_begins_earlier_and_ends_later_by_the_same() -> None:
     instant = Timing(0.01, 1e-6, 2.0, 2.2)
-    lit = ChipLight(chips_of("0110"), 401).exposed(instant, 0.3).lit
+    lit = ChipLight(chips_of("0110"), 401).expose(instant, 0.3).lit
     on = instant.middle + 0.01 * (np.flatnonzero(lit > 0.5) - 200)
     assert (on.min(), on.max()) == pytest.approx((0.85, 3.15), abs=0.011)
     assert np.ptp(np.flatnonzero(lit > 0.5)) == len(on) - 1
@@ -48,7 +48,7 @@ def test_a_time_on_begins_earlier_and_ends_later_by_the_same() -> None:
 @pytest.mark.parametrize("shape", ["normal", "box", "exponential"])
 def test_blur_is_the_mean_over_neighbouring_columns_beyond_the_ends_too(shape: BlurShape) -> None:
     chips, timing = chips_of("10011010"), TIMINGS[0]
-    wide = ChipLight(chips, COLUMNS + 16).exposed(timing, 0.1).lit
+    wide = ChipLight(chips, COLUMNS + 16).expose(timing, 0.1).lit
     expected = np.convolve(wide, blur_kernel(1.3, shape), "valid")
     found = blurred_light(chips, COLUMNS, timing, 1.3, 0.1, shape)
     assert found == pytest.approx(expected, abs=1e-9)

@@ -10,7 +10,7 @@ from occ_model.photo.fit.joint_fit import (
     JointFit,
     average_fits,
     covariance_of,
-    distinct,
+    keep_distinct,
 )
 
 DATA, PRIOR = 6400, 2
@@ -89,7 +89,7 @@ def test_a_fit_that_hardly_tells_the_step_is_no_fit() -> None:
 
 def test_starts_that_end_in_the_same_minimum_count_once() -> None:
     best, again, other = fit(1.0, 10.0), fit(1.004, 10.5), fit(1.4, 12.0)
-    assert distinct([other, again, best]) == [best, other]
+    assert keep_distinct([other, again, best]) == [best, other]
 
 
 def test_explanations_of_pure_noise_are_weighted_by_their_likelihood() -> None:

@@ -42,7 +42,7 @@ def test_what_made_the_stripes_leaves_but_what_is_unusual_of_the_camera() -> Non
     mean, deviation = np.array(list(PRIORS.values())).T
     deviation = np.append(deviation[:5], math.hypot(deviation[5], 0.4 * 0.09))
     off = (TRUE[3:] - mean) / deviation
-    assert model.unusual(TRUE) == pytest.approx(np.linalg.norm(off))
+    assert model.distance_from_usual(TRUE) == pytest.approx(np.linalg.norm(off))
     fit = model.fit(TRUE, rounds=0)
     assert fit.values == pytest.approx(TRUE)
     assert fit.prior == pytest.approx(off @ off)
@@ -118,7 +118,7 @@ def test_where_grey_levels_are_averaged_no_tone_is_fitted() -> None:
     fit = model.fit(start)
     assert fit.values[3:5].tolist() == [0.0, 0.0]
     assert not fit.covariance[3:5].any()
-    assert model.adapted(TRUE)[[2, 3, 4, 5]].tolist() == [2.7, 0.0, 0.0, 0.2]
+    assert model.adapt(TRUE)[[2, 3, 4, 5]].tolist() == [2.7, 0.0, 0.0, 0.2]
 
 
 def test_any_gamma_may_be_found_where_it_is_asked_for() -> None:
@@ -126,7 +126,7 @@ def test_any_gamma_may_be_found_where_it_is_asked_for() -> None:
     far[3] = 0.4
     values = values_of(far) + NOISE
     wide, usual = model_of(values, wide=True), model_of(values)
-    assert wide.unusual(far) < usual.unusual(far)
+    assert wide.distance_from_usual(far) < usual.distance_from_usual(far)
     low = wide.fit(np.array([0.09, 0.6, 2.7, -9.0, 0.0, 0.0, 0.0, 0.5, 0.0]), rounds=0)
     assert 2.2 * math.exp(low.values[3]) == pytest.approx(1.0)
     # What is at a bound has no slope there, and is said not to be known.

@@ -16,7 +16,7 @@ CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
 TIMING = Timing(0.09, 0.6, 2.7, 2.2)
 TABLE = ToneCurve(2.2, 0.03, 0.1, -0.1).table()
 LIT = blurred_light(CHIPS, COLUMNS, TIMING, 0.8, 0.02)
-SHARP = ChipLight(CHIPS, COLUMNS, BLUR_REACH).exposed(TIMING, 0.02).lit
+SHARP = ChipLight(CHIPS, COLUMNS, BLUR_REACH).expose(TIMING, 0.02).lit
 SHAPES = smooth_shapes(COLUMNS, FREEDOM)
 DARK = SHAPES @ [0.05, 0.01, -0.005]
 SWING = SHAPES @ [0.5, 0.08, -0.04]

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from occ_model.photo.lamps.blinking import Blinking, with_parts_joined
+from occ_model.photo.lamps.blinking import Blinking, join_parts
 from occ_model.photo.lamps.edges import LampEdges
-from occ_model.photo.lamps.shape import around
+from occ_model.photo.lamps.shape import region_around
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.lamp import Lamp
 
@@ -23,7 +23,7 @@ def part(first_column: int, last_column: int, rows: tuple[int, int] = (20, 80)) 
     edges = LampEdges(place, rises, np.full(count, _DARK), np.full(count, _BRIGHT))
     timing = LampTiming(_PERIOD, 0.01, 0.0, _PERIOD / 2, False, 0.01, edges)
     spans = np.array([[row, row + 10, first_column, last_column] for row in range(*rows, 10)])
-    lamp = Lamp(around(spans), spans, _BRIGHT, True, _PERIOD, 0.01, 2.0 / _PERIOD, 1e-4, 5.0)
+    lamp = Lamp(region_around(spans), spans, _BRIGHT, True, _PERIOD, 0.01, 2.0 / _PERIOD, 1e-4, 5.0)
     return Blinking(lamp, timing, 0.5, 0.01)
 
 
@@ -38,7 +38,7 @@ LEFT, RIGHT = part(100, 200), part(260, 400)
 
 
 def test_parts_between_which_the_lamp_is_lit_are_one_lamp_without_a_period() -> None:
-    (one,) = with_parts_joined([RIGHT, LEFT], means(_BRIGHT), _BOUNDS)
+    (one,) = join_parts([RIGHT, LEFT], means(_BRIGHT), _BOUNDS)
     assert (one.lamp.region.first_column, one.lamp.region.last_column) == (100, 400)
     assert (one.lamp.region.first_row, one.lamp.region.last_row) == (20, 80)
     assert (one.lamp.period, one.lamp.periods) == (None, None)
@@ -58,4 +58,4 @@ def test_parts_between_which_the_lamp_is_lit_are_one_lamp_without_a_period() -> 
     ids=["dark between", "out of step", "not in line", "fainter", "a code"],
 )
 def test_other_lamps_are_kept_apart(right: Blinking, between: float) -> None:
-    assert set(with_parts_joined([LEFT, right], means(between), _BOUNDS)) == {LEFT, right}
+    assert set(join_parts([LEFT, right], means(between), _BOUNDS)) == {LEFT, right}

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from occ_model.photo.lamps.edges import LampEdges, edges_of
-from occ_model.photo.lamps.segments import LEAST_EDGES, clipped_to, progressions_of, segments_of
+from occ_model.photo.lamps.segments import (
+    LEAST_EDGES,
+    clip_spans,
+    progressions_of,
+    segments_of,
+)
 from occ_model.photo.lamps.shape import rectangles
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 
@@ -121,9 +126,9 @@ def test_a_chip_is_the_longest_that_all_distances_are_multiples_of(shift: float)
 def test_parts_of_progressions_are_kept_that_have_edges_enough() -> None:
     least = LEAST_EDGES
     parts = [(0, 10, 20.0), (8, 30, 25.0)]
-    assert clipped_to(parts, 10 - least, 40) == [(10 - least, 10, 20.0), (8, 30, 25.0)]
-    assert clipped_to(parts, 11 - least, 40) == [(8, 30, 25.0)]
-    assert clipped_to(parts, 0, 8 + least) == [(0, 10, 20.0), (8, 8 + least, 25.0)]
+    assert clip_spans(parts, 10 - least, 40) == [(10 - least, 10, 20.0), (8, 30, 25.0)]
+    assert clip_spans(parts, 11 - least, 40) == [(8, 30, 25.0)]
+    assert clip_spans(parts, 0, 8 + least) == [(0, 10, 20.0), (8, 8 + least, 25.0)]
 
 
 def test_edges_of_which_every_second_is_a_period_farther_progress() -> None:

@@ -3,20 +3,20 @@
 import math
 
 from PySide6.QtCore import QRect, QSize, Qt
-from PySide6.QtGui import QImage, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QImage, QPainter, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import make_image
 from occ_gui.accuracy.effect_rows import EVERYTHING_ELSE, EffectRow
 from occ_gui.widgets.building import embolden, fill, paragraph
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.results.accuracy import EffectCrop
 
 _GAP = 8
 _LARGEST_SCALE = 3
 
 
-class CropPictures(QWidget):
+class CropPictures(PaintedWidget):
     """The part of the panel with an effect, without it, and the difference, side by side."""
 
     def __init__(self) -> None:
@@ -52,11 +52,9 @@ class CropPictures(QWidget):
         scale = min((width - 2 * _GAP) / (3 * size.width()), _LARGEST_SCALE)
         return math.ceil(scale * size.height()) + self.fontMetrics().height() + 4
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+    def paint_with(self, painter: QPainter) -> None:
         if not self._images:
             return
-        painter = QPainter(self)
         line = self.fontMetrics().height()
         width, height = (self.width() - 2 * _GAP) // 3, self.height() - line - 2
         size = self._images[0].size()

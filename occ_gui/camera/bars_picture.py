@@ -2,11 +2,10 @@
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QPalette, QPen, QPolygonF
-from PySide6.QtWidgets import QWidget
+from PySide6.QtGui import QColor, QImage, QPainter, QPalette, QPen, QPolygonF
 
 from occ_gui.widgets.colours import SIMULATION
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.arrays import ByteArray, FloatArray
 
 _SIZE = QSize(280, 200)
@@ -15,7 +14,7 @@ _LARGEST_DEVIATION = (
 )
 
 
-class BarsPicture(QWidget):
+class BarsPicture(PaintedWidget):
     """Shows a picture, and the fitted brightness of each of its tiles as a curve along the tile.
 
     The curve moves to the right where the tile is bright; for bars along columns, down.
@@ -43,9 +42,7 @@ class BarsPicture(QWidget):
         self._waves, self._is_along_columns = waves, is_along_columns
         self.update()
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         if self._image is None:

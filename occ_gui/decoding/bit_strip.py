@@ -4,11 +4,11 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtGui import QColor, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from occ_gui.simulation.verdict import describe_received, find_wrong_bits
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model import colours
 from occ_model.scene.payload import PayloadPiece, compare_payload
 
@@ -26,7 +26,7 @@ _RIGHT = QColor(colours.RIGHT)
 _WRONG = QColor(colours.WRONG)
 
 
-class BitStrip(QWidget):
+class BitStrip(PaintedWidget):
     """Two rows of cells, the sent bits over the received ones.
 
     A one is a filled square, a zero an outline; a wrong bit is orange and crossed out; a bit that
@@ -77,9 +77,7 @@ class BitStrip(QWidget):
         """Allow narrower cells, in rows of full height."""
         return QSize(_LABEL_WIDTH + 10 * 12, self.sizeHint().height())
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self.isEnabled():  # the bits are of an earlier scene
             painter.setOpacity(_FADED_OPACITY)

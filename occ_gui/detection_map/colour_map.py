@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtGui import QImage, QPainter, QPalette
+from PySide6.QtWidgets import QSizePolicy
 
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 
 RATES, DIFFERENCES = "viridis", "CET-CBD1"
@@ -56,7 +56,7 @@ _BAR_WIDTH = 12
 _GAP = 4
 
 
-class ColourBar(QWidget):
+class ColourBar(PaintedWidget):
     def __init__(self) -> None:
         super().__init__()
         self._colours = QImage()
@@ -85,9 +85,7 @@ class ColourBar(QWidget):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(self.sizeHint().width(), 3 * self.fontMetrics().height())
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         line_height = self.fontMetrics().height()
         bar = QRectF(_GAP, line_height / 2, _BAR_WIDTH, self.height() - line_height)
         painter.drawImage(bar, self._colours)

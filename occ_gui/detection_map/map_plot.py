@@ -10,15 +10,14 @@ from PySide6.QtGui import (
     QKeyEvent,
     QMouseEvent,
     QPainter,
-    QPaintEvent,
     QPalette,
     QPen,
     QPolygonF,
 )
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.detection_map.axis_ticks import make_ticks, write_axis_title
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -47,7 +46,7 @@ _STEPS = {
 }
 
 
-class MapPlot(QWidget):
+class MapPlot(PaintedWidget):
     """Draws one map; unknown points are blank, points that the model refuses are hatched.
 
     It does not use pyqtgraph: two such plots would take 77 ms to make instead of 0.2 ms and twice
@@ -127,9 +126,7 @@ class MapPlot(QWidget):
         up = (area.bottom() - pixel.y()) / area.height() * self._shape[1]
         return min(int(across), self._shape[0] - 1), min(int(up), self._shape[1] - 1)
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         area = self.area()
         painter.fillRect(area, self.palette().color(QPalette.ColorRole.Base))
         painter.drawImage(area, self.image)

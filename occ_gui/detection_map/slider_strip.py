@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette
-from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
+from PySide6.QtGui import QPainter, QPalette
+from PySide6.QtWidgets import QSizePolicy, QSlider
 
 from occ_gui.detection_map.colour_map import RATES, make_image, to_colours
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.slider_scale import find_handle_sides, find_handle_travel
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
 
@@ -39,7 +39,7 @@ class SceneRate:
     whole: int
 
 
-class SliderStrip(QWidget):
+class SliderStrip(PaintedWidget):
     """A thin bar as long as the path of the slider's handle; grey where no rate is known."""
 
     def __init__(self, slider: QSlider, label: str) -> None:
@@ -133,9 +133,7 @@ class SliderStrip(QWidget):
             -_HANDLE_MARGIN, 0, _HANDLE_MARGIN, 0
         )
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         first, last = self.span()
         count = max(2, len(self.fractions))
         half = (last - first) / (count - 1) / 2
@@ -160,7 +158,7 @@ class SliderStrip(QWidget):
         painter.drawRect(QRectF(first, 0, last - first, self.height() - 1))
 
 
-class StripLegend(QWidget):
+class StripLegend(PaintedWidget):
     """A colour bar from "misread" to "read" in one line; a low window has no room for it."""
 
     def __init__(self) -> None:
@@ -181,11 +179,9 @@ class StripLegend(QWidget):
         """Return a height of zero, because the sliders are more important."""
         return QSize(120, 0)
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+    def paint_with(self, painter: QPainter) -> None:
         if self.height() < self.fontMetrics().height():
             return
-        painter = QPainter(self)
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
         left, middle = 0.0, self.height() / 2
         for text in ("misread", None, "read"):

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QPainter
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import ElidedLabel, fill
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.colours import PHOTO, THRESHOLD, thin_pen
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.chip_reading import ChipReading
@@ -144,7 +144,7 @@ class ChipStrip(QWidget):
             self.copied.emit(copy_text(self.cells.reading.text))
 
 
-class _Cells(QWidget):
+class _Cells(PaintedWidget):
     def __init__(self, plot: Plot) -> None:
         super().__init__()
         self._plot = plot
@@ -177,8 +177,6 @@ class _Cells(QWidget):
         in_plot = self._plot.mapFromScene(point)
         return float(self.mapFromGlobal(self._plot.mapToGlobal(in_plot)).x())
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         is_certain = self.reading is not None and self.reading.confidence >= _CERTAIN_PROBABILITY
         draw_chips(painter, self.rectangles(), QColor(PHOTO), self.palette(), is_certain)

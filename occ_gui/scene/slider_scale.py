@@ -5,11 +5,11 @@ from itertools import combinations, product
 from typing import TypeAlias
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QToolTip, QWidget
+from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QToolTip
 
 from occ_gui.widgets.building import resize_font
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -23,7 +23,7 @@ _Text: TypeAlias = tuple[str, QRectF]
 _TOOLTIP_DISTANCE = 6.0  # pixels from a mark within which its tooltip is shown
 
 
-class SliderScale(QWidget):
+class SliderScale(PaintedWidget):
     """The end values of a slider, and its marks with their names where there is space."""
 
     def __init__(self, slider: QSlider, quantity: Quantity) -> None:
@@ -76,9 +76,7 @@ class SliderScale(QWidget):
             return True
         return super().event(event)
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         font = self.text_font()
         metrics = QFontMetricsF(font)
         painter.setFont(font)

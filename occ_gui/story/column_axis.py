@@ -4,11 +4,11 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QObject, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFont, QFontMetrics, QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtGui import QFont, QFontMetrics, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.widgets.columns import round_step
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 
 LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
@@ -205,7 +205,7 @@ _TICK = 5
 _SPACING = 76  # fewest pixels between two numbers
 
 
-class Scale(QWidget):
+class Scale(PaintedWidget):
     """An axis with numbers: ``start`` at column 0, and ``step`` more at each next column."""
 
     def __init__(
@@ -239,9 +239,7 @@ class Scale(QWidget):
         values = [multiple * step for multiple in range(first, last + 1)]
         return [((value - self._start) / self._step, f"{value:.{digits}f}") for value in values]
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         text = self.palette().color(QPalette.ColorRole.WindowText)
         painter.setPen(text)
         painter.drawText(QRectF(0, 0, self.axis.gutter - 6, self.height()), RIGHT, self._name)

@@ -4,18 +4,18 @@ from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
+from PySide6.QtGui import QPainter, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import pen_on
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 
 _SWATCH, _GAP, _ENTRY_GAP = 24, 6, 16  # pixels of a line, after it, and between entries
 _SPACING = 6  # pixels between the legend and the controls beside it
 
 
-class CurveLegend(QWidget):
+class CurveLegend(PaintedWidget):
     """Lines with names, wrapped as needed; space is reserved for the ``usual`` keys."""
 
     def __init__(self, lines: Mapping[str, tuple[QPen, str]], usual: tuple[str, ...] = ()) -> None:
@@ -93,9 +93,7 @@ class CurveLegend(QWidget):
             left += width + _ENTRY_GAP
         return places
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         text = self.palette().color(QPalette.ColorRole.WindowText)
         places = self._place_entries(self._widths(), self.width())
         height = painter.fontMetrics().height()

@@ -8,7 +8,6 @@ from PySide6.QtGui import (
     QKeyEvent,
     QMouseEvent,
     QPainter,
-    QPaintEvent,
     QPalette,
     QPen,
     QPixmap,
@@ -16,11 +15,11 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, LEFT, ColumnAxis, Crosshair, measure_name
 from occ_gui.widgets.columns import KEY_STEPS
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.arrays import FloatArray
 
 _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
@@ -36,7 +35,7 @@ _MOST_REDUCTIONS = 4
 _CLICK_DISTANCE = 4  # most pixels between press and release of a click
 
 
-class StoryRow(QWidget):
+class StoryRow(PaintedWidget):
     """One of the rows, with its name at the left.
 
     What depends on the results and the range is cached in a pixmap; the crosshair is drawn over it.
@@ -109,8 +108,7 @@ class StoryRow(QWidget):
         if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange):
             self.redraw()
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+    def paint_with(self, painter: QPainter) -> None:
         ratio = self.devicePixelRatioF()
         if (
             self._pixmap is None
@@ -118,7 +116,6 @@ class StoryRow(QWidget):
             or self._pixmap.devicePixelRatioF() != ratio
         ):
             self._pixmap, self._is_pixmap_valid = self._draw_pixmap(ratio), True
-        painter = QPainter(self)
         painter.drawPixmap(QPoint(0, 0), self._pixmap)
         area = self.plot_area()
         beside_sentences = QRegion(area.toRect())

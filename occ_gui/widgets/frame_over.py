@@ -3,15 +3,15 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject, QRect, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtGui import QColor, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 
 _WIDTH = 2
 
 
-class FrameOver(QWidget):
+class FrameOver(PaintedWidget):
     """A frame in ``parent`` at the rectangle ``place()``, updated when ``watched`` moves."""
 
     def __init__(
@@ -34,9 +34,7 @@ class FrameOver(QWidget):
             self.raise_()
         return False
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._radius > 0)
         painter.setPen(QPen(self._colour(self.palette()), _WIDTH))
         edge = self.rect().adjusted(1, 1, -1, -1)

@@ -1,4 +1,4 @@
-"""Paint methods whose exceptions are reported, and a comparison that avoids needless painting."""
+"""Painting whose exceptions are reported, and a comparison that avoids needless painting."""
 
 import sys
 from collections.abc import Callable, Sequence
@@ -7,6 +7,8 @@ from traceback import clear_frames
 from typing import Any, TypeVar
 
 import numpy as np
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QWidget
 
 Paint = TypeVar("Paint", bound=Callable[..., None])
 
@@ -24,6 +26,17 @@ def guarded(paint: Paint) -> Paint:
             clear_frames(error.__traceback__)
 
     return draw  # type: ignore[return-value]
+
+
+class PaintedWidget(QWidget):
+    """A widget that is drawn by its method :meth:`paint_with`."""
+
+    @guarded
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        self.paint_with(QPainter(self))
+
+    def paint_with(self, painter: QPainter) -> None:
+        raise NotImplementedError
 
 
 def are_equal(first: Sequence[object], second: Sequence[object]) -> bool:

@@ -3,10 +3,10 @@
 import math
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette
+from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QApplication, QWidget
 
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_gui.widgets.state_look import is_dark
 
 DELAY = 0.12  # seconds; a pane that is outdated for less is not marked, so that it does not flicker
@@ -18,7 +18,7 @@ _OPACITY = {False: 0.45, True: 0.3}
 _PADDING = 8
 
 
-class OutdatedMark(QWidget):
+class OutdatedMark(PaintedWidget):
     """Dims a pane while its result belongs to an earlier scene, and shows the reason."""
 
     def __init__(self, pane: QWidget) -> None:
@@ -79,11 +79,9 @@ class OutdatedMark(QWidget):
             self.setGeometry(self._pane.rect())
         return super().eventFilter(watched, event)
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+    def paint_with(self, painter: QPainter) -> None:
         if self._is_within_another():
             return  # which dims this pane, too
-        painter = QPainter(self)
         palette = self.palette()
         painter.setOpacity(_OPACITY[is_dark(palette)])
         painter.fillRect(self.rect(), palette.color(QPalette.ColorRole.Window))

@@ -6,14 +6,14 @@ from typing import TypeAlias
 import pyqtgraph as pg
 from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
+from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from occ_gui.widgets.axes import Axis
 from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import lighten_for, pen_on
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 
 _LINE = QSize(24, 12)
 
@@ -54,7 +54,7 @@ class LineLegend(QWidget):
         self._entries[key].setVisible(visible)
 
 
-class LegendSample(QWidget):
+class LegendSample(PaintedWidget):
     """A sample of a line or a point, which follows the palette and the scale of the screen."""
 
     def __init__(self, draw: DrawSample, size: QSize) -> None:
@@ -62,9 +62,7 @@ class LegendSample(QWidget):
         self._draw = draw
         self.setFixedSize(size)
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._draw(painter, QRectF(self.rect()), self.palette())
 

@@ -4,11 +4,11 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QResizeEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from occ_gui.widgets.building import ElidedLabel, push_button, resize_font
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_gui.widgets.state_look import Badge, BadgeRow, State, StateIcon, colours_of
 
 _ICON = 32
@@ -19,7 +19,7 @@ CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of most s
 _WIDEST_STEP = 0.4  # largest fraction of the width for the button of a step beside the texts
 
 
-class StateBar(QWidget):
+class StateBar(PaintedWidget):
     """A title in the colours and with the icon of its state, a sentence, and a row of badges."""
 
     USUAL_LINES, MOST_LINES = 1, 3
@@ -211,9 +211,7 @@ class StateBar(QWidget):
             self.updateGeometry()
             self._lay_out()
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colours = colours_of(self.state, self.palette())
         painter.setPen(colours.ink)

@@ -11,7 +11,6 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QColor,
     QPainter,
-    QPaintEvent,
     QPalette,
     QPen,
     QPolygonF,
@@ -21,7 +20,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_gui.widgets.plain_text import in_tool_tip
 
 _ROLE = QPalette.ColorRole
@@ -132,7 +131,7 @@ _SIGNS: dict[State, Callable[[QPainter], None]] = {
 }
 
 
-class StateIcon(QWidget):
+class StateIcon(PaintedWidget):
     def __init__(self, side: int) -> None:
         super().__init__()
         self.state = State.NEUTRAL
@@ -143,9 +142,7 @@ class StateIcon(QWidget):
             self.state = state
             self.update()
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         draw_state(painter, QRectF(self.rect()), self.state, colours_of(self.state, self.palette()))
 
 
@@ -164,7 +161,7 @@ class Badge:
     stays: bool = False  # whether it is shown even without room for all badges
 
 
-class BadgeLabel(QWidget):
+class BadgeLabel(PaintedWidget):
     def __init__(self, badge: Badge, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._text = QStaticText()
@@ -198,9 +195,7 @@ class BadgeLabel(QWidget):
         if event.type() == QEvent.Type.FontChange:
             self._text.prepare(font=self.font())
 
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
+    def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colours = colours_of(self.badge.state, self.palette())
         painter.setPen(Qt.PenStyle.NoPen)

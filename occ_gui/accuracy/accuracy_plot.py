@@ -68,7 +68,7 @@ class AccuracyPlot(QWidget):
         self.legend.setAccessibleName("Legend")
         axes = {"left": LogAxis("left", _FLOOR), "bottom": LogAxis("bottom")}
         labels = ("Error over time", "time (ms)", "error (levels)")
-        self.plot = new_plot(*labels, self.palette(), **axes)
+        self.plot = new_plot(*labels, **axes)
         for side in ("left", "bottom"):
             self.plot.limit(side, _FARTHEST_POWER, _LEAST_RANGE)
         box = self.plot.getViewBox()

@@ -39,7 +39,7 @@ class DepthPlot(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.plot = new_plot(
-            "Least depth of the bars", "", quantity("exposure_time").label, self.palette(),
+            "Least depth of the bars", "", quantity("exposure_time").label,
         )  # fmt: skip
         self.image = pg.ImageItem()
         self.image.setLookupTable(pg.colormap.get("viridis").getLookupTable(nPts=256))
@@ -102,7 +102,7 @@ class RiskPlot(QWidget):
         super().__init__()
         self.plot = new_plot(
             "Flicker for the eye", "frequency of the flicker (Hz)", "modulation (%)",
-            self.palette(), LogAxis("left"), LogAxis("bottom"),
+            LogAxis("left"), LogAxis("bottom"),
         )  # fmt: skip
         self.plot.setMouseEnabled(False, False)
         self.low_risk = self.plot.add_curve(thin_pen(BAND))

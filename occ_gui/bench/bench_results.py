@@ -93,7 +93,6 @@ class BenchPlots(QWidget):
                 f"{left} {name}",
                 bottom,
                 left,
-                self.palette(),
                 left=LogAxis("left", FLOOR[quantity]),
             )
             plot.limit("left", _FARTHEST_POWER, _LEAST_RANGE)

@@ -55,7 +55,7 @@ class ColourView(QWidget):
         self.verdict = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.sentence = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.strip = ColourStrip()
-        self.plot = new_plot("Profiles of the three channels", "column", "level", self.palette())
+        self.plot = new_plot("Profiles of the three channels", "column", "level")
         self.plot.setYRange(0.0, 260.0, padding=0)
         self.plot.getAxis("left").setWidth(_LEFT)
         self.curves = [self.plot.add_curve(thin_pen(ink)) for ink in _INKS]

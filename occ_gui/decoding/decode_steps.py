@@ -42,7 +42,7 @@ class SignalPlot(QWidget):
     def __init__(self) -> None:
         super().__init__()
         labels = ("Signal and chips", "column of the region", "level")
-        self.plot = new_plot(*labels, self.palette(), _LevelAxis("left"))
+        self.plot = new_plot(*labels, _LevelAxis("left"))
         self.legend = LineLegend()
         dash = Qt.PenStyle.DashLine
         self.legend.add_line("signal", thin_pen(SIMULATION), "signal")
@@ -135,7 +135,7 @@ class RunLengthPlot(QWidget):
     def __init__(self) -> None:
         super().__init__()
         labels = ("Run lengths", "run length (columns)", "runs")
-        self.plot = new_plot(*labels, self.palette(), _CountAxis("left"))
+        self.plot = new_plot(*labels, _CountAxis("left"))
         title = QLabel("Run lengths: ones up, zeros down, splits dashed")
         self.bars, self.splits = [], []
         for colour in _COLOURS:

@@ -123,7 +123,7 @@ class ExposurePlot(QWidget):
     def _make_plot(self) -> None:
         self.plot = new_plot(
             "Exposure of a column on the LED's waveform",
-            "time (µs)", "LED", self.palette(),
+            "time (µs)", "LED",
         )  # fmt: skip
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.plot.setMouseEnabled(x=True, y=False)

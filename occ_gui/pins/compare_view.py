@@ -80,10 +80,8 @@ class CompareView(QWidget):
             "The camera's column profiles of A and B, before enhancement",
             "column, before enhancement",
             "grey level",
-            self.palette(),
         )
-        self.plot.setDownsampling(auto=True, mode="peak")
-        self.plot.setClipToView(True)
+        self.plot.show_extremes()
         pens = {"A": thin_pen(SIMULATION), "B": thin_pen(BAND, Qt.PenStyle.DashLine)}
         self.legend = LineLegend()
         for name, pen in pens.items():

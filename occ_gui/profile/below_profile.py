@@ -44,11 +44,9 @@ class ResidualPlot(QWidget):
             "Residual, photo minus simulation",
             "column",
             "levels",  # a longer label would be cut off; the line above names the residual
-            self.palette(),
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        self.plot.setDownsampling(auto=True, mode="peak")
-        self.plot.setClipToView(True)
+        self.plot.show_extremes()
         # pyqtgraph's own link would shift one plot if their frames are not aligned on the screen.
         linked.getViewBox().sigXRangeChanged.connect(self._follow_columns)
         self._linked = linked

@@ -49,11 +49,9 @@ class ProfileView(QWidget):
         self._before: Snapshot | None = None
         self._before_levels: FloatArray | None = None
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
-        self.plot = new_plot("Column profile", "column", "level", self.palette())
+        self.plot = new_plot("Column profile", "column", "level")
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        # Where several columns share a pixel, their smallest and largest values are drawn.
-        self.plot.setDownsampling(auto=True, mode="peak")
-        self.plot.setClipToView(True)
+        self.plot.show_extremes()
         self.legend = LineLegend()
         self._make_curves()
         self.reason = paragraph(name="Why the band model drifts or is undefined")

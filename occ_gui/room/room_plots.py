@@ -39,7 +39,7 @@ class PlanPlot(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.plot = new_plot("Plan of the room", "x (m)", "y (m)", self.palette())
+        self.plot = new_plot("Plan of the room", "x (m)", "y (m)")
         self.plot.setAspectLocked(True)
         self.plot.setMouseEnabled(False, False)
         self.floor = pg.ScatterPlotItem(pen=None, symbol="s")
@@ -150,7 +150,7 @@ class PlanPlot(QWidget):
 class PicturePlot(QWidget):
     def __init__(self) -> None:
         super().__init__()
-        self.plot = new_plot("The camera's picture", "column", "row", self.palette())
+        self.plot = new_plot("The camera's picture", "column", "row")
         self.plot.setAspectLocked(True)
         self.plot.invertY(True)
         self.plot.setMouseEnabled(False, False)

@@ -41,7 +41,7 @@ class SpectrumView(QWidget):
     def _make_spectrum(self) -> None:
         self.spectrum = new_plot(
             "Spectrum of the column profile", "frequency of the light, F (kHz)",
-            "amplitude (levels)", self.palette(),
+            "amplitude (levels)",
         )  # fmt: skip
         self.amplitudes = self.spectrum.add_curve(thin_pen(SIMULATION))
         self.response = self.spectrum.add_curve(thin_pen(BAND, Qt.PenStyle.DashLine))
@@ -59,7 +59,7 @@ class SpectrumView(QWidget):
     def _make_histogram(self) -> None:
         self.histogram = new_plot(
             "Histogram of the panel's pixels", "grey level",
-            "fraction (%)", self.palette(),
+            "fraction (%)",
         )  # fmt: skip
         self.bars = pg.BarGraphItem(x=np.arange(256), height=np.zeros(256), width=1.0)
         self.histogram.addItem(self.bars, ignoreBounds=True)

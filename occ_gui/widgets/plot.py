@@ -122,6 +122,11 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
             self.apply_palette(self.palette())
         return is_handled
 
+    def show_extremes(self) -> None:
+        """Draw only the columns in view; of those that share a pixel, the extremes."""
+        self.setDownsampling(auto=True, mode="peak")
+        self.setClipToView(True)
+
     def limit(self, side: str, farthest: float, least_span: float) -> None:
         """Limit panning and zooming to what can be drawn.
 
@@ -178,7 +183,6 @@ def new_plot(
     name: str,
     x: str,
     y: str,
-    palette: QPalette,
     left: pg.AxisItem | None = None,
     bottom: pg.AxisItem | None = None,
 ) -> Plot:
@@ -188,7 +192,7 @@ def new_plot(
     plot.setAccessibleName(name)
     for side, label in (("bottom", x), ("left", y)):
         plot.setLabel(side, label)
-    plot.apply_palette(palette)
+    plot.apply_palette(plot.palette())
     plot.show_axis_name(True)
     plot.setMinimumHeight(_LEAST_HEIGHT)
     # As high as its pane, because the size hint of pyqtgraph is far too large.

@@ -6,7 +6,6 @@ import pytest
 from gui.kinds import add_widget, show_widget
 from hypothesis import given, strategies as st
 from PySide6.QtCore import QEvent
-from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -19,7 +18,7 @@ from occ_gui.widgets.plot import new_plot
 def test_a_curve_is_two_pixels_wide_on_every_screen(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, ratio: float
 ) -> None:
-    plot = add_widget(qtbot, new_plot("name", "x", "y", QPalette()))
+    plot = add_widget(qtbot, new_plot("name", "x", "y"))
     curve = plot.add_curve(thin_pen(SIMULATION))
     monkeypatch.setattr(plot, "devicePixelRatioF", lambda: ratio)
     QApplication.sendEvent(plot, QEvent(QEvent.Type.DevicePixelRatioChange))
@@ -33,7 +32,7 @@ def test_the_name_of_an_axis_is_whole_or_shortened_by_dots_with_its_tip_and_neve
     qtbot: QtBot, size: tuple[int, int], is_whole: bool
 ) -> None:
     names = {"left": "root mean square error", "bottom": "column of the region, from its left edge"}
-    plot = show_widget(qtbot, new_plot("name", names["bottom"], names["left"], QPalette()), *size)
+    plot = show_widget(qtbot, new_plot("name", names["bottom"], names["left"]), *size)
     for _ in range(2):  # set anew in a plot of this size, too
         QApplication.processEvents()
         for side, name in names.items():
@@ -49,7 +48,7 @@ def test_the_name_of_an_axis_is_whole_or_shortened_by_dots_with_its_tip_and_neve
 
 
 def test_the_numbers_of_an_axis_stand_as_they_are(qtbot: QtBot) -> None:
-    plot = show_widget(qtbot, new_plot("name", "x", "light", QPalette()), 360, 200)
+    plot = show_widget(qtbot, new_plot("name", "x", "light"), 360, 200)
     plot.setYRange(0.0, 0.8)
     QApplication.processEvents()
     axis = plot.getAxis("left")
@@ -82,7 +81,7 @@ def test_an_axis_that_cannot_be_numbered_stays_empty_with_a_note(
     def fail(*_range: float) -> None:
         raise OverflowError("too many decades")
 
-    plot = add_widget(qtbot, new_plot("Test", "column", "level", QPalette()))
+    plot = add_widget(qtbot, new_plot("Test", "column", "level"))
     for side in ("left", "bottom"):
         monkeypatch.setattr(plot.getAxis(side), "tickValues", fail)
     plot.grab()

@@ -13,6 +13,7 @@ from occ_gui.accuracy.named_points import NamedPoint, choose_points
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import ElidedLabel, fill, push_button
 from occ_gui.widgets.colours import BAND, PHOTO, REGION, SIMULATION, lighten_for, thin_pen
+from occ_gui.widgets.event_filters import call_at
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
     ACCURACY_PARTS,
@@ -76,15 +77,11 @@ class AccuracyPlot(QWidget):
         box.sigResized.connect(self._fit)
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self._widen_axis()
+        call_at(self, self._widen_axis, QEvent.Type.FontChange)
         self._make_items()
         self.plot.follow_palette(self._colour_items)
         self._lay_out()
         self._fit()
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "plot"):
-            self._widen_axis()
 
     def _widen_axis(self) -> None:
         """Fit the axis to its widest number and its label: pyqtgraph does so only while drawing."""

@@ -19,6 +19,7 @@ from occ_gui.detection_map.colour_map import (
 from occ_gui.detection_map.map_plot import STYLES, MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
 from occ_gui.widgets.building import fill, name_widget
+from occ_gui.widgets.event_filters import call_at
 from occ_model.arrays import FloatArray
 from occ_model.results.sweep_request import ShownQuantity
 from occ_model.scene.parameters import quantity
@@ -217,8 +218,6 @@ _LIMIT_TEXTS = {
 
 _SWATCH = QSize(28, 12)
 
-_REDRAW_EVENTS = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
-
 
 class MapLegend(QWidget):
     toggled = Signal(str, bool)  # the name of a limit, and whether its line is shown
@@ -228,6 +227,8 @@ class MapLegend(QWidget):
         self.buttons = {key: self._make_button(key, *words) for key, words in _LIMIT_TEXTS.items()}
         fill(QHBoxLayout(self), *self.buttons.values(), (None, 1), margins=0, spacing=2)
         self._draw_swatches()
+        kinds = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
+        call_at(self, self._draw_swatches, *kinds)
 
     def _make_button(self, key: str, text: str, meaning: str) -> QToolButton:
         style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
@@ -239,11 +240,6 @@ class MapLegend(QWidget):
         button.setEnabled(False)
         button.toggled.connect(lambda shown: self.toggled.emit(key, shown))
         return button
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() in _REDRAW_EVENTS:
-            self._draw_swatches()
 
     def _draw_swatches(self) -> None:
         for key, button in self.buttons.items():

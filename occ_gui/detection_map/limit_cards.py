@@ -15,6 +15,7 @@ from occ_gui.widgets.building import (
     paragraph,
     push_button,
 )
+from occ_gui.widgets.event_filters import call_at
 from occ_model.errors import inflect
 from occ_model.results.limit_text import format_end, others_text, value_text
 from occ_model.results.limits import Advice, RangeEnd, WorkingRange
@@ -140,7 +141,8 @@ class LimitCard(QFrame):
         self.value = QLabel()
         self.range = ElidedLabel(separator="; ")
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
-        self.value.setFont(heading_font(self.font()))
+        self._enlarge_value()
+        call_at(self, self._enlarge_value, QEvent.Type.FontChange)
         self.value.setAccessibleName(f"Highest frequency, {decoder}")
         self.go = push_button("Go", do=self._choose, name=f"Go to the highest frequency, {decoder}")
         grid = QGridLayout(self)
@@ -154,10 +156,8 @@ class LimitCard(QFrame):
         self.show_unknown()
         self.set_outdated(False)
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self.value.setFont(heading_font(self.font()))
+    def _enlarge_value(self) -> None:
+        self.value.setFont(heading_font(self.font()))
 
     def _choose(self) -> None:
         if self._destination is not None:

@@ -121,10 +121,7 @@ class ExposurePlot(QWidget):
         self.setMinimumHeight(max(height, 0))  # -1 without a sentence
 
     def _make_plot(self) -> None:
-        self.plot = new_plot(
-            "Exposure of a column on the LED's waveform",
-            "time (µs)", "LED",
-        )  # fmt: skip
+        self.plot = new_plot("Exposure of a column on the LED's waveform", "time (µs)", "LED")
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.plot.setMouseEnabled(x=True, y=False)
         self.plot.getAxis("left").setTicks([[(0.0, "off"), (1.0, "on")]])

@@ -15,6 +15,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import check_box, fill, paragraph, push_button
 from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods, round_level_up
+from occ_gui.widgets.event_filters import call_at
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import PAPER_DECODER
@@ -59,6 +60,7 @@ class ProfileView(QWidget):
         self.plot.getAxis("left").setWidth(self._axis_width())
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
         self._lay_out()
+        call_at(self, self._widen_axes, QEvent.Type.FontChange)
 
     def _make_curves(self) -> None:
         line = Qt.PenStyle
@@ -136,14 +138,12 @@ class ProfileView(QWidget):
         self._rows.addWidget(residual, 2)
         return residual
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and "chips" in vars(self):
-            width = self._axis_width()
-            self.plot.getAxis("left").setWidth(width)
-            self.chips.copy.setFixedWidth(width)
-            if "residual" in vars(self):
-                self.residual.plot.getAxis("left").setWidth(width)
+    def _widen_axes(self) -> None:
+        width = self._axis_width()
+        self.plot.getAxis("left").setWidth(width)
+        self.chips.copy.setFixedWidth(width)
+        if "residual" in vars(self):
+            self.residual.plot.getAxis("left").setWidth(width)
 
     def _arrange_plots(self) -> None:
         if self._photo is None and "residual" not in vars(self):

@@ -40,9 +40,10 @@ class SpectrumView(QWidget):
 
     def _make_spectrum(self) -> None:
         self.spectrum = new_plot(
-            "Spectrum of the column profile", "frequency of the light, F (kHz)",
+            "Spectrum of the column profile",
+            "frequency of the light, F (kHz)",
             "amplitude (levels)",
-        )  # fmt: skip
+        )
         self.amplitudes = self.spectrum.add_curve(thin_pen(SIMULATION))
         self.response = self.spectrum.add_curve(thin_pen(BAND, Qt.PenStyle.DashLine))
         self.zeros: list[pg.InfiniteLine] = []
@@ -57,10 +58,8 @@ class SpectrumView(QWidget):
         self.legend.add_line("harmonics", _HARMONIC, "light's harmonics")
 
     def _make_histogram(self) -> None:
-        self.histogram = new_plot(
-            "Histogram of the panel's pixels", "grey level",
-            "fraction (%)",
-        )  # fmt: skip
+        labels = ("Histogram of the panel's pixels", "grey level", "fraction (%)")
+        self.histogram = new_plot(*labels)
         self.bars = pg.BarGraphItem(x=np.arange(256), height=np.zeros(256), width=1.0)
         self.histogram.addItem(self.bars, ignoreBounds=True)
         self.histogram.follow_palette(

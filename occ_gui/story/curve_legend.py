@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import pen_on
+from occ_gui.widgets.event_filters import call_at
 from occ_gui.widgets.guarded_paint import PaintedWidget
 
 _SWATCH, _GAP, _ENTRY_GAP = 24, 6, 16  # pixels of a line, after it, and between entries
@@ -25,6 +26,7 @@ class CurveLegend(PaintedWidget):
         self.note = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName("Curves of the profile")
+        call_at(self, self._fit_height, QEvent.Type.FontChange)
 
     def rename(self, key: str, name: str) -> None:
         pen, old_name = self._lines[key]
@@ -46,12 +48,6 @@ class CurveLegend(PaintedWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._fit_height()
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Lay the legend out anew for the size of its text."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "keys"):
-            self._fit_height()
 
     def _fit_height(self) -> None:
         # Not by Qt's height for width, which a row of several widgets queries too late.

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, LEFT, ColumnAxis, Crosshair, measure_name
 from occ_gui.widgets.columns import KEY_STEPS
+from occ_gui.widgets.event_filters import call_at
 from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.arrays import FloatArray
 
@@ -56,6 +57,7 @@ class StoryRow(PaintedWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         axis.changed.connect(self.redraw)
+        call_at(self, self.redraw, QEvent.Type.PaletteChange, QEvent.Type.FontChange)
         crosshair.pointed_at.connect(self.update)
         crosshair.chosen.connect(self.update)
         crosshair.cursors.changed.connect(self.update)
@@ -102,11 +104,6 @@ class StoryRow(PaintedWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._is_pixmap_valid = False
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange):
-            self.redraw()
 
     def paint_with(self, painter: QPainter) -> None:
         ratio = self.devicePixelRatioF()

@@ -23,6 +23,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin_pen
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
+from occ_gui.widgets.event_filters import call_at
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import PICTURES
 from occ_model.scene.light_words import has_chips
@@ -80,6 +81,7 @@ class StoryRows(QWidget):
             signal.connect(self._report_values)
         self.axis.changed.connect(self._mark_range)
         self.crosshair.cursors.changed.connect(self._measure)
+        call_at(self, self._reserve_gutter, QEvent.Type.FontChange)
 
     def _legend_line(self) -> QWidget:
         line = Qt.PenStyle
@@ -99,13 +101,8 @@ class StoryRows(QWidget):
         self.controls = part.controls
         return part
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Fit the gutter to the size of the text."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "_legend_row"):
-            self._reserve_gutter()
-
     def _reserve_gutter(self) -> None:
+        """Fit the gutter to the size of the text."""
         names = [row.name for row in (self.light, self.stripes, self.profile, self.code)]
         self.axis.set_gutter(find_gutter_width(self.font(), names))
         self._legend_row.setContentsMargins(self.axis.gutter, 0, MARGIN, 0)

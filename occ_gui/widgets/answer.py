@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.widgets.building import fill, heading_font, paragraph
+from occ_gui.widgets.event_filters import call_at
 
 
 class MoreButton(QToolButton):
@@ -31,7 +32,8 @@ class Answer(QWidget):
     def __init__(self, unfolds: QWidget | None = None) -> None:
         super().__init__()
         self.line, self.note, self.details = (paragraph(is_selectable=True) for _ in range(3))
-        self.line.setFont(heading_font(self.font()))
+        self._enlarge_line()
+        call_at(self, self._enlarge_line, QEvent.Type.FontChange)
         self._unfolds = unfolds
         self.more = MoreButton()
         self.more.toggled.connect(lambda: self._unfold(bool(self.details.text())))
@@ -40,10 +42,8 @@ class Answer(QWidget):
         fill(QVBoxLayout(self), row, self.note, self.details, margins=0, spacing=4)
         self.show_answer("")
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self.line.setFont(heading_font(self.font()))
+    def _enlarge_line(self) -> None:
+        self.line.setFont(heading_font(self.font()))
 
     def show_answer(self, line: str, details: Iterable[str] = (), note: str = "") -> None:
         """Show a line, a note below it, and the details that *More* shows."""

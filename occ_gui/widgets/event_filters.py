@@ -1,6 +1,7 @@
-"""Event filters of input fields: mouse wheel, double click, undo keys and dropped files."""
+"""Event filters: mouse wheel, double click, undo keys, dropped files, and changes of a widget."""
 
 import re
+from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence, QMouseEvent
@@ -83,6 +84,25 @@ def leave_undo_to_window(field: QLineEdit | QAbstractSpinBox) -> None:
     should revert the last change of the scene.
     """
     _UndoKeyFilter(field)
+
+
+class _EventCaller(QObject):
+    def __init__(
+        self, widget: QWidget, function: Callable[[], object], kinds: tuple[QEvent.Type, ...]
+    ) -> None:
+        super().__init__(widget)
+        self._function, self._kinds = function, kinds
+        widget.installEventFilter(self)
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if event.type() in self._kinds:
+            self._function()
+        return False
+
+
+def call_at(widget: QWidget, function: Callable[[], object], *kinds: QEvent.Type) -> None:
+    """Call a function at each event of some kinds, just before the widget handles it."""
+    _EventCaller(widget, function, kinds)
 
 
 def leave_drops_to_window(parent: QWidget) -> None:

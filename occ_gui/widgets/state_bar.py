@@ -8,6 +8,7 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from occ_gui.widgets.building import ElidedLabel, push_button, resize_font
+from occ_gui.widgets.event_filters import call_at
 from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_gui.widgets.state_look import Badge, BadgeRow, State, StateIcon, colours_of
 
@@ -48,6 +49,8 @@ class StateBar(PaintedWidget):
             self.icon, self.title, self.sentence, self.wrapped, self.badges, self.step
         ):  # fmt: skip
             part.setParent(self)
+        call_at(self, self._apply_colours, QEvent.Type.PaletteChange)
+        call_at(self, self._fit_font, QEvent.Type.FontChange)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(400, self.minimumSizeHint().height())
@@ -201,15 +204,9 @@ class StateBar(PaintedWidget):
             label.setPalette(palette)
         self.update()
 
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        super().changeEvent(event)
-        if not hasattr(self, "badges"):
-            return
-        if event.type() == QEvent.Type.PaletteChange:
-            self._apply_colours()
-        if event.type() == QEvent.Type.FontChange:
-            self.updateGeometry()
-            self._lay_out()
+    def _fit_font(self) -> None:
+        self.updateGeometry()
+        self._lay_out()
 
     def paint_with(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)

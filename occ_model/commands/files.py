@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from occ_model.errors import OutputError, one_line
-from occ_model.files.writing import check_replaceable, format_of_image
+from occ_model.files.writing import check_ending, check_replaceable, format_of_image
 from occ_model.scene.from_text import check_scene_path
 from occ_model.scene.presets import user_folder
 
@@ -40,14 +40,9 @@ class OutputFiles:
     names: tuple[str, ...] = ()
 
 
-def _check_table_path(path: Path) -> None:
-    if path.suffix.lower() != ".csv":
-        raise OutputError(f"{one_line(str(path))} does not have the ending of a table; use .csv.")
-
-
 PICTURE = OutputFiles(format_of_image)
 SCENE_FILE = OutputFiles(check_scene_path)
-TABLE = OutputFiles(_check_table_path)
+TABLE = OutputFiles(lambda path: check_ending(path, "a table", (".csv",)))
 
 
 def folder_of_figures(*names: str) -> OutputFiles:

@@ -13,10 +13,10 @@ from matplotlib.lines import Line2D
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import level_values
-from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, quote
+from occ_model.errors import BandModelUndefined, ParameterError, quote
 from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import break_lines
-from occ_model.files.writing import check_replaceable
+from occ_model.files.writing import check_ending, check_replaceable
 from occ_model.receiver.decode import decode
 from occ_model.results.decoding import PAPER_DECODER, symptom
 from occ_model.results.frame import Frame
@@ -63,11 +63,7 @@ def write_animation(  # noqa: PLR0913 - settings, most of them optional
     the parameter is not a quantity, a value is out of range, there are no values or more than
     :data:`MOST_FRAMES`, or the rate is not above 0 and at most 50 a second.
     """
-    if path.suffix.lower() not in ENDINGS:
-        raise OutputError(
-            f"{one_line(path.name)} does not have the ending of an animation; "
-            f"use {', '.join(ENDINGS)}."
-        )
+    check_ending(path, "an animation", ENDINGS)
     parameter = parameter_named(name)
     if not isinstance(parameter, Quantity):
         raise ParameterError(

@@ -13,9 +13,9 @@ from matplotlib import rc_context, rcParamsDefault
 from matplotlib.figure import Figure
 
 from occ_model import colours
-from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
 from occ_model.files.writing import (
+    check_ending,
     check_replaceable,
     make_folder,
     write_atomically,
@@ -31,6 +31,7 @@ PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
 THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "linewidth": 0.9}
 
 TABLE_ENDING = ".csv"
+FIGURE_ENDINGS = tuple(ending for ending in ENDINGS if ending != TABLE_ENDING)
 PRINT_ENDINGS = (".pdf", ".png", TABLE_ENDING)  # of the files of a figure for print
 
 STYLE: dict[Any, Any] = {
@@ -50,16 +51,6 @@ def house_style() -> AbstractContextManager[None]:
     # These figures become files, and the backend matters only for windows.
     del parameters["backend"]
     return rc_context(parameters)
-
-
-def figure_format(path: Path) -> str:
-    """Return the format of a figure's file by its ending; an OutputError refuses any other."""
-    ending = path.suffix.lower()
-    if ending not in ENDINGS or ending == TABLE_ENDING:
-        raise OutputError(
-            f"{one_line(path.name)} does not have the ending of a figure; use .png, .svg or .pdf."
-        )
-    return ending.removeprefix(".")
 
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
@@ -105,12 +96,7 @@ class Drawing:
 
     def write(self, path: Path, provenance: Provenance) -> None:
         """Write the figure, or its table as CSV, by the file's ending."""
-        ending = path.suffix.lower()
-        if ending not in ENDINGS:
-            raise OutputError(
-                f"{one_line(path.name)} does not have the ending of a figure or table; "
-                f"use {', '.join(ENDINGS)}."
-            )
+        ending = check_ending(path, "a figure or table", ENDINGS)
         (content,) = self.encode((ending,), provenance)
         write_whole(path, content)
 

@@ -13,14 +13,14 @@ from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError, one_line, printable
 from occ_model.figures.caption import caption
 from occ_model.figures.drawing import (
+    FIGURE_ENDINGS,
     PHOTO,
     SIMULATION,
     figure_bytes,
-    figure_format,
     house_style,
 )
 from occ_model.figures.page import break_lines, replace_missing_letters
-from occ_model.files.writing import write_whole
+from occ_model.files.writing import check_ending, write_whole
 from occ_model.results.match import Match
 from occ_model.results.teaching import AnsweredStep, Lesson
 from occ_model.scene.parameters import quantity
@@ -43,9 +43,10 @@ def write_lesson_report(
     scenes = {f"step {place}": step.scene for place, step in enumerate(steps, 1)}
     provenance = Provenance(f"Report of the lesson: {lesson.title}", scenes, date=date)
     about = ", ".join(text for text in (author, date) if text) or lesson.summary
+    ending = check_ending(path, "a report", FIGURE_ENDINGS)
     with house_style():
         parts = tuple(split_into_pages(steps))
-        if len(parts) > 1 and path.suffix.lower() != ".pdf":
+        if len(parts) > 1 and ending != ".pdf":
             raise OutputError(
                 f"{one_line(path.name)}: the report has {len(parts)} pages; allowed ending: .pdf."
             )
@@ -56,7 +57,7 @@ def write_lesson_report(
         content = (
             _pdf_bytes(pages, provenance)
             if len(pages) > 1
-            else figure_bytes(pages[0], figure_format(path), provenance)
+            else figure_bytes(pages[0], ending.removeprefix("."), provenance)
         )
     write_whole(path, content)
 

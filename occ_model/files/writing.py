@@ -5,7 +5,7 @@ import re
 import stat
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from errno import EACCES, EAGAIN
 from io import BytesIO
@@ -87,14 +87,19 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
 
 def format_of_image(path: Path) -> str:
     """Return the format of an image file by its ending; OutputError for any other ending."""
-    format_name = _FORMATS.get(path.suffix.lower())
-    if format_name is None:
-        *endings, last = PICTURE_ENDINGS
+    return _FORMATS[check_ending(path, "an image format", PICTURE_ENDINGS)]
+
+
+def check_ending(path: Path, kind: str, endings: Sequence[str]) -> str:
+    """Return the ending of a path in lower case; OutputError unless a ``kind`` of file has it."""
+    ending = path.suffix.lower()
+    if ending not in endings:
+        *others, last = endings
+        allowed = f"{', '.join(others)} or {last}" if others else last
         raise OutputError(
-            f"{one_line(path.name)} does not have the ending of an image format; "
-            f"use {', '.join(endings)} or {last}."
+            f"{one_line(path.name)} does not have the ending of {kind}; use {allowed}."
         )
-    return format_name
+    return ending
 
 
 def check_replaceable(path: Path) -> int | None:

@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from occ_model.errors import OutputError, ParameterError, SceneFileError, one_line, quote
+from occ_model.errors import ParameterError, SceneFileError, one_line, quote
 from occ_model.files.reading import read_text
-from occ_model.files.writing import write_whole
+from occ_model.files.writing import check_ending, write_whole
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import ENDINGS, scene_inside
@@ -29,10 +29,7 @@ def read_scene_file(path: Path) -> Scene:
 
 def check_scene_path(path: Path) -> None:
     """Refuse to save a scene in a file that does not have the ending of scene files."""
-    if path.suffix.lower() != SCENE_ENDING:
-        raise OutputError(
-            f"{one_line(str(path))} does not have the ending of a scene file; use {SCENE_ENDING}."
-        )
+    check_ending(path, "a scene file", (SCENE_ENDING,))
 
 
 def write_scene_file(path: Path, scene: Scene) -> None:

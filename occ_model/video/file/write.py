@@ -9,7 +9,7 @@ from pathlib import Path
 
 from occ_model.arrays import Samples
 from occ_model.errors import OutputError, ParameterError, one_line
-from occ_model.files.writing import write_atomically
+from occ_model.files.writing import check_ending, write_atomically
 from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.provenance import Provenance
 from occ_model.video.file.animated_pictures import write_gif, write_png
@@ -59,12 +59,7 @@ def write_frames(path: Path, pictures: Iterable[Samples], rate: float, note: str
 
 def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None) -> None:
     """Refuse a path to which no film of this rate and size (lines, columns) can be written."""
-    ending = path.suffix.lower()
-    if ending not in FILM_ENDINGS:
-        raise OutputError(
-            f"{one_line(path.name)} does not have the ending of a film; "
-            f"use {', '.join(FILM_ENDINGS)}."
-        )
+    ending = check_ending(path, "a film", FILM_ENDINGS)
     least, most = _RATES[ending]
     allowed = f"allowed in {'an' if ending.startswith('.m') else 'a'} {ending[1:].upper()} file"
     if not least <= rate <= most:

@@ -58,7 +58,7 @@ def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: s
         ({"values": [1e3] * 301}, "frames is 301"),
         ({"values": [-1.0]}, "switching_frequency is -1 Hz"),
         ({"rate": 0.0}, "rate is 0.0 a second"),
-        ({"path": Path("a.avi")}, "use .gif, .mp4, .png"),
+        ({"path": Path("a.avi")}, "use .gif, .mp4 or .png"),
         ({"path": Path("/none/a.gif")}, "/none"),
     ],
 )

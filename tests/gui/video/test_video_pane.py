@@ -1,20 +1,16 @@
 """The mode Video: a film is opened, read, played and closed; a camera is read and released."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from film_source import FilmSource
 from gui.user import User
 from PySide6.QtWidgets import QFileDialog
-from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.values.choices import FilmChoice
 from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
-from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
 
 
@@ -28,17 +24,6 @@ def application(application: Application, film_scene: Scene) -> Application:
 def film_in(application: Application) -> Path | None:
     """Return the film that is open, or that will be opened when the pane is first shown."""
     return application.store.store.workspace.film.path
-
-
-@pytest.fixture
-def pane(application: Application, user: User) -> Iterator[VideoWiring]:
-    """Show the mode with a simulated film of six frames."""
-    user.switch("video")
-    wiring = application.video.wiring
-    wiring.view.form.count.setValue(6)
-    user.wait_until_idle()
-    yield wiring
-    wiring.live.stop_filming()
 
 
 def states(pane: VideoWiring) -> list[int]:
@@ -82,21 +67,6 @@ def test_a_film_is_opened_read_seen_along_either_axis_and_closed_and_stays_where
     assert application.video.wiring.view.pictures.are_visible == (False, True)
     application.window.dropped.emit([film_file])
     assert film_in(application) == film_file
-
-
-def test_a_camera_is_read_live_and_released_with_the_mode(
-    pane: VideoWiring, application: Application, qtbot: QtBot, film: Video
-) -> None:
-    source = FilmSource([*film] * 200, "Stand-in")
-    pane.live.start(source)
-    qtbot.waitUntil(lambda: pane.view.pictures.are_visible[0] and len(states(pane)) > 0)
-    video = pane.live.video
-    assert pane.view.bar.axis.key() == "columns"
-    assert pane.view.bar.title.toolTip() == "Stand-in, live"
-    assert not pane.view.transport.play.isEnabled()
-    application.window.modes.switch("explore")
-    assert not pane.live.is_filming
-    qtbot.waitUntil(lambda: not video.thread.is_alive())
 
 
 @pytest.mark.own_window

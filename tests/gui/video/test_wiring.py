@@ -142,6 +142,20 @@ def test_the_last_picture_of_a_camera_is_shown_though_nothing_reads_its_film(
     assert pane.view.pictures.are_visible[0]
 
 
+def test_a_camera_is_read_live_and_released_when_the_pane_is_hidden(
+    pane: VideoWiring, qtbot: QtBot, film: Video
+) -> None:
+    pane.live.start(FilmSource([*film] * 200, "Stand-in"))
+    qtbot.waitUntil(lambda: pane.view.pictures.are_visible[0] and len(states(pane)) > 0)
+    video = pane.live.video
+    assert pane.view.bar.axis.key() == "columns"
+    assert pane.view.bar.title.toolTip() == "Stand-in, live"
+    assert not pane.view.transport.play.isEnabled()
+    pane.set_visible(False)
+    assert not pane.live.is_filming
+    qtbot.waitUntil(lambda: not video.thread.is_alive())
+
+
 def test_a_camera_that_cannot_hold_its_exposure_says_so(
     pane: VideoWiring, qtbot: QtBot, film: Video
 ) -> None:

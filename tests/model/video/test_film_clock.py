@@ -61,12 +61,6 @@ def test_frames_are_counted_whatever_their_times_are_rounded_to(rate: float) -> 
     assert abs(found.period.value - 1.0 / rate) < 4.0 * found.period.error
 
 
-def test_a_missing_frame_is_counted_between_rounded_times() -> None:
-    numbers = np.delete(np.arange(80), [30, 31, 60])
-    times = np.round(numbers / 29.97 / MILLISECOND) * MILLISECOND
-    assert fit_frame_times(times, MILLISECOND).numbers.tolist() == numbers.tolist()
-
-
 def test_a_container_that_counts_frames_states_an_exact_period() -> None:
     found = fit_frame_times(np.arange(50) / 25.0, 0.04)
     assert (found.resolution, found.period.error) == (0.0, pytest.approx(0.0, abs=1e-12))

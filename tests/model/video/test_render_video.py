@@ -2,7 +2,7 @@
 
 import tracemalloc
 from fractions import Fraction
-from itertools import islice, pairwise
+from itertools import islice
 
 import numpy as np
 import pytest
@@ -60,9 +60,10 @@ def test_another_seed_gives_other_noise_and_the_same_seed_equal_noise() -> None:
 
 
 def test_jitter_has_its_deviation_and_never_lets_frames_overlap() -> None:
-    recording = occ.Recording(frame_jitter=1e-3)
+    recording = occ.Recording(frame_jitter=1e-3, camera_drift=-5e-5)
     film = occ.render_video(SCENE, recording=recording)
-    starts = np.array([float(film.start_of(index)) for index in range(2000)])
+    # By the camera's clock, as the stated times are.
+    starts = np.array([float(film.start_of(index)) * (1 - 5e-5) for index in range(2000)])
     moved = starts - np.arange(2000) * PERIOD
     # The deviation of 2,000 numbers is within 5 % of the true one by more than three sigma.
     assert moved.std() == pytest.approx(1e-3, rel=0.05)
@@ -81,9 +82,8 @@ def test_the_panel_follows_the_path() -> None:
     film = occ.render_video(SCENE.replace(offset_x=0.05), recording=occ.Recording(path=path))
     where = {index: film.scene_of(index).pose for index in (0, 3, 6, 90)}
     assert [pose.offset_x for pose in where.values()] == pytest.approx([0.05, 0.05, 0.15, 0.05])
-    halfway = occ.render_video(SCENE, recording=occ.Recording(frame_rate=20.0, path=path)).scene_of(
-        3
-    )
+    slower = occ.Recording(frame_rate=20.0, path=path)
+    halfway = occ.render_video(SCENE, recording=slower).scene_of(3)
     assert (halfway.pose.offset_x, halfway.pose.roll) == pytest.approx((0.05, 0.1))
     frame = film.frame(6)
     assert frame.scene is not None
@@ -190,14 +190,6 @@ def test_the_memory_does_not_grow_with_the_film(monkeypatch: pytest.MonkeyPatch)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 1.1 * peaks[0]
-
-
-def test_times_and_starts_of_all_frames_agree_except_for_the_clock() -> None:
-    film = occ.render_video(SCENE, 5, occ.Recording(camera_drift=-5e-5, frame_jitter=1e-4))
-    frames = list(film)
-    for before, after in pairwise(frames):
-        true = float(after.start - before.start)
-        assert (after.time - before.time) / true == pytest.approx(1 - 5e-5, abs=1e-9)
 
 
 def test_a_draft_has_a_selection_of_the_frames_rows() -> None:

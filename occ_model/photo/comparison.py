@@ -16,9 +16,7 @@ RIM = 6
 """Columns at either end of a photo's stripes where blur mixes the lamp with its surroundings: in
 the two sample photos residuals of up to 140 grey levels end within five columns."""
 
-_EDGES_PER_SHAPE = (
-    4  # edges in view for each polynomial of uneven light, so that it fits no stripes
-)
+_EDGES_PER_SHAPE = 4  # edges in view per polynomial of uneven light, so that it fits no stripes
 
 
 def compare(

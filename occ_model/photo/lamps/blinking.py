@@ -1,4 +1,4 @@
-"""Lamps with stripes, and how each blinks: the parts of one lamp are put together."""
+"""Lamps with stripes, and how each blinks; the parts of one lamp are joined."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,34 +12,53 @@ from occ_model.results.lamp import Lamp
 
 _LEAST_SHARED_ROWS = 0.5  # minimum fraction of rows that two parts of one code have in common
 _LEAST_LIGHT_RATIO = 0.5  # minimum brightness of a part, and between parts, over the other's
-_MOST_GAP_PERIODS = 2.5  # of a bar before a lamp, which hides some of its stripes
-_MOST_GAP_STRIPS = 2.0  # between rows of a lamp and those of the light scattered around it
-_LONGEST_LIT = 1.3  # chips; a longer stripe between pulses is that of a code
+_MOST_GAP_PERIODS = 2.5  # largest gap that a bar before a lamp leaves in its stripes, in periods
+_MOST_GAP_STRIPS = 2.0  # largest gap between a lamp and the light scattered around it, in strips
+_LONGEST_LIT = 1.3  # longest bright stripe of a pulse in chips; a longer one is that of a code
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Blinking:
+    """A lamp with stripes, or a part of one."""
+
     lamp: Lamp
     timing: LampTiming
-    light: float
+    light: float  # light, dark: light of the stripes above that between them, 1 at white
     dark: float
 
     @property
     def evidence(self) -> float:
-        """The larger the more likely it is a lamp rather than scattered light or noise."""
+        """How likely it is a lamp rather than scattered light or noise, on no absolute scale."""
         return len(self.timing.edges) * self.lamp.area * max(self.light, 0.0)
+
+
+def describe_lamp(timing: LampTiming, spans: IndexArray, level: float, *, is_code: bool) -> Lamp:
+    """Return the lamp of a timing that fills some spans; a code has no period of its own."""
+    region, spacing = region_around(spans), timing.spacing
+    return Lamp(
+        region=region,
+        spans=spans,
+        level=level,
+        modulated=True,
+        period=None if is_code else spacing,
+        period_uncertainty=None if is_code else timing.uncertainty,
+        switching_frequency_times_readout=1.0 / timing.chip,
+        product_uncertainty=timing.uncertainty / spacing / timing.chip,
+        periods=None if is_code else region.columns / spacing,
+    )
 
 
 def join_parts(
     blinking: Sequence[Blinking], means: FloatArray, bounds: IndexArray
 ) -> list[Blinking]:
-    """Join the parts of each lamp: they blink in time, and touch or are lit between each other.
+    """Join the parts of each lamp: they blink in time, and touch, or what is between them is lit.
 
-    What blinks so above or below a lamp is light that it scatters, and is left out.
+    A bar before a lamp divides it, as white pixels do; a part of a code that alternates looks like
+    a repeated pulse. Light that blinks in time above or below a lamp is scattered light, and is
+    left out.
 
-    A bar before a lamp parts it, as do pixels that are white; where a code alternates, its stripes
-    look like those of a pulse that repeats. ``means``: profiles of the strips, shape (strips,
-    columns). ``bounds``: first rows of the strips.
+    ``means``: profiles of the strips, shape (strips, columns). ``bounds``: first rows of the
+    strips, and the number of rows.
     """
     kept: list[Blinking] = []
     for one in sorted(blinking, key=lambda one: one.evidence, reverse=True):
@@ -71,7 +90,7 @@ def _touch(left: Blinking, right: Blinking, bounds: IndexArray) -> bool:
 
 
 def _is_code(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexArray) -> bool:
-    """Whether pulses have a longer stripe between them, so that both are parts of a code."""
+    """Whether a longer stripe lies between two repeated pulses: both are then parts of a code."""
     between = _profile_between(left, right, means, bounds)
     lit = between > _LEAST_LIGHT_RATIO * min(left.lamp.level, right.lamp.level)
     ends = np.flatnonzero(np.diff(lit, prepend=False, append=False))
@@ -80,12 +99,12 @@ def _is_code(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexAr
 
 
 def _lit_between(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexArray) -> bool:
-    """Whether two pulses that repeat are parts of one code."""
+    """Whether two repeated pulses are parts of one code, as a longer stripe lies between them."""
     return _in_line(left, right) and _is_code(left, right, means, bounds)
 
 
 def _in_line(left: Blinking, right: Blinking) -> bool:
-    """Whether two pulses that repeat have most rows in common."""
+    """Whether two parts are repeated pulses that have most rows in common."""
     here, there = left.lamp.region, right.lamp.region
     shared = min(here.last_row, there.last_row) - max(here.first_row, there.first_row)
     is_code = left.timing.is_code or right.timing.is_code
@@ -107,7 +126,7 @@ def _profile_between(
 
 
 def _join(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
-    """Join two parts of a lamp; of a code that looked like pulses the chip is known."""
+    """Join two parts of a lamp; ``is_code``: they are a code's, though both look like pulses."""
     more = max(left, right, key=lambda one: len(one.timing.edges))
     timing = common_timing(left.timing, right.timing) or more.timing
     spans = np.concatenate([left.lamp.spans, right.lamp.spans])
@@ -116,20 +135,9 @@ def _join(left: Blinking, right: Blinking, is_code: bool) -> Blinking:
     whole = np.array(
         [[p[0, 0], p[:, 1].max(), p[:, 2].min(), p[:, 3].max()] for p in of_start], dtype=np.int64
     )
-    region = region_around(whole)
-    seems_code = left.timing.is_code or right.timing.is_code
-    is_guess, is_code = is_code and not seems_code, is_code or seems_code
-    lamp = replace(
-        more.lamp,
-        region=region,
-        spans=whole,
-        level=max(left.lamp.level, right.lamp.level),
-        period=None if is_code else timing.spacing,
-        period_uncertainty=None if is_code else timing.uncertainty,
-        switching_frequency_times_readout=1.0 / timing.chip,
-        product_uncertainty=timing.uncertainty / timing.spacing / timing.chip,
-        periods=None if is_code else region.columns / timing.spacing,
-        is_joined=is_guess,
-    )
+    looks_coded = left.timing.is_code or right.timing.is_code
+    level = max(left.lamp.level, right.lamp.level)
+    lamp = describe_lamp(timing, whole, level, is_code=is_code or looks_coded)
+    lamp = replace(lamp, is_joined=is_code and not looks_coded, is_blurred=more.lamp.is_blurred)
     light = max(left, right, key=lambda one: one.light)
     return Blinking(lamp, timing, light.light, light.dark)

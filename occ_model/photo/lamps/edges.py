@@ -11,7 +11,6 @@ _LEAST_DEVIATIONS = 6.0  # minimum height of a step in standard deviations of th
 _LEAST_HEIGHT = 6.0  # minimum height of a step in grey levels
 _LEAST_STEP_RATIO = 0.15  # minimum height of a step over its neighbours'; less is ringing
 
-
 _CHAIN_STEPS, _LEAST_CHAIN_RATIO = 5, 0.2
 """Number of consecutive steps, and minimum ratio of neighbouring ones, of a chain that is kept even
 beside a steep rim: exposures longer than a chip leave faint stripes."""
@@ -75,6 +74,7 @@ def _turning_points(profile: FloatArray, least: float) -> IndexArray:
 
 
 def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
+    """Leave out turning points of steps that are small beside those to either side."""
     kept = turns
     while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
@@ -100,11 +100,11 @@ def _in_chain(steps: FloatArray) -> BoolArray:
 
 
 def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the level at which each edge is placed, at either of its ends.
+    """Return the level at which an edge counts as passed, at the begin and at the end of each edge.
 
-    It is the middle between the levels around the edge, which may rise or fall along a lamp. A chip
-    shorter than the exposure does not reach the levels of its neighbours, yet it is as long as them
-    at the middle of theirs.
+    It is the middle between the dark and the bright level around the edge, which may change along a
+    lamp. At that level a chip has its full length, even one that is shorter than the exposure and
+    so does not reach the levels of its neighbours.
     """
     if len(turns) < 2:
         return np.zeros(0), np.zeros(0)
@@ -134,7 +134,7 @@ def _envelope(turns: IndexArray, levels: FloatArray, is_high: BoolArray) -> Floa
 
 
 def _crossing(profile: FloatArray, first: int, last: int, begin: float, end: float) -> float:
-    """Find where a profile passes a level that changes evenly, in the middle if several times."""
+    """Find where a profile passes a level that changes evenly; of several places the middle one."""
     count = last - first
     level = begin + (end - begin) / count * np.arange(count + 1)
     above = profile[first : last + 1] - level

@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.photo.lamps.blinking import Blinking, join_parts
+from occ_model.photo.lamps.blinking import Blinking, describe_lamp, join_parts
 from occ_model.photo.lamps.edges import LampEdges, edges_of, matches
 from occ_model.photo.lamps.segments import (
     LEAST_EDGES_OF_STRIP,
@@ -19,7 +19,7 @@ from occ_model.photo.lamps.segments import (
     groups_of,
     segments_of,
 )
-from occ_model.photo.lamps.shape import region_around, spans_of
+from occ_model.photo.lamps.shape import spans_of
 from occ_model.photo.lamps.strips import steady_lamps, strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
@@ -31,19 +31,19 @@ from occ_model.results.lamp import Lamp
 _REFLECTED_BRIGHTNESS = 0.45  # most brightness of a reflection, relative to the lamp's
 _FAINT_BRIGHTNESS = 0.25
 """Brightness relative to the brightest lamp below which a lamp may be a reflection."""
-_FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported
+_FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods below which none is reported
 _BRIGHT_QUANTILE, _SCATTERED_SWING = 0.8, 0.25
-"""Quantile of the height of a lamp's edges, and part of it below which they are of its halo."""
+"""Quantile of the height of a lamp's edges, and part of it below which edges are of its halo."""
 
 _GAMMA = 2.2  # exponent that converts grey levels to light for comparison
-_MOST_DUTY = 0.65  # maximum duty of two stripes; two panes of a window have a larger one
+_MOST_DUTY = 0.65  # maximum duty of two stripes; panes of a window are wider
 _FEW_EDGES = 4  # number of edges of two bright objects side by side
 _LEAST_SPACING = 3.0  # minimum number of columns of a period or a chip
 _LEAST_COLUMNS, _LEAST_PERIODS = 16, 2.0  # minimum width of a lamp in columns, and in periods
 _LEAST_STRIP_FRACTION = 0.3  # minimum fraction of strips that show the period by themselves
 _CHIP_TOLERANCE, _CHIP_COLUMNS = 0.02, 2.0
-"""Maximum relative difference of a chip between a lamp and its segments, and columns, besides, over
-a segment's edges."""
+"""Maximum difference of a chip between a lamp and its segments: relative, plus columns over the
+number of a segment's edges."""
 
 _BLURRED_RATIO, _HARDLY_STRIPED_RATIO = 0.15, 0.3
 """Light between the stripes relative to that of the stripes above which the exposure may be longer
@@ -144,7 +144,7 @@ def _is_seen(
 ) -> bool:
     """Whether enough strips of a lamp show its edges by themselves.
 
-    A wide lamp's segments differ in the number of edges, and so may form several groups.
+    Segments of all groups count, as those of a wide lamp may be in several.
     """
     first, last = np.searchsorted(bounds, [spans[0, 0], spans[-1, 0]]).tolist()
     shown = {
@@ -155,9 +155,10 @@ def _is_seen(
 
 
 def _is_of(segment: Segment, timing: LampTiming) -> bool:
-    """Whether a segment is one of a lamp: most edges, the kind and the length of a chip agree.
+    """Whether a segment is part of a lamp: kind, chip length and most edges agree.
 
-    Two lamps in line may together resemble a code, but each segment of theirs is a repeated pulse.
+    The kind matters as two lamps in line may together resemble a code, while each of their segments
+    is a repeated pulse.
     """
     if (segment.period is None) != timing.is_code:
         return False
@@ -171,30 +172,19 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
 def _describe_blinking(
     timing: LampTiming, spans: IndexArray, strips: Sequence[LampEdges]
 ) -> Blinking:
-    region = region_around(spans)
     own = [one.where(matches(one, timing.edges, timing.chip)) for one in strips]
     low = float(np.median(np.concatenate([one.low for one in own])))
     high = float(np.median(np.concatenate([one.high for one in own])))
-    chip, spacing = timing.chip, timing.spacing
-    lamp = Lamp(
-        region=region,
-        spans=spans,
-        level=high,
-        modulated=True,
-        period=None if timing.is_code else spacing,
-        period_uncertainty=None if timing.is_code else timing.uncertainty,
-        switching_frequency_times_readout=1.0 / chip,
-        product_uncertainty=timing.uncertainty / spacing / chip,
-        periods=None if timing.is_code else region.columns / spacing,
-    )
+    lamp = describe_lamp(timing, spans, high, is_code=timing.is_code)
     light, dark = ((level / WHITE) ** _GAMMA for level in (high, low))
     return Blinking(lamp, timing, light - dark, dark)
 
 
 def may_be_miscounted(one: Blinking, means: FloatArray) -> bool:
-    """Whether a count of edges may have missed some: faint stripes that do not repeat as counted.
+    """Whether edges may have been missed: the stripes are faint, or repeat with another period.
 
-    Light that an exposure longer than a chip has gathered never falls to that of the surroundings.
+    Stripes are faint where the exposure is longer than a chip: the light then never falls to that
+    of the surroundings.
     """
     fraction = one.dark / max(one.light + one.dark, 1e-9)
     if not _BLURRED_RATIO < fraction < _HARDLY_STRIPED_RATIO:
@@ -220,12 +210,11 @@ def _is_lamp(timing: LampTiming) -> bool:
 
 
 def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
-    """Leave out what lies within a lamp of more edges: noise has split some of its strips."""
-    # A group that reaches into the glow around a lamp covers more of it, with less light.
+    """Leave out what lies within a lamp of more evidence: noise has split some of its strips."""
     ordered = sorted(blinking, key=lambda one: one.evidence, reverse=True)
     kept: list[Blinking] = []
     for one in ordered:
-        # A lamp may lie within the light that another one scatters.
+        # A lamp of its own may lie within the light that another one scatters.
         is_own = one.lamp.period is not None and len(one.timing.edges) >= _OWN_EDGES
         near = [
             other for other in kept
@@ -245,7 +234,7 @@ def _shared_fraction(one: Lamp, other: Lamp) -> float:
 
 
 def _mark_faint(blinking: Sequence[Blinking]) -> list[Blinking]:
-    """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
+    """Mark lamps that are faint beside the brightest; leave out fainter ones that are short."""
     brightest = max((one.light for one in blinking), default=0.0)
     return [
         replace(one, lamp=replace(one.lamp, is_faint=one.light < _FAINT_BRIGHTNESS * brightest))
@@ -255,7 +244,7 @@ def _mark_faint(blinking: Sequence[Blinking]) -> list[Blinking]:
 
 
 def _assign_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
-    """Return the lamps, each with the regions of the fainter ones that blink in time with it."""
+    """Return the lamps, each with its reflections: fainter places that blink in time with it."""
     ordered = sorted(_mark_faint(blinking), key=lambda one: -one.light)
     kept: list[Blinking] = []
     mirrored: dict[int, list[Region]] = {}

@@ -17,9 +17,9 @@ from occ_model.photo.chips.edges import coherence
 from occ_model.photo.lamps.edges import LampEdges, equal_within, matches
 
 _TOLERANCE = 0.04  # maximum distance of an edge from its place, in periods and, besides, in columns
-_COLUMN_TOLERANCE = 0.8  # columns by which an edge may lie off its place: pixels and noise
+_COLUMN_TOLERANCE = 0.8  # columns by which pixels and noise may shift an edge
 LEAST_EDGES = 4  # minimum number of edges of a lamp: two rising and two falling ones
-_LEAST_MORE_EDGES = 4  # edges by which a code must exceed a progression: a rim has two
+_LEAST_MORE_EDGES = 4  # edges by which a code must exceed a progression, as a rim adds two
 _MOST_GAP_RATIO = 5.0  # ratio to the median distance of edges of a gap between lamps
 
 _LONG_PROGRESSION, _LEAST_EXPLAINED_FRACTION = 6, 0.9
@@ -40,7 +40,7 @@ _MOST_OFF = 0.2  # maximum distance of a code's edge from its lattice in chips
 _LONGEST_RUN = 5.5  # longest run of a code in chips; beyond it another lamp begins
 _LEAST_STEP_RATIO = 0.4  # minimum ratio of neighbouring steps of one lamp
 
-_MOST_DISTANCE = 2  # maximum distance of neighbouring segments in strips, for noise
+_MOST_DISTANCE = 2  # maximum distance of a lamp's segments in strips: noise may hide one
 
 LEAST_EQUAL_FRACTION, _LEAST_EQUAL = 0.65, 3
 """Minimum fraction and number of equal edges of two segments: in a strip, noise or a rim can join
@@ -67,7 +67,7 @@ def segments_of(
 ) -> list[Segment]:
     """Split the edges of a strip into those of single lamps."""
     found: list[Segment] = []
-    # What is left of a strip is searched again, mostly in the same stretches.
+    # What is left of a strip is searched again, mostly at the same edges.
     chip_within = cache(lambda first, last: chip_of(edges.part(first, last)))
     waiting = [(0, len(edges), progressions_of(edges.place, tolerance))]
     while waiting:
@@ -94,9 +94,9 @@ def segments_of(
 
 
 def _segment(strip: int, edges: LampEdges, chip: float) -> Segment:
-    """Describe edges on a lattice: a chip is the longest that all distances are multiples of.
+    """Describe edges on a lattice: a chip is the longest length that divides all distances.
 
-    Where all edges of a kind are as many chips apart, a pulse repeats.
+    If all edges of a kind are equally far apart, they are those of a repeated pulse.
     """
     apart = [np.diff(edges.place[edges.rises == kind]) / chip for kind in (True, False)]
     turns = np.rint(np.concatenate(apart)).astype(np.int64)
@@ -107,7 +107,7 @@ def _segment(strip: int, edges: LampEdges, chip: float) -> Segment:
 
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
-    """Whether a few long progressions explain edges as well: lamps of about the same period."""
+    """Whether long progressions explain nearly all edges: those of lamps of similar periods."""
     inside = clip_spans(progressions, first, last)
     long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_PROGRESSION)
     return long >= _LEAST_EXPLAINED_FRACTION * (last - first)
@@ -122,7 +122,7 @@ def clip_spans(
 
 
 def progressions_of(place: FloatArray, tolerance: float) -> list[tuple[int, int, float]]:
-    """Find neighbouring edges of which every second one is a period farther."""
+    """Find runs of edges of which every second is a period farther: first edge, end, period."""
     apart = (place[2:] - place[:-2]).tolist()
     found = []
     begin = 0
@@ -200,9 +200,9 @@ def chip_of(edges: LampEdges) -> float | None:
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
-    """Join the segments of each lamp, which are in the order of their strips.
+    """Group the segments of each lamp; they are in the order of their strips.
 
-    What a single strip shows is texture or a border, unless its edges are many.
+    A group of a single strip is texture or a border, unless it has many edges.
     """
     labels = list(range(len(segments)))
 
@@ -230,7 +230,7 @@ def _are_many(group: Sequence[Segment]) -> bool:
 
 
 def _agree(one: Segment, other: Segment) -> bool:
-    """Whether most edges of two segments are equal; of pulses, in the columns of both."""
+    """Whether most edges of two segments are equal; of pulses, only in the columns of both."""
     chip = min(one.chip, other.chip)
     off = equal_within(chip)
     first = max(one.edges.place[0], other.edges.place[0]) - off

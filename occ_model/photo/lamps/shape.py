@@ -10,7 +10,7 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
 _LEAST_SWING = 0.4  # minimum swing over the lamp's, or an edge's; less is scattered light
-_LEAST_OWN_FRACTION = 0.7  # of the edges between a lamp's outermost ones that are its own
+_LEAST_OWN_FRACTION = 0.7  # minimum fraction of a lamp's own edges between its outermost ones
 _CUT_TOLERANCE = 0.3  # maximum distance in chips of an edge whose stripe the rim cuts
 _MOST_WIDTH = 1.15  # maximum width of a stripe that the rim cuts, relative to a whole one
 _SMOOTHING_STRIPS = 2  # strips on either side over which the median of a rim is taken
@@ -81,7 +81,10 @@ def _span(
 
 
 def _outermost(edges: LampEdges, at: int, side: int, timing: LampTiming) -> int:
-    """Follow the stripes outwards that the lamp's rim cuts, and thereby shifts their edges."""
+    """Return the outermost edge on a side, from one on.
+
+    The lamp's rim cuts its outer stripes, and so shifts their edges off the lattice.
+    """
     off = timing.off_lattice(edges) * timing.spacing
     while 0 <= (beside := at + side) < len(edges):
         apart = abs(edges.place[beside] - edges.place[at])
@@ -100,6 +103,7 @@ def _outermost(edges: LampEdges, at: int, side: int, timing: LampTiming) -> int:
 
 
 def region_around(spans: IndexArray) -> Region:
+    """Return the smallest rectangle that holds all spans of a lamp."""
     return Region(
         int(spans[:, 0].min()), int(spans[:, 1].max()),
         int(spans[:, 2].min()), int(spans[:, 3].max()),

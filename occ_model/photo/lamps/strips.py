@@ -13,8 +13,8 @@ from occ_model.results.lamp import Lamp
 
 _MOST_STRIPS = 480
 _ROWS, _LEAST_ROWS, _FEW_STRIPS = 8, 4, 32
-"""Rows of a strip; in small photos fewer, for so many strips: a bar of light has at least two."""
-
+"""Rows of a strip, and the least number of them in small photos, to make up to ``_FEW_STRIPS``
+strips: a bar of light has at least two."""
 
 _FINE_COLUMNS, _CELL_COLUMNS = 2000, 4
 """Number of columns above which columns are averaged in cells of so many: sensors with many pixels
@@ -24,7 +24,7 @@ leaves a pattern that repeats after 4 columns on the steep edges of a lamp."""
 _BRIGHT_FRACTION = 0.6  # fraction of white above which a place is bright
 _BRIGHT_RATIO = 1.6  # ratio to the picture's median above which a place is bright
 _LEAST_AREA = 3e-4  # minimum area of a lamp relative to the picture
-_MOST_COLUMNS = 512  # to which a picture is reduced: there are no fine stripes
+_MOST_COLUMNS = 512  # to which a picture is reduced, as steady lamps have no fine stripes
 
 
 def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, IndexArray]:
@@ -48,7 +48,7 @@ def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArr
 
 
 def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]) -> list[Lamp]:
-    """Find the bright places without stripes in strips of a photo, as of :func:`strips_of`."""
+    """Find the bright places without stripes; the strips are those of :func:`strips_of`."""
     strips, columns = means.shape
     narrow = min(columns, _MOST_COLUMNS)
     levels = cv2.resize(means, (narrow, strips), interpolation=cv2.INTER_AREA)

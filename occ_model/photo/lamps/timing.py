@@ -10,7 +10,6 @@ from occ_model.photo.lamps.segments import Segment, segments_of
 
 _LATTICE_TOLERANCE = 0.12  # maximum distance of an edge from a lattice relative to the spacing
 
-
 _CODE_CHIPS_OFF, _CODE_COLUMNS_OFF = 0.045, 0.12
 _PULSE_CHIPS_OFF, _PULSE_COLUMNS_OFF = 0.08, 0.4
 """Maximum root mean square distance of the edges of a code, and of a pulse, from their lattices: in
@@ -21,15 +20,17 @@ _MOST_RATIO = 0.5  # maximum ratio of the distances from a code's lattices after
 _LEAST_DEVIATION = 0.1  # minimum standard deviation of an edge in columns
 
 _SPACING_TOLERANCE, _SHADED_TOLERANCE = 0.003, 0.06
-"""Maximum relative difference of the spacings of a lamp and of its reflection; the second divided
-by the number of edges: the outer edges of a lamp that is darker at its rim, seen on a lit wall, lie
-farther inside."""
+"""Relative difference of the spacings of a lamp and its reflection; the second is divided by
+the number of edges: if a lamp is darker at its rim, its outer edges lie farther inside in the
+reflection on a lit wall."""
 
 _PART_TOLERANCE = 0.03  # maximum relative difference of the spacings of two parts of a lamp
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampTiming:
+    """Lattices of the same spacing that a lamp's rising and falling edges lie on."""
+
     spacing: float  # columns of a period of a pulse that repeats, or of a chip of a code
     uncertainty: float  # its standard deviation in columns
     rise: float  # rise, fall: column of a rising and of a falling edge, less whole spacings
@@ -88,11 +89,10 @@ def common_timing(one: LampTiming, other: LampTiming) -> LampTiming | None:
 
 
 def timings_of(edges: LampEdges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
-    """Find the period or the chip of edges common to some rows.
+    """Find the period or the chip of edges that several strips have in common.
 
-    Lamps side by side, in the same rows, give several timings. ``weights``: shape (edges,), how
-    many rows show each edge. ``codes``: whether some may be those of a code: strips of it
-    show no pulse that repeats.
+    Lamps side by side give several timings. ``weights``: shape (edges,), number of segments that
+    show each edge. ``codes``: whether some edges may be those of a code.
     """
     found: list[LampTiming] = []
     waiting = [(edges, weights)]
@@ -143,7 +143,7 @@ def _fit(edges: LampEdges, weights: FloatArray, spacing: float, is_code: bool) -
         same = edges.rises == kind
         if not same.any():
             return None
-        # From one edge to the next, so that an error of the spacing does not add up.
+        # Counted from one edge to the next, so that an error of the spacing does not add up.
         apart = np.rint(np.diff(edges.place[same]) / spacing)
         steps[same] = np.concatenate([[0.0], np.cumsum(apart)])
     if not steps.any():

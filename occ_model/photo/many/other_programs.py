@@ -28,9 +28,7 @@ DIRECTION_NOTE = (
 
 _MILLISECOND = 1e-3
 
-_MOST_SCATTER = (
-    0.01  # maximum relative error of the mean if photos differ by more than their errors
-)
+_MOST_SCATTER = 0.01  # maximum relative error of a mean of photos that differ by more than theirs
 
 
 def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:

@@ -3,9 +3,9 @@
     python3 resources/start.py [application arguments]
     python3 resources/start.py test [pytest arguments]
 
-Only the standard library is needed, and what is already in place is left alone, so that every
-start after the first costs a fraction of a second. The set-up speaks on standard error: standard
-output belongs to the application.
+Only the standard library is needed. What is already installed is kept, so that every start after
+the first takes a fraction of a second. Messages go to standard error: standard output belongs to
+the application.
 """
 
 import hashlib
@@ -27,7 +27,7 @@ OLDEST, NEWEST_TRIED = (3, 11), (3, 14)
 
 
 def version_problem(major: int, minor: int) -> str:
-    """Say why this Python cannot run the project; return '' where it can."""
+    """Return why this Python cannot run the project; '' if it can."""
     if (major, minor) >= OLDEST:
         return ""
     return (
@@ -36,8 +36,8 @@ def version_problem(major: int, minor: int) -> str:
     )
 
 
-# Asked before anything below is defined: an older Python 3 can read the rest of this file, but it
-# cannot evaluate the annotations in it.
+# Checked before anything below is defined: an older Python 3 can parse the rest of this file, but
+# cannot evaluate its annotations.
 if version_problem(*sys.version_info[:2]):
     sys.exit(version_problem(*sys.version_info[:2]))
 
@@ -56,10 +56,10 @@ STAMP = VENV / "start.json"
 UNFINISHED = VENV / "unfinished"
 RUNNING = "{}.{}".format(*sys.version_info)
 
-# The application's extra, which every start installs: the model alone does without a window.
+# The extra of the window, which every start installs; the model alone does not need it.
 WINDOW = "gui"
 
-# What compiles and runs the sketches of boards, for the tests in CI: programs and headers.
+# Programs and headers that compile and run the sketches of boards, for tests in CI.
 TEST_TOOLS = {
     "avr-g++": "gcc-avr",
     "g++": "g++",
@@ -78,7 +78,7 @@ class SetUpError(Exception):
 
 
 def say(message: str) -> None:
-    """Tell the user how the set-up goes."""
+    """Print a message of the set-up."""
     print(message, file=sys.stderr, flush=True)
 
 
@@ -89,12 +89,12 @@ def run_visibly(command: Sequence[str], **settings: str) -> bool:
 
 
 def qt_platform(arguments: Iterable[str], environment: Mapping[str, str]) -> str:
-    """Name the Qt platform that this start will use; return '' where it lacks a display."""
+    """Return the Qt platform that this start will use; '' if there is no display."""
     if sys.platform != "linux":
         return "native"
     if any(argument.split("=")[0] in WINDOWLESS for argument in arguments):
         return "offscreen"
-    # Qt's variable is a list parted by semicolons, each entry a name that options may follow.
+    # Qt's variable is a list separated by semicolons; options may follow each name.
     chosen = environment.get("QT_QPA_PLATFORM", "").split(";")[0].split(":")[0]
     if chosen and not chosen.startswith(("xcb", "wayland")):
         return chosen
@@ -104,7 +104,7 @@ def qt_platform(arguments: Iterable[str], environment: Mapping[str, str]) -> str
 
 
 def has_font() -> bool:
-    """Tell whether there is a font in one of the folders where Qt looks for them."""
+    """Return whether one of Qt's folders of fonts has a font."""
     home = os.environ.get("HOME", "")
     folders = (
         "/usr/share/fonts",
@@ -116,12 +116,12 @@ def has_font() -> bool:
 
 
 def missing_parts(platform: str, making_venv: bool) -> dict[str, str]:
-    """Map each part that the system lacks to the Debian package that brings it."""
+    """Return the missing parts of the system, each with the Debian package that contains it."""
     missing = find_missing_libraries(platform)
-    # Systems without apt-get may keep their fonts anywhere.
+    # Systems without apt-get may have their fonts in other folders.
     if shutil.which("apt-get") and not has_font():
         missing["a font"] = "fonts-dejavu-core"
-    # Debian parts this from Python itself, and without it a virtual environment has no pip.
+    # A package of its own in Debian, without which a virtual environment has no pip.
     importlib.invalidate_caches()
     if making_venv and importlib.util.find_spec("ensurepip") is None:
         missing["Python's ensurepip"] = f"python{RUNNING}-venv"
@@ -129,7 +129,7 @@ def missing_parts(platform: str, making_venv: bool) -> dict[str, str]:
 
 
 def root_prefix() -> list[str] | None:
-    """Return what goes before a command for it to run as root; None where nothing would do."""
+    """Return the words before a command that runs as root; None if that is impossible."""
     if os.geteuid() == 0:
         return []
     if shutil.which("sudo") is None:
@@ -141,19 +141,19 @@ def root_prefix() -> list[str] | None:
 def install_packages(prefix: Iterable[str], packages: Iterable[str]) -> bool:
     """Install Debian packages; return whether that succeeded."""
     as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
-    # An update that fails is no reason to stop: an old list often knows the packages too.
+    # If the update fails, the old list of packages is often sufficient.
     run_visibly([*as_root, "apt-get", "update"])
     return run_visibly([*as_root, *APT_INSTALL, *packages])
 
 
 def provide_system_parts(platform: str, making_venv: bool) -> None:
-    """See that the system has what Qt and pip need, by installing it where that is allowed."""
+    """Install what Qt and pip need of the system and is missing, if that is allowed."""
     missing = missing_parts(platform, making_venv) if sys.platform == "linux" else {}
     if not missing:
         return
     lacks = "This system lacks " + ", ".join(missing)
     if shutil.which("apt-get") is None:
-        raise SetUpError(f"{lacks}. Install what brings it, then start again.")
+        raise SetUpError(f"{lacks}. Install it, then start again.")
     line = write_install_command(missing.values())
     remedy = f"Run this line as root, then start again:\n    {line}"
     prefix = root_prefix()
@@ -168,7 +168,7 @@ def provide_system_parts(platform: str, making_venv: bool) -> None:
 
 
 def missing_tools() -> list[str]:
-    """List the Debian packages of the tests' tools that the system lacks."""
+    """List the Debian packages of missing tools of the tests."""
     return [
         package
         for name, package in TEST_TOOLS.items()
@@ -177,7 +177,7 @@ def missing_tools() -> list[str]:
 
 
 def offer_test_tools() -> None:
-    """Install the tests' tools where that is allowed; without them some tests are skipped."""
+    """Install the tests' tools if that is allowed; without them some tests are skipped."""
     packages = missing_tools() if sys.platform == "linux" else []
     prefix = root_prefix() if packages and shutil.which("apt-get") else None
     if prefix is None:
@@ -188,7 +188,7 @@ def offer_test_tools() -> None:
 
 
 def read_stamp() -> dict[str, Any]:
-    """Return what the last finished installation noted down; {} where none did."""
+    """Return the record of the last complete installation; {} if there is none."""
     try:
         return dict(json.loads(STAMP.read_text()))
     except (OSError, TypeError, ValueError):
@@ -196,20 +196,20 @@ def read_stamp() -> dict[str, Any]:
 
 
 def wanted_stamp(python: str, extras: Iterable[str]) -> dict[str, Any]:
-    """Return the note of an installation that serves the project as it is now."""
+    """Return the record of an installation that suits the project as it is now."""
     project = hashlib.sha256((ROOT / "pyproject.toml").read_bytes()).hexdigest()
     return {"pyproject": project, "python": python, "root": str(ROOT), "extras": sorted(extras)}
 
 
 def serves(stamp: Mapping[str, Any], wanted: Mapping[str, Any]) -> bool:
-    """Tell whether an installation is the wanted one, or that with more extras."""
+    """Return whether an installation is the wanted one, or has more extras."""
     same = {**stamp, "extras": None} == {**wanted, "extras": None}
     return same and set(wanted["extras"]) <= set(stamp["extras"])
 
 
 def venv_version() -> str:
-    """Return the version of the virtual environment's Python; '' where it is of no use."""
-    moved = read_stamp().get("root", str(ROOT)) != str(ROOT)  # its programs name the old folder
+    """Return the version of the virtual environment's Python; '' if it cannot be used."""
+    moved = read_stamp().get("root", str(ROOT)) != str(ROOT)  # its programs contain the old path
     if moved or UNFINISHED.exists():
         return ""
     question = [str(PYTHON), "-I", "-c", "import pip, sys; print(*sys.version_info[:2])"]
@@ -223,7 +223,7 @@ def venv_version() -> str:
 
 
 def make_venv() -> None:
-    """Make the virtual environment anew, in place of whatever was there."""
+    """Make a new virtual environment in place of an existing one."""
     if VENV.is_symlink() or VENV.is_file():
         VENV.unlink()
     elif VENV.exists():
@@ -234,7 +234,7 @@ def make_venv() -> None:
     if sys.version_info[:2] > NEWEST_TRIED:
         tried = "{}.{}".format(*NEWEST_TRIED)
         say(f"This Python {RUNNING} is newer than {tried}, the newest that was tried; going on.")
-    # Not sys.executable: that may lie in the very folder that was just removed.
+    # Not sys.executable, which may be in the folder that was just removed.
     python = getattr(sys, "_base_executable", None) or sys.executable
     venv = [python, "-m", "venv", str(VENV)]
     made = subprocess.run(venv, capture_output=True, text=True, check=False)
@@ -245,28 +245,28 @@ def make_venv() -> None:
 
 
 def uncompiled(extras: Collection[str]) -> list[str]:
-    """Return the option with which pip compiles no modules, where whoever imports them does.
+    """Return pip's option to compile no modules, if they are compiled when they are imported.
 
-    That is a small part of what is installed: for pip, all of it takes two fifths of the time.
-    The checks keep what they have compiled in any case.
+    Few of them ever are, and compiling all takes two fifths of pip's time. The checks always keep
+    compiled modules.
     """
     return ["--no-compile"] if "test" in extras or UNCOMPILED not in os.environ else []
 
 
 def install_project(python: str, extras: Iterable[str]) -> None:
-    """Have pip install the project, editable, and note it down once that is done."""
+    """Let pip install the project, editable, and record the complete installation."""
     stamp = read_stamp()
-    extras = {*extras, *stamp.get("extras", ())}  # never take away what `test` brought
+    extras = {*extras, *stamp.get("extras", ())}  # those of `test` stay installed
     occasion = "something changed since the last time" if stamp else "first start only"
     say(f"Installing the project into .venv ({occasion}, a minute or two) ...")
     STAMP.unlink(missing_ok=True)  # a pip that is stopped half-way must run again
     target = f".[{','.join(sorted(extras))}]"
-    # Without a wheel of PyAV for this Python and system, pip says so; building takes all of FFmpeg.
+    # If there is no wheel of PyAV, pip reports it: a build would need all of FFmpeg.
     wheels = ["--only-binary", "av"]
     pip = [str(PYTHON), "-m", "pip", "install", *uncompiled(extras), *wheels, "-e", target]
     if not run_visibly(pip, PIP_DISABLE_PIP_VERSION_CHECK="1"):
         raise SetUpError(
-            "pip could not install the project; its own words are above. "
+            "pip could not install the project; its messages are above. "
             "Check the network connection and the free disk space, then start again."
         )
     STAMP.write_text(json.dumps(wanted_stamp(python, extras), indent=2))
@@ -274,13 +274,13 @@ def install_project(python: str, extras: Iterable[str]) -> None:
 
 @contextmanager
 def one_at_a_time() -> Iterator[None]:
-    """Make other starts of the project wait: two of them must not write .venv at once."""
+    """Let only one start of the project change .venv at a time; the others wait."""
     if sys.platform == "win32":
         yield
         return
     import fcntl
 
-    # The lock is on this very script, so that no lock file is left behind.
+    # This script is locked, so that no lock file is left behind.
     with Path(__file__).open("rb") as script:
         try:
             fcntl.flock(script, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -288,12 +288,12 @@ def one_at_a_time() -> Iterator[None]:
             say("Waiting for another start of the project to finish its set-up ...")
             fcntl.flock(script, fcntl.LOCK_EX)
         except OSError:
-            pass  # some network folders know no locks
+            pass  # some network file systems have no locks
         yield
 
 
 def set_up(platform: str, extras: Iterable[str]) -> None:
-    """Bring whatever the start still lacks, from system libraries to the project itself."""
+    """Install what is missing, from system libraries to the project itself."""
     python = venv_version()
     provide_system_parts(platform, making_venv=not python)
     if "test" in extras and os.environ.get("CI"):
@@ -320,24 +320,24 @@ def run_check(check: str, *, quietly: bool) -> tuple[bool, str, float]:
     # mypy and ruff write sentences on standard output, and their own failures on standard error.
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT} if quietly else {}
     command = [str(PROGRAMS / program), *arguments]
-    # Compiled once, not by each of the hundreds of processes that the tests start.
-    environment = {name: at for name, at in os.environ.items() if name != UNCOMPILED}
-    begun = time.monotonic()
+    # Modules are compiled once, not by each of the hundreds of processes that the tests start.
+    environment = {name: value for name, value in os.environ.items() if name != UNCOMPILED}
+    start = time.monotonic()
     done = subprocess.run(command, cwd=ROOT, env=environment, check=False, text=True, **pipes)
-    return done.returncode == 0, (done.stdout or "").strip(), time.monotonic() - begun
+    return done.returncode == 0, (done.stdout or "").strip(), time.monotonic() - start
 
 
 def run_checks(pytest_arguments: Sequence[str]) -> int:
-    """Run every check of the project, whichever fail; return the exit code.
+    """Run every check of the project, even if some fail; return the exit code.
 
-    The tests use all cores and show their progress, and the ten that took longest. The other checks
-    run beside them one after another. When all have ended, each is reported by a line, behind its
-    output where it failed.
+    The tests use all cores and show their progress and the slowest ten. The other checks run
+    meanwhile, one after the other. At the end each check is reported in a line, and a failed one
+    with its output before it.
     """
-    # Left to itself, pytest-xdist counts cores that are kept from this process, and half of those
-    # that run two threads.
+    # By default, pytest-xdist also counts cores that this process may not use, and only half of
+    # those that run two threads.
     os.environ.setdefault("PYTEST_XDIST_AUTO_NUM_WORKERS", str(usable_cores()))
-    # Each process begins with a run of tests in their order, so that few fixtures are made twice.
+    # Each process gets a sequence of neighbouring tests, so that few fixtures are made twice.
     pytest = ["pytest", "-n", "auto", "--dist", "worksteal", "--durations", "10"]
     tests = shlex.join([*pytest, *pytest_arguments])
     others = ["ruff check .", "ruff format --check .", "mypy", "lint-imports"]
@@ -360,7 +360,7 @@ def run_checks(pytest_arguments: Sequence[str]) -> int:
 
 
 def start_application(arguments: Sequence[str]) -> int:
-    """Become the application, where the system can replace a process by another."""
+    """Start the application, in place of this process if the system allows that."""
     command = [str(PYTHON), "-m", "occ_gui", *arguments]
     if sys.platform == "win32":
         return subprocess.run(command, check=False).returncode
@@ -368,7 +368,7 @@ def start_application(arguments: Sequence[str]) -> int:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Set up and start what the arguments ask for; return the exit code."""
+    """Set up the project, and start the application or the checks; return the exit code."""
     testing = list(arguments[:1]) == ["test"]
     if testing:
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -380,8 +380,8 @@ def main(arguments: Sequence[str]) -> int:
             return run_checks(arguments[1:])
         if not platform:
             raise SetUpError(
-                "There is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is "
-                "set. This draws the window into a picture instead:\n"
+                "There is no display for a window: neither DISPLAY nor WAYLAND_DISPLAY is set. "
+                "This command draws the window to a picture instead:\n"
                 "    python3 resources/start.py --screenshot window.png"
             )
         return start_application(arguments)

@@ -2,8 +2,8 @@
 
     python resources/packaging/build.py [--to FOLDER]
 
-It is made for the platform that it is made on. The extra ``package`` brings what is needed. On
-Linux the folder also has what a desktop needs to list the program, in ``share``.
+The folder is for the platform on which it is made. The extra ``package`` installs what is needed.
+On Linux the folder ``share`` contains the files by which a desktop lists the program.
 """
 
 import argparse
@@ -58,7 +58,7 @@ def draw_icon(folder: Path) -> Path:
 
 
 def run_pyinstaller(target: Path, work: Path, icon: Path) -> list[Path]:
-    """Gather the programs and all that they import; return the files that were taken."""
+    """Collect the programs and all that they import; return the collected files."""
     command = [sys.executable, "-m", "PyInstaller", "--noconfirm", "--log-level", "WARN"]
     folders = ["--distpath", str(target), "--workpath", str(work / "work")]
     subprocess.run(
@@ -86,7 +86,7 @@ def add_desktop_files(bundle: Path, icon: Path) -> None:
 
 
 def megabytes(folder: Path) -> float:
-    """Return the size of a folder."""
+    """Return the size of a folder's files in megabytes."""
     return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file()) / 1e6
 
 

@@ -1,4 +1,4 @@
-"""Say what a bundle holds of others: ``NOTICE.txt``, and the texts of their licences."""
+"""Write the notice of a bundle, ``NOTICE.txt``: its packages, with the texts of their licences."""
 
 import platform
 import re
@@ -21,11 +21,11 @@ REMARKS = {
     "(GPL 2 or later): who passes on this folder does so as a whole under the GPL 3 or later, with "
     "its text and with the sources of these libraries",
 }
-"""What packages hold under other licences than they state themselves, by their names."""
+"""Remarks on parts of packages that are under other licences than the packages state."""
 
 
 def write_notice(sources: Collection[Path], bundle: Path, project: Path) -> None:
-    """Name all that the bundle holds, made of the files ``sources``, with version and licence."""
+    """List the packages of a bundle made from ``sources``, with version and licence."""
     texts = bundle / "licences"
     texts.mkdir()
     shutil.copy(project / "LICENSE", texts / f"{OWN}.txt")
@@ -53,9 +53,8 @@ def packages_of(sources: Iterable[Path]) -> tuple[dict[str, Distribution], list[
     """Return the installed packages that the files belong to, and the files of none."""
     owners = {}
     for package in distributions():
-        root = Path(
-            str(package.locate_file(""))
-        ).resolve()  # not each of tens of thousands of files
+        # Resolved once, not for each of tens of thousands of files.
+        root = Path(str(package.locate_file(""))).resolve()
         owners |= dict.fromkeys((normpath(root / each) for each in package.files or ()), package)
     found: dict[str, Distribution] = {}
     others = []
@@ -69,11 +68,11 @@ def packages_of(sources: Iterable[Path]) -> tuple[dict[str, Distribution], list[
 
 
 def licence(package: Distribution) -> str:
-    """Return the licence that a package states, in its own words."""
+    """Return the licence that a package states."""
     about = package.metadata
     for field in ("License-Expression", "License"):
         stated = (about.get_all(field) or [""])[0].strip()
-        # Some give the whole text in place of the name.
+        # Some packages give the whole text in place of the name.
         if stated and stated != "UNKNOWN" and "\n" not in stated:
             return stated
     marks = (mark.split(" :: ") for mark in about.get_all("Classifier") or ())
@@ -81,7 +80,7 @@ def licence(package: Distribution) -> str:
 
 
 def system_libraries(files: Iterable[Path], project: Path) -> list[str]:
-    """Name the files that are neither the project's own nor Python's."""
+    """Return the names of files that belong neither to the project nor to Python."""
     return sorted(
         file.name
         for file in files
@@ -92,7 +91,7 @@ def system_libraries(files: Iterable[Path], project: Path) -> list[str]:
 
 
 def _line(package: Distribution, texts: Path) -> str:
-    """Copy the texts of a package's licence, and say where they are."""
+    """Copy the texts of a package's licence; return its line in the notice."""
     folder = texts / f"{package.name}-{package.version}"
     copied = [file for file in package.files or () if _LICENCE_TEXT.fullmatch(file.name)]
     for text in copied:

@@ -25,7 +25,7 @@ GROUPS = {
     "results": "Results",
     "errors": "Errors",
 }
-"""The headings of the public names, by the first folder or module of the place they stand in."""
+"""The headings of the public names, by the folder or module in which they are defined."""
 
 
 def python_page() -> str:

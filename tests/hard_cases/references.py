@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+import mpmath
 import numpy as np
 from hypothesis import strategies as st
 
@@ -12,7 +13,7 @@ import occ_model as occ
 from occ_model.camera.projection import rotation_of
 from occ_model.scene.parameter_kinds import Count, Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Camera, Scene
 
 PATTERNS = st.one_of(st.just(""), st.text(alphabet="01", min_size=1, max_size=40))
 """Packets, or raw chips."""
@@ -109,6 +110,27 @@ class ExactTimes:
         until = self.lit_until_integrated
         now, before = until(x + t) - until(x), until(x + t - tau) - until(x - tau)
         return (now - before) / (tau * t)
+
+
+def exact_pixel_value(luminance: mpmath.mpf, camera: Camera) -> mpmath.mpf:
+    """Return the pixel value by equations (1) and (2), in the present precision of mpmath."""
+    gain = mpmath.mpf(camera.iso) * mpmath.mpf(camera.exposure_time)
+    gain /= mpmath.mpf(camera.meter_constant) * mpmath.mpf(camera.f_number) ** 2
+    return 118 * mpmath.power(gain * luminance, 1 / mpmath.mpf(camera.gamma))
+
+
+def exact_column_value(scene: Scene, fraction: mpmath.mpf) -> mpmath.mpf:
+    """Return a column's pixel value by equations (1) to (3), not saturated.
+
+    ``fraction`` is the lit fraction of its exposure.
+    """
+    surroundings, camera = scene.surroundings, scene.camera
+    dark = mpmath.mpf(surroundings.illuminance) * mpmath.mpf(surroundings.reflectance) / mpmath.pi
+    lit = mpmath.mpf(scene.transmitter.luminance)
+    if scene.model.averaging == "light":
+        return exact_pixel_value(dark + lit * fraction, camera)
+    low, high = exact_pixel_value(dark, camera), exact_pixel_value(dark + lit, camera)
+    return high * fraction + low * (1 - fraction)
 
 
 def some_columns(scene: Scene) -> set[int]:

@@ -10,7 +10,15 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from hard_cases.laws import cases, record
-from hard_cases.references import PATTERNS, STARTS, ExactTimes, decades, signed_decades, within
+from hard_cases.references import (
+    PATTERNS,
+    STARTS,
+    ExactTimes,
+    decades,
+    exact_column_value,
+    signed_decades,
+    within,
+)
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.photometry import FLAT_SPAN
 from occ_model.scene.scene import Scene
@@ -31,22 +39,9 @@ def null_scene(packets: int, exposure: float, off: float, **changes: float | str
 
 def exact_value(scene: Scene, column: int) -> mpmath.mpf:
     """Return a column's pixel value, by equations (1) to (3), to 40 digits."""
-    camera, surroundings = scene.camera, scene.surroundings
     exact = ExactTimes(scene).fraction(column)
     fraction = mpmath.mpf(exact.numerator) / exact.denominator
-    dark = mpmath.mpf(surroundings.illuminance) * surroundings.reflectance / mpmath.pi
-    lit = mpmath.mpf(scene.transmitter.luminance)
-    gain = mpmath.mpf(camera.iso) * camera.exposure_time
-    gain /= camera.meter_constant * mpmath.mpf(camera.f_number) ** 2
-
-    def value(luminance: mpmath.mpf) -> mpmath.mpf:
-        return 118 * (gain * luminance) ** (1 / mpmath.mpf(camera.gamma))
-
-    if scene.model.averaging == "light":
-        mean = value(dark + lit * fraction)
-    else:
-        mean = value(dark + lit) * fraction + value(dark) * (1 - fraction)
-    return min(mean, mpmath.mpf(255))
+    return min(exact_column_value(scene, fraction), mpmath.mpf(255))
 
 
 @cases(
@@ -137,8 +132,7 @@ def test_at_a_null_no_decoder_reads_a_code_and_each_says_why(
             result = occ.decode(seen, scene, decoder=decoder)
             read += result.code is not None
             assert result.code is not None or (result.failure or "").endswith(".")
-    record("codes read at a null", "t 1 to 100 packets, +- 0 to 1e-6", float(read))
-    assert read == 0
+    record("codes read at a null", "t 1 to 100 packets, +- 0 to 1e-6", float(read), 0.0)
 
 
 def half_way(scene: Scene) -> Scene:

@@ -141,8 +141,7 @@ def test_a_code_is_read_at_any_scale_of_grey_levels(
     )
     profile = occ.column_profile(scene)
     read = occ.decode(profile * size + shift, scene, decoder).code
-    record("codes read off scaled profiles: wrong", "gain 0.02 to 100", float(read != code))
-    assert read == code
+    record("codes read off scaled profiles: wrong", "gain 0.02 to 100", float(read != code), 0.0)
 
 
 def profile_of(columns: int, **changes: float | int | str) -> np.ndarray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray, Pixels
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.grey_law import GreyLaw, grey_law
 from occ_model.camera.interpolation import Places, interpolate_at
@@ -44,7 +44,7 @@ from occ_model.study.signals.grey_tables import (
     places_of_stored,
     table_of_file,
 )
-from occ_model.study.signals.region import BrightPixels
+from occ_model.study.signals.received_pixels import BandPlaces, ReceivedPixels
 
 _MOST_VALUES = 2**17  # pixel values of bands that are computed at once, to stay in a cache
 _MOST_IMAGES = 64  # images that are simulated at once
@@ -166,13 +166,13 @@ class _Batch:
             for around in np.broadcast_to(saturate(self._around), self._panel.shape):
                 yield Observation(to_bytes(around), None)
             return
-        inside, mixed, beside = self._find_places()
+        places = self._find_places()
         # Drawn before what takes a varying number of random numbers.
         columns = self.bands.size[1]
         noise = [random.standard_normal(columns, dtype=np.float32) for random in self._randoms]
-        regions = self._draw_regions(inside, mixed, beside)
-        mean, variance = self._mean_over_bands(inside, mixed)
-        of_beside, variance_beside = self._identity_moments(beside)
+        regions = self._draw_regions(places)
+        mean, variance = self._mean_over_bands(places)
+        of_beside, variance_beside = self._identity_moments(places.beside)
         if self.bands.weights is not None:
             missing = 1.0 - self.bands.weights.sum(axis=0)
             mean += missing * self._seen(of_beside)
@@ -201,7 +201,19 @@ class _Batch:
         means[seen] = part * inner + (1.0 - part) * means[seen]
         return means[region.first_column : region.last_column]
 
-    def _known_gains(self, inside: Places) -> tuple[FloatArray, FloatArray] | None:
+    def _draw_regions(self, places: BandPlaces) -> list[Region]:
+        """Draw the rectangle in which a receiver finds the panel, for each picture."""
+        received = ReceivedPixels(self.bands, self._table, self._curves, places.some_bands())
+        counts = received.expected_histograms()
+        if self._pixels.law is None:
+            drawn = list(np.rint(counts).astype(np.int64))
+        else:
+            drawn = [random.poisson(own) for random, own in zip(self._randoms, counts, strict=True)]
+        found = [bright_level(own, self._scene.receiver.bright_fraction) for own in drawn]
+        levels = np.array([0 if level is None else level for level in found])
+        return received.bright_from(levels).draw_regions(self._randoms)
+
+    def _known_gains(self, panel: Places) -> tuple[FloatArray, FloatArray] | None:
         """Return what the sensor's own gains add to column means, and the variance they explain.
 
         Both have the shape (images, seen). The law counts a pixel's gain as random, but it is the
@@ -212,7 +224,7 @@ class _Batch:
             return None
         tables = self._table.means_of(self._curves)
         slopes = np.gradient(tables, axis=1) * self._levels_a_gain(law)
-        slope = interpolate_each(slopes, some_bands(inside))
+        slope = interpolate_each(slopes, some_bands(panel))
         camera, variation = self._scene.camera, law.noise.gain_variation
         gains = column_gains(
             variation, self._scene.sensor.sensor_seed, (camera.rows, camera.columns), span
@@ -228,23 +240,23 @@ class _Batch:
             return own
         return moved_after_file(law, np.gradient(law.means) * own)
 
-    def _mean_over_bands(self, inside: Places, mixed: Places) -> tuple[FloatArray, FloatArray]:
+    def _mean_over_bands(self, places: BandPlaces) -> tuple[FloatArray, FloatArray]:
         """Return the mean of pixels of the receiver's picture, and their variance in a band."""
         part = self.bands.panel
-        mean = interpolate_each(self._table.means_of(self._curves), inside)
-        is_panel = bool((part == 1.0).all())
+        mean = interpolate_each(self._table.means_of(self._curves), places.panel)
         variance: FloatArray = np.zeros((len(mean), mean.shape[2]))
         if self._pixels.law is not None:
-            square = interpolate_each(self._table.means_of(self._curves**2), some_bands(inside))
+            squares = self._table.means_of(self._curves**2)
+            square = interpolate_each(squares, some_bands(places.panel))
             own = some_bands_of(mean)
             variance = np.maximum(square - own**2, 0.0).mean(axis=1, dtype=np.float64)
-        known = self._known_gains(inside)
+        known = self._known_gains(places.panel)
         if known is not None:
             mean += known[0][:, None]
             variance = np.maximum(variance - known[1], 0.0)
-        if not is_panel:
-            columns = np.flatnonzero((part != 1.0).any(axis=0))
-            off, variance_off = self._identity_moments(columns_of(mixed, columns))
+        columns = np.flatnonzero((part != 1.0).any(axis=0))
+        if columns.size:
+            off, variance_off = self._identity_moments(columns_of(places.around, columns))
             mean[:, :, columns] += (1.0 - part[:, columns]) * (off - mean[:, :, columns])
             fraction = part[:, columns].mean(axis=0)
             variance[:, columns] *= fraction
@@ -260,21 +272,21 @@ class _Batch:
         )
         return mean, np.maximum(square - mean**2, 0.0)
 
-    def _find_places(self) -> tuple[Places, Places, Places]:
-        """Return places in the table: of panel and surroundings in the bands, and beside them."""
+    def _find_places(self) -> BandPlaces:
         bands, pixels = self.bands, self._pixels
         dimming = 1.0 if bands.dimming_beside is None else bands.dimming_beside
         beside = pixels.places(np.atleast_2d(self._around * dimming))
         if bands.light is None:
             around = pixels.places(self._around)
             seen = bands.columns if around[0].shape[1] > 1 else slice(None)
-            return as_one_band(self._places, bands.columns), as_one_band(around, seen), beside
+            panel = as_one_band(self._places, bands.columns)
+            return BandPlaces(panel, as_one_band(around, seen), beside)
         values = bands.expose(
             self._panel[:, bands.columns], self._seen(self._around), self._scene.camera
         )
         places = pixels.places(values)
         if self._steps is None:
-            return places, places, beside
+            return BandPlaces(places, places, beside)
         table, law = pixels.table, pixels.law
         identity = table.means_of(_IDENTITY)[0]
         squares = np.zeros(len(table.below)) if law is None else law.deviations**2
@@ -289,63 +301,5 @@ class _Batch:
         ])  # fmt: skip
         stored = StoredMeans(self._steps).store(means, variance, numbers)
         places = places_of_stored(stored)
-        return places, places, places_of_stored(interpolate_at(identity, beside))
-
-    def _draw_regions(self, inside: Places, mixed: Places, beside: Places) -> list[Region]:
-        """Draw the rectangle in which a receiver finds the panel, for each picture."""
-        bands, table = self.bands, self._table
-        inside, mixed = some_bands(inside), some_bands(mixed)
-        part = some_bands_of(bands.panel[None])[0]
-        levels = self._bright_levels(inside, mixed, beside, part)
-        # The enhancement never falls: a pixel is bright after it if it is before.
-        before = np.array([
-            np.searchsorted(curve, level) for curve, level in zip(self._curves, levels, strict=True)
-        ])  # fmt: skip
-        bright = interpolate_each(table.fractions_from(before), inside)
-        unenhanced = table.fractions_from(levels)
-        if (part != 1.0).any():
-            columns = np.flatnonzero((part != 1.0).any(axis=0))
-            off = interpolate_each(unenhanced, columns_of(mixed, columns))
-            bright[:, :, columns] += (1.0 - part[:, columns]) * (off - bright[:, :, columns])
-        around = interpolate_each(unenhanced, beside).astype(np.float32)
-        shape = len(around), bands.size[1]
-        everywhere = np.empty((shape[0], len(part), shape[1]), dtype=np.float32)
-        everywhere[:] = around[:, None]
-        everywhere[:, :, bands.columns] = bright
-        assert bands.span is not None  # noqa: S101 - only called with a panel in view
-        pixels = BrightPixels(
-            bands.size, bands.span, everywhere, np.array(np.broadcast_to(around, shape))
-        )
-        return pixels.draw_regions(self._randoms)
-
-    def _bright_levels(
-        self, inside: Places, mixed: Places, beside: Places, part: Pixels
-    ) -> IndexArray:
-        """Return the grey level from which a pixel of the receiver's picture counts as bright."""
-        bands = self.bands
-        rows, columns = bands.size
-        assert bands.span is not None  # noqa: S101 - only called with a panel in view
-        each = np.float32(bands.span.rows / len(part))
-        counts = np.zeros((len(self._images), GREYS))
-        enhanced = self._histograms(inside, each * part)
-        for index, own in enumerate(enhanced):
-            curve = self._enhancements[index].curve
-            counts[index] = np.bincount(curve, weights=own, minlength=GREYS)
-        if (part != 1.0).any():
-            counts += self._histograms(mixed, each * (np.float32(1.0) - part))
-        outside = np.full(columns, float(rows), dtype=np.float32)
-        outside[bands.columns] -= bands.span.rows
-        counts += self._histograms(beside, outside)
-        if self._pixels.law is not None:
-            drawn = [random.poisson(own) for random, own in zip(self._randoms, counts, strict=True)]
-        else:
-            drawn = list(np.rint(counts).astype(np.int64))
-        fraction = self._scene.receiver.bright_fraction
-        found = [bright_level(own, fraction) for own in drawn]
-        return np.array([0 if level is None else level for level in found])
-
-    def _histograms(self, places: Places, weights: Pixels) -> FloatArray:
-        if places[0].shape[-1] == 1:
-            weights = weights.sum(axis=-1, keepdims=True)
-        weights = np.broadcast_to(weights, places[0].shape)
-        return self._table.histograms(weights_of_levels(places, weights, self._table))
+        stored_beside = places_of_stored(interpolate_at(identity, beside))
+        return BandPlaces(places, places, stored_beside)

@@ -50,6 +50,16 @@ def test_an_outline_outside_covers_nothing_and_one_round_all_all(blur: float) ->
     np.testing.assert_allclose(cover_rows(square, blur), 1.0, rtol=0, atol=1e-4)
 
 
+@pytest.mark.parametrize("blur", [2.0, 8.0, 16.0, 60.0])
+def test_a_straight_edge_is_blurred_over_the_stated_deviation(blur: float) -> None:
+    # From 8 pixels on, the cells of a coarser grid blur as well, by half a cell.
+    beyond = np.array([[300.3, -2e3], [2e3, -2e3], [2e3, 3e3], [300.3, 3e3]])
+    steps = np.diff(cover_rows(beyond, blur, (40, 700)).mean(axis=0), prepend=0.0)
+    columns = np.arange(700)
+    deviation = np.sqrt(np.cov(columns, aweights=np.maximum(steps, 0.0), ddof=0))
+    assert deviation == pytest.approx(blur, rel=5e-3)
+
+
 @pytest.mark.parametrize("blur", [0.4, 1.0, 3.0, 7.9, 8.0, 12.5, 30.0, 60.0])
 @pytest.mark.parametrize("scale", amount([3.0], [0.5, 1.0, 3.0]))
 def test_blurred_coverage_is_a_blur_at_full_resolution(scale: float, blur: float) -> None:

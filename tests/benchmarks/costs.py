@@ -3,7 +3,6 @@
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from itertools import count, islice
 from pathlib import Path
@@ -20,17 +19,21 @@ from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.scene.scene import Scene
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES, IMAGES
 
-MEMORY = Path(__file__).with_name("memory.py")
-
 _RUN, _RUNS = 8, 7
 """Frames decoded in a row: a single one would be decoded ahead, while another thing is timed."""
 
+ROWS: dict[Callable[[], str], tuple[str, str]] = {}
+"""What measures a row, and returns what it found; what that is, and what is wanted."""
 
-@dataclass(frozen=True)
-class Row:
-    what: str
-    measured: str
-    wanted: str
+
+def row(what: str, wanted: str = "") -> Callable[[Callable[[], str]], Callable[[], str]]:
+    """Add a function that measures to the rows."""
+
+    def add(measure: Callable[[], str]) -> Callable[[], str]:
+        ROWS[measure] = what, wanted
+        return measure
+
+    return add
 
 
 def side_by_side(*things: Callable[[], object], rounds: int = 41) -> list[float]:
@@ -46,29 +49,36 @@ def side_by_side(*things: Callable[[], object], rounds: int = 41) -> list[float]
     return [1e3 * median(seconds) for seconds in times]
 
 
-def film_scene() -> occ.Scene:
+def ratio(work: Callable[[], object], other: Callable[[], object], rounds: int = 41) -> str:
+    a, b = side_by_side(work, other, rounds=rounds)
+    return f"{a / b:.2f} ({a:.3g} ms)"
+
+
+def peak_memory(*arguments: str) -> list[float]:
+    """Return what ``memory.py`` prints."""
+    command = [sys.executable, str(Path(__file__).with_name("memory.py")), *arguments]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    return [float(number) for number in ran.stdout.split()]
+
+
+def film_scene() -> Scene:
     """A film's usual size: 1080 lines that are read out, 1920 pixels each."""
     return occ.load_preset("phone-136us").replace(rows=1920, columns=1080, readout_time=25e-6)
 
 
-def film_frame_cost() -> Row:
-    """Compare a frame of a simulated film with a picture of the same scene."""
+@row("a frame of a simulated film of 1920 x 1080 against one picture", "about 1")
+def compare_simulated_frame() -> str:
     scene, number, start = film_scene(), count(), count()
     film = occ.render_video(scene)
-    frame, picture = side_by_side(
+    return ratio(
         lambda: film.frame(next(number)),
         lambda: occ.render(scene.replace(start_time=1e-7 * next(start))).camera_image,
         rounds=21,
     )
-    return Row(
-        "a frame of a simulated film of 1920 x 1080 against one picture",
-        f"{frame / picture:.2f} ({frame:.0f} ms)",
-        "about 1",
-    )
 
 
-def film_decoding_cost() -> Row:
-    """Compare the next frame of a film with opening a picture of its size, noise and all."""
+@row("the next frame of an MP4 film of that size against opening a JPEG photo")
+def compare_decoded_frame() -> str:
     with TemporaryDirectory() as folder:
         film, photo = Path(folder, "film.mp4"), Path(folder, "photo.jpg")
         count_of_frames = _RUN * (_RUNS + 2)
@@ -84,23 +94,12 @@ def film_decoding_cost() -> Row:
             rounds=_RUNS,
         )
     frame = run / _RUN
-    return Row(
-        "the next frame of an MP4 film of that size against opening a JPEG photo",
-        f"{frame / picture:.2f} ({frame:.1f} ms; opening a film {opening:.0f} ms)",
-        "",
-    )
+    return f"{frame / picture:.2f} ({frame:.1f} ms; opening a film {opening:.0f} ms)"
 
 
-def film_memory() -> Row:
-    """Compare the most memory after 10,000 frames with that after 1,000, simulated and decoded."""
-    command = [sys.executable, str(MEMORY), "growth"]
-    ran = subprocess.run(command, capture_output=True, text=True, check=True)
-    simulated, decoded = map(float, ran.stdout.split())
-    return Row(
-        "the most memory after 10,000 frames against after 1,000, simulated; decoded",
-        f"{simulated:.3f}; {decoded:.3f}",
-        "at most 1.02",
-    )
+@row("the most memory after 10,000 frames against after 1,000, simulated; decoded", "at most 1.02")
+def compare_film_memory() -> str:
+    return "; ".join(f"{growth:.3f}" for growth in peak_memory("growth"))
 
 
 @cache
@@ -117,8 +116,8 @@ def _photo() -> tuple[occ.Photo, Scene]:
     return photo, scene.replace(readout_time=1e-6, exposure_time=1e-3)
 
 
-def match_cost() -> Row:
-    """Compare matching a photo with a mean of its columns."""
+@row("matching a photo of 12 million pixels, against one mean of its columns", "under 1 s")
+def compare_match() -> str:
     photo, scene = _photo()
     a, b, stripes = side_by_side(
         lambda: occ.match_photo(photo, scene),
@@ -126,30 +125,23 @@ def match_cost() -> Row:
         lambda: occ.find_stripes(photo),
         rounds=5,
     )
-    return Row(
-        "matching a photo of 12 million pixels, against one mean of its columns",
-        f"{a / b:.0f} ({a:.0f} ms; finding its stripes {stripes:.0f} ms)",
-        "under 1 s",
-    )
+    return f"{a / b:.0f} ({a:.0f} ms; finding its stripes {stripes:.0f} ms)"
 
 
-def reading_cost() -> Row:
-    """Compare matching a photo of unknown chips with one of known chips."""
+@row(
+    "the same with another code in the scene, so that its chips are read, against known chips",
+    "under 1 s",
+)
+def compare_match_of_unknown_chips() -> str:
     photo, scene = _photo()
     other = scene.replace(code=(scene.transmitter.code + 1) % 1024)
-    a, b = side_by_side(
+    return ratio(
         lambda: occ.match_photo(photo, other), lambda: occ.match_photo(photo, scene), rounds=5
     )
-    return Row(
-        "the same with another code in the scene, so that its chips are read, against known chips",
-        f"{a / b:.1f} ({a:.0f} ms)",
-        "under 1 s",
-    )
 
 
-def many_lamps_cost() -> Row:
-    """Compare a picture of sixteen lamps with one of a single lamp of the same lit pixels."""
-
+@row("a picture of sixteen lamps against one lamp of the same area")
+def compare_many_lamps() -> str:
     def room(side: int) -> Room:
         size, gap = 0.8 / side, 0.08
         scene = occ.load_preset("phone-136us")
@@ -166,30 +158,21 @@ def many_lamps_cost() -> Row:
 
     one, many, moved = room(1), room(4), count()
     # The camera a little elsewhere each time, so that nothing is remembered.
-    a, b = side_by_side(
+    return ratio(
         lambda: occ.render_room(many.replace(camera=Place(x=1e-3 * next(moved)))),
         lambda: occ.render_room(one.replace(camera=Place(x=1e-3 * next(moved)))),
         rounds=5,
     )
-    return Row(
-        "a picture of sixteen lamps against one lamp of the same area",
-        f"{a / b:.2f} ({a:.0f} ms)",
-        "",
-    )
 
 
-def sweep_cost() -> Row:
-    """Compare points of the paper's Fig. 5 by whole pictures with the same by profiles."""
+@row("two points of Fig. 5's grid by whole pictures against the same by profiles")
+def compare_sweep() -> str:
     scene, seeds = occ.load_preset("phone-136us"), count()
     axes = {"switching_frequency": FREQUENCIES[4:5], "distance": DISTANCES[::4]}
 
-    def swept(path: SignalPath) -> occ.SweepTable:
+    def sweep(path: SignalPath) -> occ.SweepTable:
         # With other seeds each time, so that nothing is remembered.
         return occ.sweep(scene, axes, IMAGES, ("threshold", "matched"), next(seeds), path=path)
 
-    a, b = side_by_side(lambda: swept("image"), lambda: swept("profile"), rounds=3)
-    return Row(
-        "two points of Fig. 5's grid by whole pictures against the same by profiles",
-        f"{a / b:.0f} ({a:.0f} ms, {b:.0f} ms)",
-        "",
-    )
+    a, b = side_by_side(lambda: sweep("image"), lambda: sweep("profile"), rounds=3)
+    return f"{a / b:.0f} ({a:.0f} ms, {b:.0f} ms)"

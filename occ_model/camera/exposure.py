@@ -108,14 +108,14 @@ def _lit_from(light: PiecewiseLight, starts: PhasesInPeriod, exposure_time: floa
 
 
 def phases_of_images(
-    scene: Scene, start_times: Sequence[float], light: PiecewiseLight
+    scene: Scene, start_times: Sequence[float], light: PiecewiseLight, shift: Fraction = _NO_SHIFT
 ) -> PhasesInPeriod:
     """Return where in the light's period each column's exposure starts, for several images.
 
-    The arrays have the shape (images, columns).
+    The arrays have the shape (images, columns). ``shift``, in units of the light, is added.
     """
     period, camera = light.waveform.period, scene.camera
-    starts = [Fraction(time) * light.rate % period for time in start_times]
+    starts = [(Fraction(time) * light.rate + shift) % period for time in start_times]
     return count_each(
         starts, _step(camera.readout_time, light.rate, period), period, camera.columns
     )

@@ -118,7 +118,7 @@ def test_raw_carries_length_payload_and_the_crc_16_of_the_bits_sent() -> None:
         assert text_of(sent) == f"01{bits:08b}{payload}{expected:016b}"
 
 
-@pytest.mark.parametrize("bits", [8, 120, 128, 4096])
+@pytest.mark.parametrize("bits", [120, 128, 4096])
 def test_the_crc_16_of_whole_bytes_is_that_of_the_bytes(bits: int) -> None:
     """Recordings of such payloads from before can therefore still be read."""
     payload = np.random.default_rng(bits).integers(0, 2, bits)

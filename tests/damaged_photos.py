@@ -12,6 +12,7 @@ import damage
 import numpy as np
 from numpy.random import Generator
 from PIL import Image
+from PIL.ExifTags import IFD, Base
 from pillow_heif import from_pillow
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 16).astype(np.uint8), (48, 1))
@@ -34,21 +35,23 @@ def encode_with_opencv(pixels: np.ndarray, ending: str) -> bytes:
 def whole_files() -> dict[str, bytes]:
     """Return a small file of each format."""
     exif = Image.Exif()
-    exif[0x0112], exif[0x010F] = 6, "Maker"
-    exif.get_ifd(0x8769).update({0x829A: 1 / 8000, 0x829D: 1.8, 0x8827: 100})
-    noted = {"exif": exif.tobytes()}
+    exif[Base.Orientation], exif[Base.Make] = 6, "Maker"
+    exif.get_ifd(IFD.Exif).update(
+        {Base.ExposureTime: 1 / 8000, Base.FNumber: 1.8, Base.ISOSpeedRatings: 100}
+    )
+    notes = {"exif": exif.tobytes()}
     deep = COLOURS.astype(np.uint16) * 257 + 3
     palette = Image.fromarray(COLOURS).quantize(16)
     heic = io.BytesIO()
     from_pillow(Image.fromarray(COLOURS)).save(heic, exif=exif.tobytes())
     tiled = encode(COLOURS, "TIFF", compression="tiff_adobe_deflate")
     return {
-        "png": encode(STRIPES, "PNG", **noted),
+        "png": encode(STRIPES, "PNG", **notes),
         "png-palette": encode(palette, "PNG", transparency=3),
         "png-16": encode(deep[..., 0], "PNG"),
         "png-16-colours": encode_with_opencv(deep, ".png"),
         "png-alpha": encode(Image.fromarray(COLOURS).convert("RGBA"), "PNG"),
-        "jpeg": encode(COLOURS, "JPEG", **noted),
+        "jpeg": encode(COLOURS, "JPEG", **notes),
         "jpeg-progressive": encode(STRIPES, "JPEG", progressive=True),
         "jpeg-cmyk": encode(Image.fromarray(COLOURS).convert("CMYK"), "JPEG"),
         "mpo": encode(
@@ -62,7 +65,7 @@ def whole_files() -> dict[str, bytes]:
         "tiff-float": encode(STRIPES.astype(np.float32), "TIFF"),
         "tiff-16": encode(deep[..., 0], "TIFF"),
         "tiff-16-colours": encode_with_opencv(deep, ".tiff"),
-        "webp": encode(COLOURS, "WEBP", **noted),
+        "webp": encode(COLOURS, "WEBP", **notes),
         "webp-lossless": encode(COLOURS, "WEBP", lossless=True),
         "bmp": encode(COLOURS, "BMP"),
         "bmp-palette": encode(palette, "BMP"),
@@ -71,7 +74,7 @@ def whole_files() -> dict[str, bytes]:
         "ppm-16": b"P6 64 48 65535\n" + deep.astype(">u2").tobytes(),
         "jp2": encode(COLOURS, "JPEG2000"),
         "jp2-16": encode_with_opencv(deep, ".jp2"),
-        "avif": encode(COLOURS, "AVIF", **noted),
+        "avif": encode(COLOURS, "AVIF", **notes),
         "heic": heic.getvalue(),
     }
 
@@ -116,9 +119,6 @@ SIZES = ((1, 1), (1, 2), (3, 1), (1, 900), (900, 1), (2, 2), (7, 5), (48, 256), 
 
 MODES = ("1", "L", "LA", "P", "RGB", "RGBA", "CMYK", "I;16", "F", "I", "HSV", "LAB", "YCbCr")
 
-_EXPOSURE, _APERTURE, _SENSITIVITY = 0x829A, 0x829D, 0x8827
-_ORIENTATION, _MAKER, _MODEL, _NOTES = 0x0112, 0x010F, 0x0110, 0x8769
-
 
 def make_unusual(seed: int) -> tuple[str, bytes]:
     """Return description and bytes of a valid photo with unusual size, pixels or EXIF data."""
@@ -161,14 +161,14 @@ def _unusual_exif(rng: Generator) -> bytes:
     """Return EXIF data with values of wrong range or type, sometimes damaged."""
     exif = Image.Exif()
     texts = ["", "Maker", "\x1b[31m", "a" * 5000, "\n\n", "é", "\0\0"]
-    exif[_ORIENTATION] = int(rng.choice([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 255, 65535]))
-    exif[_MAKER], exif[_MODEL] = str(rng.choice(texts)), str(rng.choice(texts))
+    exif[Base.Orientation] = int(rng.choice([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 255, 65535]))
+    exif[Base.Make], exif[Base.Model] = str(rng.choice(texts)), str(rng.choice(texts))
     numbers = [0.0, 1e-9, 1 / 8000, 1.0, 1e9, float("nan")]
-    exif.get_ifd(_NOTES).update(
+    exif.get_ifd(IFD.Exif).update(
         {
-            _EXPOSURE: float(rng.choice(numbers[:5])),
-            _APERTURE: float(rng.choice(numbers[:5])),
-            _SENSITIVITY: int(rng.choice([0, 1, 100, 65535])),
+            Base.ExposureTime: float(rng.choice(numbers[:5])),
+            Base.FNumber: float(rng.choice(numbers[:5])),
+            Base.ISOSpeedRatings: int(rng.choice([0, 1, 100, 65535])),
         }
     )
     content = exif.tobytes()

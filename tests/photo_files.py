@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
-
-from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH, EXPOSURE_TIME
+from PIL.ExifTags import IFD, Base
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
 PICTURE = Image.fromarray(STRIPES)
@@ -52,7 +51,7 @@ def png_chunk(name: bytes, content: bytes) -> bytes:
 def save_as_taken(path: Path, image: np.ndarray, **noted: float) -> Path:
     """Write a picture as a camera does, with the focal length or exposure time that it notes."""
     notes = Image.Exif()
-    known = {"focal_length": EQUIVALENT_FOCAL_LENGTH, "exposure_time": EXPOSURE_TIME}
-    notes.get_ifd(0x8769).update({known[name]: value for name, value in noted.items()})
+    known = {"focal_length": Base.FocalLengthIn35mmFilm, "exposure_time": Base.ExposureTime}
+    notes.get_ifd(IFD.Exif).update({known[name]: value for name, value in noted.items()})
     Image.fromarray(image).save(path, quality=92, exif=notes.tobytes())
     return path

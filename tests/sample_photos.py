@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from PIL.ExifTags import IFD, Base
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
@@ -50,14 +51,12 @@ def as_jpeg(scene: Scene) -> bytes:
     """Write it as a camera would, with what it notes of its settings."""
     picture = Image.fromarray(taken(scene))
     exif = picture.getexif()
-    exif[0x010E], exif[0x010F], exif[0x0110] = KNOWN, "Simulated", "phone"
-    exif.get_ifd(0x8769).update(
-        {
-            0x829A: scene.camera.exposure_time,
-            0x829D: scene.camera.f_number,
-            0x8827: round(scene.camera.iso),
-        }
-    )
+    exif.update({Base.ImageDescription: KNOWN, Base.Make: "Simulated", Base.Model: "phone"})
+    exif.get_ifd(IFD.Exif).update({
+        Base.ExposureTime: scene.camera.exposure_time,
+        Base.FNumber: scene.camera.f_number,
+        Base.ISOSpeedRatings: round(scene.camera.iso),
+    })  # fmt: skip
     buffer = BytesIO()
     picture.save(buffer, "JPEG", quality=scene.camera.jpeg_quality, exif=exif)
     return buffer.getvalue()

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
+from PIL.ExifTags import IFD, Base
+
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.tiff import has_short_tags
 from occ_model.results.frame import ENHANCED
@@ -16,15 +18,6 @@ from occ_model.scene.parameters.camera import DIAGONAL_35MM
 if TYPE_CHECKING:
     from PIL.Image import Exif, Image as PillowImage
 
-EXIF_IFD = 0x8769
-_DESCRIPTION, _MAKE, _MODEL, _ORIENTATION = 0x010E, 0x010F, 0x0110, 0x0112
-EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
-_SHUTTER_SPEED_APEX, _APERTURE_APEX = 0x9201, 0x9202
-_ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
-
-FOCAL_LENGTH, EQUIVALENT_FOCAL_LENGTH = 0x920A, 0xA405
-_WIDTH, _HEIGHT = 0xA002, 0xA003
-_X_RESOLUTION, _Y_RESOLUTION, _RESOLUTION_UNIT = 0xA20E, 0xA20F, 0xA210
 _UNITS = {2.0: 25.4e-3, 3.0: 1e-2, 4.0: 1e-3}
 """Length in metres of the unit of the sensor's resolution, by its tag's value."""
 
@@ -63,8 +56,8 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
     with suppress(Exception):
         exif = _exif_of(picture)
         tags = dict(exif)
-        title = _text(picture.info.get("Description") or tags.get(_DESCRIPTION))
-        tags |= exif.get_ifd(EXIF_IFD)
+        title = _text(picture.info.get("Description") or tags.get(Base.ImageDescription))
+        tags |= exif.get_ifd(IFD.Exif)
     enhancement = title.removeprefix(ENHANCED) if title.startswith(ENHANCED) else None
     return replace(notes_of(tags), enhancement=enhancement)
 
@@ -73,12 +66,12 @@ def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
     """Return the camera's notes from the values of EXIF tags, by the tags' numbers."""
     focal_length, step = _focal_length(tags)
     return CameraNotes(
-        exposure_time=_check_range("exposure_time", _number(tags.get(EXPOSURE_TIME)))
-        or _check_range("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
-        f_number=_check_range("f_number", _number(tags.get(F_NUMBER)))
-        or _check_range("f_number", _power_of_two(tags.get(_APERTURE_APEX), 0.5)),
+        exposure_time=_check_range("exposure_time", _number(tags.get(Base.ExposureTime)))
+        or _check_range("exposure_time", _power_of_two(tags.get(Base.ShutterSpeedValue), -1.0)),
+        f_number=_check_range("f_number", _number(tags.get(Base.FNumber)))
+        or _check_range("f_number", _power_of_two(tags.get(Base.ApertureValue), 0.5)),
         iso=_iso(tags),
-        camera=_camera(_text(tags.get(_MAKE)), _text(tags.get(_MODEL))),
+        camera=_camera(_text(tags.get(Base.Make)), _text(tags.get(Base.Model))),
         equivalent_focal_length=focal_length,
         focal_length_step=step,
     )
@@ -88,7 +81,7 @@ def orientation_of(picture: "PillowImage") -> int:
     """Return the EXIF orientation, 1 to 8, that the decoder has not applied."""
     orientation: object = 1
     with suppress(Exception):
-        orientation = _exif_of(picture).get(_ORIENTATION)
+        orientation = _exif_of(picture).get(Base.Orientation)
     return orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1
 
 
@@ -103,6 +96,7 @@ def _exif_of(picture: "PillowImage") -> "Exif":
 
 
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
+    """Return whether to transpose a picture, and then to mirror its rows and its columns."""
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)
     return orientation >= _FIRST_TRANSPOSED, mirror_rows, mirror_columns
@@ -110,10 +104,10 @@ def turns_of(orientation: int) -> tuple[bool, bool, bool]:
 
 def _focal_length(tags: Mapping[int, Any]) -> tuple[float | None, float]:
     """Return the equivalent focal length and its step, as noted or by the sensor's size."""
-    noted = _number(tags.get(EQUIVALENT_FOCAL_LENGTH))
+    noted = _number(tags.get(Base.FocalLengthIn35mmFilm))
     if noted and (equivalent := _check_range("equivalent_focal_length", noted / 1e3)):
         return equivalent, 1e-3
-    focal_length, diagonal = _number(tags.get(FOCAL_LENGTH)), _sensor_diagonal(tags)
+    focal_length, diagonal = _number(tags.get(Base.FocalLength)), _sensor_diagonal(tags)
     if focal_length is None or diagonal is None or not math.isfinite(focal_length):
         return None, 0.0
     steps = [10.0**-n for n in range(_DECIMALS + 1)]
@@ -129,10 +123,13 @@ def _focal_length(tags: Mapping[int, Any]) -> tuple[float | None, float]:
 
 def _sensor_diagonal(tags: Mapping[int, Any]) -> float | None:
     """Return the sensor's diagonal in metres, by its pixels and its resolution."""
-    unit = _UNITS.get(_number(tags.get(_RESOLUTION_UNIT, 2)) or 0.0)
+    unit = _UNITS.get(_number(tags.get(Base.FocalPlaneResolutionUnit, 2)) or 0.0)
     width, height, horizontal, vertical = (
-        _number(tags.get(tag)) or 0.0 for tag in (_WIDTH, _HEIGHT, _X_RESOLUTION, _Y_RESOLUTION)
-    )
+        _number(tags.get(tag)) or 0.0 for tag in (
+            Base.ExifImageWidth, Base.ExifImageHeight,
+            Base.FocalPlaneXResolution, Base.FocalPlaneYResolution,
+        )
+    )  # fmt: skip
     is_sensible = min(width, height) >= 1.0 and 0.0 < horizontal < math.inf
     if (
         unit is None
@@ -144,10 +141,11 @@ def _sensor_diagonal(tags: Mapping[int, Any]) -> float | None:
 
 
 def _iso(tags: Mapping[int, Any]) -> float | None:
-    noted = _check_range("iso", _number(tags.get(ISO)))
+    noted = _check_range("iso", _number(tags.get(Base.ISOSpeedRatings)))
     if noted is not None and noted != _ISO_OR_MORE:
         return noted
-    for tag in (_ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT):
+    others = Base.ISOSpeed, Base.RecommendedExposureIndex, Base.StandardOutputSensitivity
+    for tag in others:
         speed = _check_range("iso", _number(tags.get(tag)))
         if speed is not None:
             return speed

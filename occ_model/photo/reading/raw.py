@@ -18,6 +18,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL.ExifTags import IFD, Base
 
 from occ_model.arrays import BoolArray, IndexArray
 from occ_model.camera.pixel_arrays import Samples
@@ -28,14 +29,7 @@ from occ_model.photo.reading.dng import (
     has_sensor_samples,
     is_jpeg_xl,
 )
-from occ_model.photo.reading.exif import (
-    EXIF_IFD,
-    EXPOSURE_TIME,
-    F_NUMBER,
-    ISO,
-    CameraNotes,
-    notes_of,
-)
+from occ_model.photo.reading.exif import CameraNotes, notes_of
 from occ_model.photo.reading.image_decoding import DECODED_FRACTION
 from occ_model.photo.reading.levels import Levels
 from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
@@ -219,9 +213,9 @@ def _make_mosaic(name: str, file: IO[bytes], raw: "RawPy", tags: dict[int, Any])
         )
     metadata = raw.other
     tags_of_metadata = {
-        EXPOSURE_TIME: metadata.shutter_speed,
-        F_NUMBER: metadata.aperture,
-        ISO: metadata.iso_speed,
+        Base.ExposureTime: metadata.shutter_speed,
+        Base.FNumber: metadata.aperture,
+        Base.ISOSpeedRatings: metadata.iso_speed,
     }
     return Mosaic(
         photosites=photosites.copy(),
@@ -273,7 +267,7 @@ def _tags_of(file: IO[bytes]) -> dict[int, Any]:
         exif = Image.Exif()
         exif.load_from_fp(file)
         tags = dict(exif)
-        tags |= exif.get_ifd(EXIF_IFD)
+        tags |= exif.get_ifd(IFD.Exif)
     return tags
 
 

@@ -15,7 +15,7 @@ from PIL.TiffImagePlugin import IFDRational
 from occ_model.photo.reading.exif import camera_notes, notes_of
 from occ_model.photo.reading.load import Photo, load_photo
 
-EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
+EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827  # as in CIPA DC-008, and not as Pillow's
 SHUTTER_SPEED, APERTURE, ISO_SPEED, ISO_RECOMMENDED = 0x9201, 0x9202, 0x8833, 0x8832
 MAKE, MODEL = 0x010F, 0x0110
 

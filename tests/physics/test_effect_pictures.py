@@ -149,15 +149,6 @@ def test_the_signal_is_the_mean_of_the_panels_enhanced_pixels(
     np.testing.assert_allclose(frame.signal[seen], means, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
-def test_with_column_effects_only_the_signal_is_the_enhanced_profile(
-    scene: Scene, enhancement: str
-) -> None:
-    force = {name: name in COLUMN_EFFECTS for name in NAMES}
-    frame = occ.render(whole(scene).replace(roll=0.3, enhancement=enhancement), force=force)
-    np.testing.assert_array_equal(frame.signal, enhance(frame.profile, enhancement))
-
-
 @pytest.mark.parametrize("changes", [{"illuminance": 0.0}, {"iso": 6400.0, "luminance": 370.0}])
 def test_the_profile_is_the_mean_of_noisy_clipped_pixels(
     scene: Scene, changes: dict[str, float]
@@ -167,9 +158,13 @@ def test_the_profile_is_the_mean_of_noisy_clipped_pixels(
     np.testing.assert_allclose(frame.profile, frame.image.mean(axis=0), rtol=0, atol=0.5)
 
 
-@pytest.mark.parametrize("roll", [0.0, 0.3])
-def test_column_effects_alone_leave_the_profile_to_the_columns(scene: Scene, roll: float) -> None:
-    complete = whole(scene).replace(roll=roll)
+@pytest.mark.parametrize(
+    ("roll", "enhancement"), [(0.0, "none"), (0.3, "stretch"), (0.3, "equalization")]
+)
+def test_column_effects_alone_leave_profile_and_signal_to_the_columns(
+    scene: Scene, roll: float, enhancement: str
+) -> None:
+    complete = whole(scene).replace(roll=roll, enhancement=enhancement)
     force = {name: name in COLUMN_EFFECTS for name in NAMES}
     frame = occ.render(complete, force=force)
     assert set(frame.plan.included) == COLUMN_EFFECTS
@@ -177,6 +172,7 @@ def test_column_effects_alone_leave_the_profile_to_the_columns(scene: Scene, rol
     light = Flicker().apply(complete, LedEdges().apply(complete, ColumnLight.of(complete)))
     columns = FullWell().apply(complete, panel_values(complete, light))
     np.testing.assert_array_equal(frame.profile, np.minimum(columns, 255.0))
+    np.testing.assert_array_equal(frame.signal, enhance(frame.profile, enhancement))
     first, last = row_spans(frame.corners, ROWS, COLUMNS)
     for row in range(0, ROWS, 7):
         span = slice(first[row], last[row])

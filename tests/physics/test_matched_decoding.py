@@ -64,8 +64,6 @@ def test_the_code_book_holds_the_forward_model_of_every_code() -> None:
         np.testing.assert_allclose(
             templates.profiles(np.array([code]))[0], lit_fraction(scene), atol=1e-9
         )
-        about_mean = lit_fraction(scene) - lit_fraction(scene).mean()
-        assert templates.energy[code] == pytest.approx(about_mean @ about_mean)
 
 
 def _correlations(signal: FloatArray, templates: CodeTemplates, codes: IndexArray) -> FloatArray:
@@ -93,41 +91,23 @@ def _signals(templates: CodeTemplates, rng: np.random.Generator) -> list[FloatAr
     return [profile, profile + np.ptp(profile) * noise, noise]
 
 
-@pytest.mark.parametrize("bits", range(2, 11, amount(2, 1)))
-def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> None:
+@pytest.mark.parametrize("bits", [*range(2, 11, amount(2, 1)), 16])
+def test_no_code_that_correlates_better_is_missed(bits: int) -> None:
     rng = np.random.default_rng(bits)
-    every = np.arange(2**bits)
-    for exposure in _exposures(bits):
+    # Of 16 bits, a sample of the codes beside those that are found.
+    codes = np.arange(2**bits) if bits <= 10 else rng.integers(0, 2**bits, 2000)
+    for exposure in _exposures(bits)[1 :: amount(4, 1)] if bits == 16 else _exposures(bits):
         templates = make_code_templates(bits, exposure)
         for signal in _signals(templates, rng):
             found, phases = find_most_likely(signal, templates)
-            correlations = _correlations(signal, templates, every)
+            assert len(set(found.tolist())) == len(found) == min(16, 2**bits)
+            correlations = _correlations(signal, templates, found)
             largest = correlations.max(axis=1)
-            # Codes that tie may be exchanged, but none with a better correlation may be missing.
-            assert len(set(found.tolist())) == len(found) == min(16, len(every))
-            limit = 1e-7 * abs(largest).max()
-            np.testing.assert_allclose(correlations[found, phases], largest[found], atol=limit)
-            np.testing.assert_allclose(
-                np.sort(largest[found]), np.sort(largest)[-len(found) :], atol=limit
-            )
-
-
-@pytest.mark.parametrize("exposure", _exposures(16)[1 :: amount(4, 1)])
-def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> None:
-    rng = np.random.default_rng(16)
-    templates = make_code_templates(16, exposure)
-    sample = rng.integers(0, 2**16, 2000)
-    for signal in _signals(templates, rng):
-        found, phases = find_most_likely(signal, templates)
-        correlations = _correlations(signal, templates, found)
-        limit = 1e-7 * abs(correlations).max()
-        np.testing.assert_allclose(
-            correlations[range(16), phases], correlations.max(axis=1), atol=limit
-        )
-        others = sample[~np.isin(sample, found)]
-        assert (
-            _correlations(signal, templates, others).max() <= correlations.max(axis=1).min() + limit
-        )
+            limit = 1e-7 * abs(largest).max()  # codes that tie may be exchanged
+            at_phases = correlations[range(len(found)), phases]
+            np.testing.assert_allclose(at_phases, largest, atol=limit)
+            others = _correlations(signal, templates, codes[~np.isin(codes, found)])
+            assert others.max(initial=-np.inf) <= largest.min() + limit
 
 
 @pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))

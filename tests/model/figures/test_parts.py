@@ -1,7 +1,6 @@
 """Parts of figures: ticks, ends of axes, legends, and names."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -28,8 +27,9 @@ from occ_model.scene.scene import Scene
 def test_a_profile_begins_with_the_first_column_whose_middle_shows_the_panel(
     left: float, first: int
 ) -> None:
-    frame = SimpleNamespace(corners=np.array([[left, 2.0], [300.0, 2.0]]), profile=np.zeros(4000))
-    shown, end = choose_columns(Scene(), frame)  # type: ignore[arg-type]
+    frame = occ.render(Scene().replace(rows=20, columns=4000), tolerance=np.inf)
+    frame = replace(frame, corners=np.array([[left, 2.0], [300.0, 2.0]]))
+    shown, end = choose_columns(frame.scene, frame)
     assert shown == first
     assert first < end <= 4000
 

@@ -2,7 +2,6 @@
 
 import math
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -73,11 +72,10 @@ def test_bits_a_second_are_the_bits_read_over_the_films_length(
         for number, (bits, w) in enumerate(kinds)
     ]
     sent = SentPackets((FilmPart(0.0, duration, len(packets)),), tuple(packets))
-    film = SimpleNamespace(duration=duration, packets=sent)
-    assert VideoReading.bits_per_second.fget(film) == rate  # type: ignore[attr-defined]
-    # The two right ones are repeats in one frame.
-    net: float = VideoReading.net_bits_per_second.fget(film)  # type: ignore[attr-defined]
-    assert net == rate / 2.0
+    none = np.zeros(0, dtype=np.uint8)
+    film = VideoReading((), sent, None, none, none > 0, "", 1.0, None, duration, None)
+    assert film.bits_per_second == rate
+    assert film.net_bits_per_second == rate / 2.0  # the two right ones are repeats in one frame
 
 
 _BITS = np.zeros(8, dtype=np.uint8)

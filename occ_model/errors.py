@@ -172,6 +172,11 @@ def inflect(number: float, noun: str) -> str:
     return f"{text} {noun}{'s' * (text != '1')}"
 
 
+def capitalize(text: str) -> str:
+    """Begin a text with a capital; ``str.capitalize`` would also change the other letters."""
+    return text[:1].upper() + text[1:]
+
+
 def distinct_texts(value: float, limit: float, digits: int = 1) -> tuple[str, str]:
     """Format two numbers with ``digits`` decimals, or as many more as distinguish them."""
     texts = ((f"{value:.{count}f}", f"{limit:.{count}f}") for count in range(digits, 18))

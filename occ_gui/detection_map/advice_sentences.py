@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from occ_model.errors import capitalize
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limit_text import (
     end_text,
@@ -106,7 +107,7 @@ def make_answer(found: Sequence[Advice], sought: Sequence[str]) -> tuple[str, st
     if found:
         exposure = float(found[0].limits.scene.value("exposure_time"))
         text = f"at {format_value('exposure_time', exposure)} {text}"
-    return f"{text[:1].upper()}{text[1:]}." if text else "", " ".join(intervals)
+    return f"{capitalize(text)}." if text else "", " ".join(intervals)
 
 
 def describe_outdated(parameters: frozenset[str]) -> str:
@@ -143,8 +144,7 @@ def _make_title(limits: Limits) -> str:
 
 
 def _make_line(parameter: str, up_to: str, end: RangeEnd) -> AdviceLine:
-    detail = end_text(parameter, end)
-    detail = f"{detail[:1].upper()}{detail[1:]}"
+    detail = capitalize(end_text(parameter, end))
     text = f"It reads {up_to} {limit_text(parameter, end)}"
     if not end.is_sure:
         return AdviceLine(f"{text}; no value within is sure to be read.", detail=detail)

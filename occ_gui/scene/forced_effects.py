@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.state_look import Badge, State
-from occ_model.errors import inflect
+from occ_model.errors import capitalize, inflect
 from occ_model.scene.scene import SimulationSettings, unit_of
 
 _MOST_NAMED = 1  # switched effects that a badge names
@@ -30,8 +30,7 @@ def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
 def describe_accuracy(settings: SimulationSettings, labels: Mapping[str, str]) -> str:
     """Describe how the accuracy differs from that of a new window; empty if it does not."""
     texts = (_tolerance_text(settings), forced_text(settings.force, labels))
-    listed = ", ".join(text for text in texts if text)
-    return f"{listed[:1].upper()}{listed[1:]}"
+    return capitalize(", ".join(text for text in texts if text))
 
 
 def _tolerance_text(settings: SimulationSettings) -> str:

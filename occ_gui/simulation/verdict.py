@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
-from occ_model.errors import one_line
+from occ_model.errors import capitalize, one_line
 from occ_model.results.bands import NO_BARS_DEPTH, ROUNDING_DEPTH, depth_text, format_depth
 from occ_model.results.decoding import Cause, DecodeResult, symptom
 from occ_model.scene.light_words import describe_light
@@ -33,8 +33,7 @@ class CodeVerdict:
         parts = _CLAUSE_END.split(self.reason, maxsplit=1)
         if self.state is not State.BAD or len(parts) < 2:
             return self.reason
-        rest = parts[1].strip()
-        return rest[:1].upper() + rest[1:]
+        return capitalize(parts[1].strip())
 
     @property
     def heading(self) -> str:
@@ -99,8 +98,7 @@ def describe_code(decoded: DecodeResult) -> str:
 def describe_bars(reading: ColumnView) -> tuple[str, str]:
     """Describe the light and the bars in its picture, as a title and an explanation."""
     scene, bars = reading.scene, reading.bars
-    light = describe_light(scene.transmitter)
-    title = f"{light[:1].upper()}{light[1:]}"
+    title = capitalize(describe_light(scene.transmitter))
     if bars is None:
         return title, ""
     depth = depth_text(bars.peak_to_peak)

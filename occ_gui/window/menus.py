@@ -14,7 +14,7 @@ from occ_gui.widgets.plain_text import LONGEST_TEXT, in_menu, in_tool_tip
 from occ_gui.window import menu_entries as entries
 from occ_gui.window.menu_entries import Entry
 from occ_gui.window.theme import THEMES
-from occ_model.errors import one_line
+from occ_model.errors import capitalize, one_line
 from occ_model.photo.reading.choices import SCAN_AXES
 
 _SEARCH_WORDS = "search_words"  # name of an action's property
@@ -193,8 +193,7 @@ def search_words(action: QAction) -> str:
 def words_of(name: str) -> str:
     """Write a file's name in words: ``led-1khz`` as LED 1 kHz."""
     words = re.sub(r"(\d)(k?)hz\b", r"\1 \2Hz", name.replace("-", " "))
-    words = re.sub(r"\bled\b", "LED", words)
-    return words[:1].upper() + words[1:]
+    return capitalize(re.sub(r"\bled\b", "LED", words))
 
 
 def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], None]) -> None:

@@ -18,14 +18,15 @@ from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.scene.units import LEVEL
 
-_MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "v"), strict=True))
-_COLOURS = dict(
-    zip(
+_STYLES: dict[str, dict[str, Any]] = {
+    part: {"color": colour, "marker": marker, "markersize": 4}
+    for part, colour, marker in zip(
         ACCURACY_PARTS,
         (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION),
+        ("o", "s", "^", "v"),
         strict=True,
     )
-)
+}
 
 _NAME_PLACES = [(side, height) for height in (4, -9, 11, -16) for side in (6, -6)]
 """Offsets in points of a name from its data point, in the order in which they are tried."""
@@ -93,12 +94,11 @@ def _place_names(figure: Figure, ax: Axes, names: Sequence[Annotation]) -> None:
 
 
 def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> list[Annotation]:
-    style: dict[str, Any] = {"color": _COLOURS[part], "marker": _MARKERS[part], "markersize": 4}
     times = [1e3 * point.seconds for point in points]
     errors = [max(point.error, LEAST_ERROR) for point in points]
     line = "-" if part in CHAINED_PARTS else ""
-    ax.plot(times[:-1], errors[:-1], linestyle=line, linewidth=0.7, **style)
-    ax.plot(times[-1:], errors[-1:], linestyle="", label=ACCURACY_PARTS[part], **style)
+    ax.plot(times[:-1], errors[:-1], linestyle=line, linewidth=0.7, **_STYLES[part])
+    ax.plot(times[-1:], errors[-1:], linestyle="", label=ACCURACY_PARTS[part], **_STYLES[part])
     names: list[Annotation] = []
     for number, (point, x, y) in enumerate(zip(points, times, errors, strict=True)):
         is_last = number == len(points) - 1  # the closed form is the last of the integrations

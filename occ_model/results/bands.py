@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
+from occ_model.errors import capitalize
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, PERCENT, SECOND
 
@@ -191,7 +192,7 @@ class BandAdvice:
             if valley
         ]
         text = "; ".join(vanishing_bars) or "nothing blinks: no exposure shows bars"
-        return f"{text[:1].upper()}{text[1:]}."
+        return f"{capitalize(text)}."
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from occ_model.errors import capitalize
 from occ_model.results.bands import (
     NO_BARS_DEPTH,
     ROUNDING_DEPTH,
@@ -141,7 +142,7 @@ class BarsAnswer:
         if not self.valley:
             return ()
         lines = [
-            f"{self.lamp[:1].upper()}{self.lamp[1:]}: its bars vanish at whole multiples of "
+            f"{capitalize(self.lamp)}: its bars vanish at whole multiples of "
             f"{SECOND.format(self.valley, _DIGITS)}, and at no shorter time."
         ]
         if not self.speeds and self.best and self.shows_bars:

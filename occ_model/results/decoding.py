@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.errors import capitalize
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.units import PERCENT
 
@@ -174,7 +175,7 @@ class Cause:
     is_overexposed: bool = False
 
     def __str__(self) -> str:
-        return f"{self.what[:1].upper()}{self.what[1:]}. {self.why}"
+        return f"{capitalize(self.what)}. {self.why}"
 
 
 _SYMPTOM_END = re.compile(r"[:;.](?= |$)")

@@ -8,9 +8,8 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Observable, Scene, unit_of
 
-Stage: TypeAlias = Literal[
-    "light", "optics", "sensor", "processing"
-]  # in the order of the path of light
+# In the order of the light's path
+Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """Say a match in one sentence: what was sent, what the camera does, and how sure that is."""
 
+from occ_model.errors import capitalize
 from occ_model.results.match import ESTIMATES, Match
 from occ_model.results.photo_table import SURE
 from occ_model.scene.parameter_kinds import Quantity
@@ -45,7 +46,7 @@ def describe_match(match: Match, condition: str = "") -> str:
         facts += light
     facts.append(f"{match.verdict}{' otherwise' * match.only_exposure_is_doubtful}")
     sentence = "; ".join(facts)
-    return f"{sentence[0].upper()}{sentence[1:]}."
+    return f"{capitalize(sentence)}."
 
 
 def _value(match: Match, name: str) -> str:

@@ -7,6 +7,7 @@ computer, and predicted from the parts of those where there is none yet.
 import math
 from collections.abc import Sequence
 
+from occ_model.errors import capitalize
 from occ_model.results.accuracy import (
     Forecast,
     MeasuredCosts,
@@ -54,14 +55,12 @@ def state_saving(costs: MeasuredCosts, forecast: Forecast) -> str:
     plan = forecast.plan
     omitted = _list_omitted(plan)
     if not omitted:
-        return (
-            f"{_capitalize(state_error(forecast))}. {_state_best_saving(costs, forecast)}".strip()
-        )
+        return f"{capitalize(state_error(forecast))}. {_state_best_saving(costs, forecast)}".strip()
     now = costs.times_with(plan.included)
     complete = costs.times_with(_present(plan))
     names = f"left out: {', '.join(d.label for d in omitted)}; {state_error(forecast)}."
     if complete is None:
-        return _capitalize(names)
+        return capitalize(names)
     place = _state_tolerance(plan, omitted)
     if now is None:
         if forecast.seconds is None:
@@ -173,7 +172,3 @@ def _state_tolerance(plan: Plan, omitted: Sequence[Decision]) -> str:
     if math.isinf(plan.tolerance):
         return "Without effects"
     return f"At {format_levels(plan.tolerance)} {plan.unit}"
-
-
-def _capitalize(sentence: str) -> str:
-    return sentence[:1].upper() + sentence[1:]

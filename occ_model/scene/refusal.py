@@ -1,6 +1,6 @@
 """Sentences about refused values that name a parameter by its label on screen."""
 
-from occ_model.errors import OccError, ParameterError
+from occ_model.errors import OccError, ParameterError, capitalize
 from occ_model.scene.parameters import PARAMETERS
 
 _CANNOT = {"is": "cannot be", "has": "cannot have"}
@@ -25,4 +25,4 @@ def refusal_of(error: OccError) -> str:
         return f"Refused: {sentence_with_label(error)}"
     declared = PARAMETERS.get(refused.parameter)
     label = refused.parameter.replace("_", " ") if declared is None else declared.label
-    return refused.sentence(f"{label[:1].upper()}{label[1:]}", _CANNOT[refused.verb])
+    return refused.sentence(capitalize(label), _CANNOT[refused.verb])

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def plan_with_colour(
     before = [d for d in plan.decisions if d.effect != Jpeg.name]
     decisions = tuple(
         decision
-        for stage in ("light", "optics", "sensor", "processing")
+        for stage in get_args(Stage)
         for decision in (*before, *made)
         if decision.stage == stage
     )

@@ -68,8 +68,8 @@ class Application(Parts):
         window.menus.show_samples(sample_photos(), self.files.open_sample)
         self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.pins.both_pinned.connect(self._show_comparison)
-        story.verdict.lesson_wanted.connect(self._show_lesson)
-        story.verdict.colours_wanted.connect(lambda: window.bring_to_front("colour"))
+        story.verdict.lesson_requested.connect(self._show_lesson)
+        story.verdict.colours_requested.connect(lambda: window.bring_to_front("colour"))
         self.background_rates.rate_changed.connect(story.verdict.show_rate)
         self._connect_strips()
         window.modes.changed.connect(self._show_bars)
@@ -92,7 +92,7 @@ class Application(Parts):
         photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)
         self.document.photo_named.connect(window.show_photo)
-        self.files.pane_wanted.connect(window.bring_to_front)
+        self.files.pane_requested.connect(window.bring_to_front)
         menus.scan_axes.triggered.connect(lambda action: photos.set_scan_axis(action.data()))
         scan_axis = self.store.store.select(
             lambda workspace: workspace.photo.load_options.scan_axis

@@ -31,9 +31,9 @@ class LessonsInWindow(QObject):
             return
         pane.noted.connect(self.noted)
         lessons = pane.controller
-        lessons.pane_wanted.connect(self._show_pane_of_step)
+        lessons.pane_requested.connect(self._show_pane_of_step)
         lessons.columns_held.connect(self.columns_held)
-        lessons.action_wanted.connect(self._carry_out)
+        lessons.action_requested.connect(self._carry_out)
 
     def _carry_out(self, action: str) -> None:
         self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()

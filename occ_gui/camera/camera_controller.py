@@ -50,7 +50,7 @@ class CameraController(Service):
             self.dialog, "Choose two pictures of a lit wall", self._preferences.folder, PHOTO_KINDS
         )
         if names:
-            self._preferences.visit(Path(names[0]))
+            self._preferences.remember_folder(Path(names[0]))
             self.measure([Path(name) for name in names])
 
     def measure(self, paths: Sequence[Path]) -> None:

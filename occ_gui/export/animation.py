@@ -40,7 +40,7 @@ class AnimationExport(Service):
             _write, "animation", bar, "The animation was cancelled."
         )
         self.tasks = (self.writer.task,)
-        self.writer.written.connect(preferences.visit_export)
+        self.writer.written.connect(preferences.remember_export_folder)
         self.writer.status_message.connect(self.status_message)
 
     def ask(self, name: str) -> None:

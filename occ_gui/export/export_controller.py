@@ -226,14 +226,14 @@ class ExportController(Service):
     def _report(self, result: ExportResult) -> None:
         job = result.job
         if job.folder is not None:
-            self._preferences.visit_export(job.folder / "figure")
+            self._preferences.remember_export_folder(job.folder / "figure")
             message = (
                 f"Exported {inflect(len(result.files), 'file')} into {one_line(job.folder.name)}."
             )
             omissions = f"Left out: {self._omissions}"
             self.status_message.emit(f"{message} {omissions}" if self._omissions else message)
         elif job.path is not None:
-            self._preferences.visit_export(job.path)
+            self._preferences.remember_export_folder(job.path)
             self.status_message.emit(
                 f"Exported {one_line(job.path.name)} into "
                 f"{one_line(str(job.path.absolute().parent))}"

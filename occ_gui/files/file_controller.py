@@ -65,7 +65,7 @@ class FileController(QObject):
     failed = Signal(str)  # why a file was not opened or saved
     scene_opened = Signal(Path)
 
-    pane_wanted = Signal(str)  # the pane of the photo or photos that were opened
+    pane_requested = Signal(str)  # the pane of the photo or photos that were opened
 
     film_requested = Signal(Path)
     film_save_requested = Signal(Path)
@@ -108,7 +108,7 @@ class FileController(QObject):
     def ask_to_save_film(self) -> None:
         kinds = "Films (*.mkv *.mp4 *.gif *.png)"
         if path := self._ask_for_name("Save the simulated film", "film.mkv", kinds):
-            self._preferences.visit(path)
+            self._preferences.remember_folder(path)
             self.film_save_requested.emit(path)
 
     def ask_for_scene(self) -> None:
@@ -127,7 +127,7 @@ class FileController(QObject):
 
     def open_photo(self, path: Path) -> None:
         self._photos.open(path)
-        self.pane_wanted.emit("photo")
+        self.pane_requested.emit("photo")
 
     def open_recent(self, path: Path) -> None:
         """Open a recent file; remove it from the list if it no longer exists."""
@@ -162,7 +162,7 @@ class FileController(QObject):
             self.open_film(path)
         if len(photos) > 1:
             self._photos.list_files(photos)
-            self.pane_wanted.emit("photos")
+            self.pane_requested.emit("photos")
         opened = (*scenes[:1], *photos[:1], *films[:1])
         names = [one_line(path.name) for path in opened]
         if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):
@@ -229,7 +229,7 @@ class FileController(QObject):
         except OccError as error:
             self.failed.emit(str(error))
             return False
-        self._preferences.visit(path)
+        self._preferences.remember_folder(path)
         self.status_message.emit(
             f"Saved {one_line(path.name)}{f': the {content}' if content else ''}"
         )

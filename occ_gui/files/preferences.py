@@ -59,7 +59,7 @@ class Preferences(QObject):
     def add(self, path: Path) -> None:
         """Add to the recent files, and store the folder."""
         path = path.absolute()
-        self.visit(path)
+        self.remember_folder(path)
         others = (other for other in self.files if other != path)
         self._keep((path, *others)[:MOST_RECENT])
 
@@ -69,13 +69,13 @@ class Preferences(QObject):
     def clear(self) -> None:
         self._keep(())
 
-    def visit(self, path: Path) -> None:
-        self._visit(_FOLDER, path)
+    def remember_folder(self, path: Path) -> None:
+        self._remember(_FOLDER, path)
 
-    def visit_export(self, path: Path) -> None:
-        self._visit(_EXPORTS, path)
+    def remember_export_folder(self, path: Path) -> None:
+        self._remember(_EXPORTS, path)
 
-    def _visit(self, key: str, path: Path) -> None:
+    def _remember(self, key: str, path: Path) -> None:
         folder = self._folders[key] = path.absolute().parent
         self._write(key, text_of(folder))
 

@@ -36,14 +36,18 @@ class LessonController(QObject):
     """
 
     status_message = Signal(str)  # the reason why a step is incomplete
-    pane_wanted = Signal(str)  # the name of the pane that a step refers to; empty for none
-    control_wanted = Signal(str)  # the name of the parameter that a step is about; empty for none
+    pane_requested = Signal(str)  # the name of the pane that a step refers to; empty for none
+    control_requested = Signal(
+        str
+    )  # the name of the parameter that a step is about; empty for none
 
     columns_held = Signal(object)
     """Number of columns that a step keeps in view, so that changes are visible; None: usual."""
 
-    equation_wanted = Signal(str)  # the name of the equation that explains a step; empty for none
-    action_wanted = Signal(str)  # the name of the action that the button of a step starts
+    equation_requested = Signal(
+        str
+    )  # the name of the equation that explains a step; empty for none
+    action_requested = Signal(str)  # the name of the action that the button of a step starts
 
     report_asked = Signal(Lesson)
 
@@ -118,7 +122,7 @@ class LessonController(QObject):
             return
         self._places[name] = count
         self._ended_lesson, self.current = self.current, None
-        self.control_wanted.emit("")
+        self.control_requested.emit("")
         self.restore_user()
         self._show_end(self._ended_lesson)
 
@@ -145,7 +149,7 @@ class LessonController(QObject):
     def leave(self) -> None:
         """End the lesson and return to the list; the step reached is kept."""
         self.current = self._ended_lesson = None
-        self.control_wanted.emit("")
+        self.control_requested.emit("")
         self.restore_user()
         self._list_lessons()
 
@@ -169,7 +173,7 @@ class LessonController(QObject):
         self.columns_held.emit(None)
         if user is not None:
             self._store.put(user, "end of the lesson", new_gesture())
-            self.pane_wanted.emit("")
+            self.pane_requested.emit("")
 
     def reset_step(self) -> None:
         if self.current is not None:
@@ -183,9 +187,9 @@ class LessonController(QObject):
         step = lesson.steps[place]
         self._view.step.show_step(lesson, place, self._answers.find_answer(lesson, place))
         self._view.setCurrentWidget(self._view.step)
-        self.equation_wanted.emit(step.equation)
+        self.equation_requested.emit(step.equation)
         self._set_step(lesson, place)
-        self.control_wanted.emit(step.control)
+        self.control_requested.emit(step.control)
         self._follow_scene()
 
     def _set_step(self, lesson: Lesson, place: int) -> None:
@@ -208,7 +212,7 @@ class LessonController(QObject):
         self.columns_held.emit(PACKETS_IN_VIEW * period)
         if step.photo and photo.path is None:
             self.status_message.emit(f"The photo {step.photo} is missing.")
-        self.pane_wanted.emit(step.pane)
+        self.pane_requested.emit(step.pane)
 
     def _choose_photo(self, step: LessonStep, user_photo: PhotoChoice) -> PhotoChoice:
         """Return the photo of a step: the sample that it names, the user's own, or none."""
@@ -232,7 +236,7 @@ class LessonController(QObject):
 
     def _request_control(self) -> None:
         step = self._current_step()
-        self.control_wanted.emit("" if step is None else step.control)
+        self.control_requested.emit("" if step is None else step.control)
 
     def _follow_scene(self) -> None:
         step = self._current_step()
@@ -275,7 +279,7 @@ class LessonController(QObject):
     def _ask_action(self) -> None:
         step = self._current_step()
         if step is not None:
-            self.action_wanted.emit(step.action)
+            self.action_requested.emit(step.action)
 
     def _ask_report(self) -> None:
         if self._ended_lesson is not None:

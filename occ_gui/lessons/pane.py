@@ -60,7 +60,7 @@ class LessonReports(QObject):
             self.task.ask(partial(_write, path, lesson, steps, self.author))
 
     def _announce(self, path: Path) -> None:
-        self._preferences.visit_export(path)
+        self._preferences.remember_export_folder(path)
         self.status_message.emit(f"Saved {one_line(path.name)}")
 
 
@@ -97,8 +97,8 @@ class LessonPane(Pane[None]):
         )
         self.spotlight = Spotlight(controls)
         self._equations = EquationController(scenes, view.step.equation.show_equations)
-        self.controller.control_wanted.connect(self.spotlight.show_only)
-        self.controller.equation_wanted.connect(self._equations.show_only)
+        self.controller.control_requested.connect(self.spotlight.show_only)
+        self.controller.equation_requested.connect(self._equations.show_only)
         self.controller.report_asked.connect(self._write_report)
         view.step.equation_shown.connect(self._equations.set_visible)
         view.list.folder_asked.connect(self.open_folder)

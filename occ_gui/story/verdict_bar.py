@@ -114,8 +114,8 @@ class VerdictBar(StateBar):
 
     step_chosen = Signal(object)
     """The user takes the step that helps, a :class:`~occ_model.results.decoding.Remedy`."""
-    lesson_wanted = Signal(str)  # the user asks for the lesson on what is shown, by its name
-    colours_wanted = Signal()  # the user asks for all three colours of a colour camera
+    lesson_requested = Signal(str)  # the user asks for the lesson on what is shown, by its name
+    colours_requested = Signal()  # the user asks for all three colours of a colour camera
 
     def __init__(self) -> None:
         super().__init__()
@@ -213,9 +213,9 @@ class VerdictBar(StateBar):
             why = f"{cause.why} {symptom(verdict.reason)}".strip()
             return [f"{verdict_in_short}: {cause.what}", why, cause.why, symptom(cause.why)]
         if self._colour:
-            self._offer("Three colours", self.colours_wanted.emit, _COLOURS_TIP)
+            self._offer("Three colours", self.colours_requested.emit, _COLOURS_TIP)
         elif _is_averaged(verdict, reading) and not (self._is_outdated or self._running_value):
-            self._offer("Lesson", lambda: self.lesson_wanted.emit(AVERAGES_LESSON), _LESSON_TIP)
+            self._offer("Lesson", lambda: self.lesson_requested.emit(AVERAGES_LESSON), _LESSON_TIP)
         # While the cause is being searched for, the heading names no symptom.
         heading = verdict.title if reading.causes is None else verdict.heading
         return [heading + _describe_error(verdict, reading), *self._explain(verdict, reading)]

@@ -166,7 +166,7 @@ class TransmitterController(Service):
             self.saving.ask(SaveJob(self._transmission, parent))
 
     def _report_files(self, saved: SavedFiles) -> None:
-        self._preferences.visit(saved.folder)
+        self._preferences.remember_folder(saved.folder)
         folder = one_line(str(saved.folder))
         text = f"Saved {saved.files} files in {folder}; scene.toml has the frequency that is sent."
         self._show_note(f"{text} {saved.why_no_wav}".strip())

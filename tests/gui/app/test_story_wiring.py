@@ -162,7 +162,7 @@ def test_the_context_menu_copies_values_and_the_bar_opens_a_lesson(
     assert user.message.startswith("Copied: column ")
     assert "Copy fi&gure" in entries
     menu.aboutToHide.emit()
-    application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
+    application.story.verdict.lesson_requested.emit(AVERAGES_LESSON)
     pane = application.shell.pane("lessons")
     assert not application.window.docks["lessons"].isHidden()
     assert pane.controller.current.name == AVERAGES_LESSON

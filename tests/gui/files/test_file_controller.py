@@ -223,7 +223,7 @@ def test_several_photos_of_the_dialog_become_a_table_which_a_dialog_saves(
     copy.write_bytes(photo_file.read_bytes())
     names = [str(photo_file), str(copy)]
     monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: (names, ""))
-    wanted = collect(bench.files.pane_wanted)
+    wanted = collect(bench.files.pane_requested)
     with qtbot.waitSignal(bench.photos.opened) as opened:
         bench.files.ask_for_photo()
     assert bench.photos.choice.listed == (photo_file, copy)

@@ -60,7 +60,7 @@ def test_every_change_is_emitted_and_nothing_else(tmp_path: Path) -> None:
     preferences.add(tmp_path / "a")
     preferences.add(tmp_path / "a")
     preferences.drop(tmp_path / "b")
-    preferences.visit(tmp_path / "c")
+    preferences.remember_folder(tmp_path / "c")
     assert told == [(tmp_path / "a",)]
     preferences.drop(tmp_path / "a")
     preferences.clear()
@@ -74,10 +74,10 @@ def test_a_dialog_begins_in_the_folder_of_the_last_file_or_where_figures_were_wr
     remember(file, tmp_path / "a.png")
     preferences = Preferences(settings(file))
     assert preferences.folder == str(tmp_path)
-    preferences.visit(tmp_path / "gone" / "a.png")
+    preferences.remember_folder(tmp_path / "gone" / "a.png")
     assert preferences.folder == ""
     preferences = Preferences(settings(tmp_path / "other.ini"))
-    preferences.visit_export(tmp_path / "picture.png")
+    preferences.remember_export_folder(tmp_path / "picture.png")
     assert preferences.folder == str(tmp_path)
 
 
@@ -110,7 +110,7 @@ def test_exports_have_a_folder_of_their_own(file: Path, tmp_path: Path) -> None:
     preferences = Preferences(kept)
     preferences.add(photos / "a.png")
     assert preferences.export_folder == str(photos)  # nothing was exported yet
-    preferences.visit_export(figures / "picture.png")
+    preferences.remember_export_folder(figures / "picture.png")
     assert (preferences.folder, preferences.export_folder) == (str(photos), str(figures))
     preferences.add(photos / "b.png")
     kept.sync()

@@ -313,7 +313,7 @@ def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
     assert bar.step.isHidden()
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
     assert bar.state is State.GOOD
-    with qtbot.waitSignal(bar.lesson_wanted) as signal:
+    with qtbot.waitSignal(bar.lesson_requested) as signal:
         bar.step.click()
     names = {lesson.name for lesson in lessons().lessons}
     assert signal.args[0] in names
@@ -347,7 +347,7 @@ def test_the_verdict_on_one_of_three_colours_names_it_and_leads_to_all(
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
     bar.name_colour("green")
     assert bar.heading == "Green: code 718 read, all bits right"
-    with qtbot.waitSignal(bar.colours_wanted):
+    with qtbot.waitSignal(bar.colours_requested):
         bar.step.click()
     bar.name_colour("")
     assert bar.heading == "Code 718 read, all bits right"

@@ -39,24 +39,6 @@ class Field:
         self.press(Qt.Key.Key_Return)
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "value", "shown"),
-    [
-        ("exposure_time", "1/8000 s", 1 / 8000, "125 µs"),
-        ("iso", " 400 ", 400.0, "400"),
-    ],
-)
-def test_usual_notation_is_read_as_the_exact_si_value(
-    qtbot: QtBot, name: str, text: str, value: float, shown: str
-) -> None:
-    field = Field(name, qtbot)
-    field.enter(text)
-    assert field.edited == [value]
-    assert field.refused == []
-    assert field.edit.value() == value
-    assert field.edit.text() == shown
-
-
 def test_leaving_an_untouched_field_emits_and_rounds_nothing(qtbot: QtBot) -> None:
     field, third = Field("distance", qtbot), 4 / 3
     field.edit.set_value(third)
@@ -172,10 +154,3 @@ def type_number(qtbot: QtBot, text: str) -> tuple[int, list[str], list[int]]:
     qtbot.keyClick(field, Qt.Key.Key_Return)
     field.clearFocus()
     return field.value(), refused, changes
-
-
-def test_a_plain_number_is_read_in_the_unit_that_is_shown(qtbot: QtBot) -> None:
-    field = Field("exposure_time", qtbot)
-    field.edit.set_value(2e-3)
-    field.enter("1")
-    assert field.edited == [1e-3]

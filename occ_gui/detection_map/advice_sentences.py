@@ -33,7 +33,7 @@ class AdviceLine:
     destination: tuple[str, float, str] | None = None
     is_title: bool = False
     is_common: bool = False  # whether the line is the same for every decoder
-    detail: str = ""  # how the text is known, which unfolds with the lines that are details
+    detail: str = ""  # how the text is known; shown with the lines that are details
     is_detail: bool = False
 
 

@@ -110,9 +110,9 @@ class RateMap:
         return len(self.x_values), len(self.y_values)
 
     def enter(self, points: Iterable[SweepPoint], images: int, first: int = 0) -> None:
-        """Add the counts of the images from ``first`` on, up to so many, unless they are known.
+        """Add the counts of the images from ``first`` up to ``images``, unless they are known.
 
-        Those that come before the images ahead of them wait for them.
+        Counts that arrive before those of earlier images of the same point wait for them.
         """
         for point in points:
             place = divmod(point.index, len(self.y_values))

@@ -32,6 +32,7 @@ class EquationController(QObject):
             self._show(self._scenes.seen)
 
     def show_only(self, name: str) -> None:
+        """Show the equation of this name alone; an empty name shows all."""
         self._only_name, self._shown_scene = name, None
         self._show(self._scenes.seen)
 

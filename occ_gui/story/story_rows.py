@@ -187,7 +187,7 @@ class StoryRows(QWidget):
     def hold_columns(self, columns: float | None) -> None:
         """Show this many columns in place of the first packets; None: the packets again.
 
-        Columns that the user has moved to stay.
+        A range that the user has moved to stays in view.
         """
         self._span = columns
         self._set_range()

@@ -1,4 +1,4 @@
-"""The plot shows points as they are measured, and until then faint earlier ones."""
+"""The plot shows points as they are measured, and until then those of earlier scenes, faded."""
 
 import math
 from itertools import pairwise
@@ -77,7 +77,7 @@ def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> Non
         assert bottom < math.log10(max(point.error, LEAST_ERROR)) < top
 
 
-def test_the_last_complete_points_stay_faint_until_new_ones_come_and_the_title_tells_so(
+def test_the_last_complete_points_stay_faint_until_new_ones_come_as_the_title_says(
     plot: AccuracyPlot,
 ) -> None:
     measure(plot)

@@ -36,10 +36,10 @@ def test_chips_window_and_time_on_are_drawn_in_microseconds(
     assert plot.lit.opts["x1"] == pytest.approx(parts[:, 1])
     assert plot.lit.opts["brush"].style() == Qt.BrushStyle.BDiagPattern
     fraction = 100 * window.on_time / 68e-6
-    messages = (
+    text = (
         f"Column 1003: 68 µs exposure, LED on for {window.on_time * 1e6:.4g} µs ({fraction:.0f} %)"
     )
-    assert plot.sentence.text() == f"{messages} → 42.2 grey levels"
+    assert plot.sentence.text() == f"{text} → 42.2 grey levels"
     first, last = plot.plot.getViewBox().viewRange()[0]
     assert first <= 0.0 < x[-1] <= last
 
@@ -87,25 +87,25 @@ def move_to(plot: Plot, column: float) -> None:
 
 
 @pytest.fixture
-def seen(qtbot: QtBot, small_scene: Scene) -> Bench:
+def bench(qtbot: QtBot, small_scene: Scene) -> Bench:
     return Bench(qtbot, small_scene)
 
 
-def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbot: QtBot) -> None:
-    exposure, plot = seen.view, seen.plot
+def test_mouse_click_and_keys_over_the_profile_choose_a_column(bench: Bench, qtbot: QtBot) -> None:
+    exposure, plot = bench.view, bench.plot
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
-    there, place = (round(first + fraction * (last - first)) for fraction in (0.3, 0.6))
-    move_to(plot, there)
-    qtbot.waitUntil(lambda: abs(exposure.column.value() - there) <= 1)
-    qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(plot, place))
+    pointed_at, clicked = (round(first + fraction * (last - first)) for fraction in (0.3, 0.6))
+    move_to(plot, pointed_at)
+    qtbot.waitUntil(lambda: abs(exposure.column.value() - pointed_at) <= 1)
+    qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(plot, clicked))
     qtbot.waitUntil(exposure.hold.isChecked)
     column = exposure.column.value()
-    assert abs(column - place) <= 1
+    assert abs(column - clicked) <= 1
     qtbot.keyClick(plot, Qt.Key.Key_Right)
     assert exposure.column.value() == column + 1
     assert exposure.sentence.text().startswith(f"Column {column + 1}:")
-    assert seen.pane.picker.marker.value() == column + 1
+    assert bench.pane.picker.marker.value() == column + 1
     qtbot.keyClick(plot, Qt.Key.Key_PageUp)
     assert exposure.column.value() == column + 11
     qtbot.keyClick(plot, Qt.Key.Key_PageDown)
@@ -115,78 +115,78 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbo
 
 
 def test_a_number_typed_holds_a_column_which_is_marked_while_it_is_explained(
-    seen: Bench, qtbot: QtBot
+    bench: Bench, qtbot: QtBot
 ) -> None:
-    exposure = seen.view
+    exposure = bench.view
     exposure.column.selectAll()
     qtbot.keyClicks(exposure.column, "1100")
     qtbot.keyClick(exposure.column, Qt.Key.Key_Return)
     assert exposure.sentence.text().startswith("Column 1100:")
     assert exposure.hold.isChecked()
     qtbot.keyClick(exposure.hold, Qt.Key.Key_Space)
-    seen.pane.exposure.hover(5)
-    assert seen.shown == (5, False)
+    bench.pane.exposure.hover(5)
+    assert bench.shown == (5, False)
     # The profile's mark stays while the exposure is visible.
-    marker, sentence = seen.pane.picker.marker, seen.view.sentence
+    marker, sentence = bench.pane.picker.marker, bench.view.sentence
     assert marker.isVisible()
-    palette = seen.plot.palette()
+    palette = bench.plot.palette()
     palette.setColor(QPalette.ColorRole.Text, QColor("red"))
-    seen.plot.setPalette(palette)
+    bench.plot.setPalette(palette)
     assert marker.pen.color() == QColor("red")
-    seen.see("equations", False)
+    bench.see("equations", False)
     assert not marker.isVisible()
     said = sentence.text()
-    move_to(seen.plot, seen.plot.getViewBox().viewRange()[0][0] + 50.0)
-    qtbot.keyClick(seen.plot, Qt.Key.Key_Right)
+    move_to(bench.plot, bench.plot.getViewBox().viewRange()[0][0] + 50.0)
+    qtbot.keyClick(bench.plot, Qt.Key.Key_Right)
     assert sentence.text() == said
 
 
 def test_the_exposure_follows_the_scene_and_no_column_outside_of_the_picture_is_shown(
-    seen: Bench,
+    bench: Bench,
 ) -> None:
-    exposure = seen.view
-    levels = seen.simulate(exposure_time=136e-6).profile
+    exposure = bench.view
+    levels = bench.simulate(exposure_time=136e-6).profile
     assert "136 µs exposure" in exposure.sentence.text()
     assert f"{levels[exposure.column.value()]:.1f} grey levels" in exposure.sentence.text()
-    controller = seen.pane.exposure
+    controller = bench.pane.exposure
     controller.hover(-5)
-    assert seen.shown[0] == 0
+    assert bench.shown[0] == 0
     controller.hover(10**9)
-    assert seen.shown[0] == len(seen.results_store.results.snapshot.profile) - 1
-    seen.simulate(columns=500)
-    assert seen.shown[0] == 499
-    seen.see("equations", False)
+    assert bench.shown[0] == len(bench.results_store.results.snapshot.profile) - 1
+    bench.simulate(columns=500)
+    assert bench.shown[0] == 499
+    bench.see("equations", False)
     controller.hover(5)
-    assert seen.shown[0] == 499, "nothing is worked out unseen"
-    seen.see("equations")
-    assert seen.shown[0] == 5
+    assert bench.shown[0] == 499, "nothing is computed while the pane is hidden"
+    bench.see("equations")
+    assert bench.shown[0] == 5
 
 
-def test_a_held_column_stays_until_it_is_released(seen: Bench) -> None:
-    controller = seen.pane.exposure
+def test_a_held_column_stays_until_it_is_released(bench: Bench) -> None:
+    controller = bench.pane.exposure
     controller.hover(10)
     controller.click(20)
     controller.hover(30)
-    assert seen.shown == (20, True)
+    assert bench.shown == (20, True)
     controller.click(21)
-    assert seen.shown == (21, True)
+    assert bench.shown == (21, True)
     controller.step(-3)
-    assert seen.shown == (18, True)
+    assert bench.shown == (18, True)
     controller.click(18)
-    assert seen.shown == (18, False)
+    assert bench.shown == (18, False)
     controller.hover(40)
-    assert seen.shown == (40, False)
+    assert bench.shown == (40, False)
     controller.choose(50)
     controller.hold(False)
     controller.hover(60)
-    assert seen.shown == (60, False)
+    assert bench.shown == (60, False)
 
 
 def test_the_column_shown_first_is_in_the_panels_first_packet(
     qtbot: QtBot, small_scene: Scene
 ) -> None:
-    seen = Bench(qtbot, small_scene.replace(panel_width=0.3))
-    snapshot = seen.results_store.results.snapshot
+    bench = Bench(qtbot, small_scene.replace(panel_width=0.3))
+    snapshot = bench.results_store.results.snapshot
     first, above = snapshot.panel_origin
     assert abs(first - above) > snapshot.period_columns
-    assert first < seen.shown[0] < first + snapshot.period_columns
+    assert first < bench.shown[0] < first + snapshot.period_columns

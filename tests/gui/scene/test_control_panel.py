@@ -136,9 +136,9 @@ def test_other_lights_leave_no_gap_between_the_rows(panel: ControlPanel, qtbot: 
         panel.show_scene(Scene().replace(light=light))
         qtbot.waitUntil(lambda: page.rows["exposure_time"].isVisible())
         QApplication.processEvents()
-        there = [name for name, row in page.rows.items() if row.isVisible()]
-        assert tuple(there) == main_of(light)
-        for above, below in pairwise(there):
+        visible = [name for name, row in page.rows.items() if row.isVisible()]
+        assert tuple(visible) == main_of(light)
+        for above, below in pairwise(visible):
             label, row = page.labels[below].geometry(), page.rows[above].geometry()
             assert label.top() - row.bottom() < 20
 
@@ -154,18 +154,20 @@ def test_a_running_slider_stops_where_another_light_has_none(panel: ControlPanel
 def test_edits_and_refusals_of_every_part_are_passed_on(
     panel: ControlPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    heard: list[object] = []
+    edits: list[object] = []
     editor = SceneEditor(store_of())
-    monkeypatch.setattr(SceneStore, "change", lambda _store, _gesture, **edit: heard.extend(edit))
+    monkeypatch.setattr(
+        SceneStore, "change", lambda _store, _gesture, **edit: edits.extend(edit)
+    )
     panel.connect_editor(editor)
-    editor.input_refused.connect(heard.append)
+    editor.input_refused.connect(edits.append)
     for page in panel.panels.values():
         for name, row in page.rows.items():
             row.edited.emit(name, 1, 1)
     panel.code.edited.emit("code", 1, 1)
     panel.light.edited.emit("light", "lamp", 1)
     panel.code.refused.emit("No such bits.")
-    assert Counter(heard) == Counter([*PARAMETERS, "No such bits."])
+    assert Counter(edits) == Counter([*PARAMETERS, "No such bits."])
 
 
 def test_presets_are_replaced_without_a_signal_and_listed_by_title_or_own_name(

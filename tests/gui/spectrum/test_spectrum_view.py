@@ -15,14 +15,14 @@ def view(qtbot: QtBot) -> SpectrumView:
     return show_widget(qtbot, SpectrumView(), 500, 400)
 
 
-def measured(view: SpectrumView, snapshot: Snapshot) -> None:
+def show(view: SpectrumView, snapshot: Snapshot) -> None:
     SpectrumPane(view).show_part(snapshot)
 
 
 def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     view: SpectrumView, snapshot_of: SnapshotOf
 ) -> None:
-    measured(view, snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
+    show(view, snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
     frequencies, amplitudes = view.amplitudes.getData()
     assert frequencies[amplitudes.argmax()] == pytest.approx(4.0, rel=0.05)
     (first, last), (_, top) = view.spectrum.viewRange()
@@ -31,7 +31,7 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     assert amplitudes.max() < top
     assert "first zero of the exposure's response: 20 kHz" in view.spectrum.accessibleDescription()
     assert len(view.zeros) == 3
-    measured(view, snapshot_of(columns=1))
+    show(view, snapshot_of(columns=1))
     assert view.spectrum.listDataItems() == [view.amplitudes, view.response]
     assert [curve.getData() for curve in (view.amplitudes, view.response)] == 2 * [(None, None)]
     assert (view.zeros, view.spectrum.accessibleDescription()) == ([], "")
@@ -40,9 +40,9 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
 def test_a_bright_panel_is_said_to_lose_light_and_every_grey_level_is_in_view(
     view: SpectrumView, snapshot_of: SnapshotOf
 ) -> None:
-    measured(view, snapshot_of(iso=100.0))
+    show(view, snapshot_of(iso=100.0))
     assert "0.0 % are saturated" in view.sentence.text()
-    measured(view, snapshot_of(iso=6400.0, f_number=1.0))
+    show(view, snapshot_of(iso=6400.0, f_number=1.0))
     assert view.sentence.text().startswith("⚠")
     assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)
     assert np.max(view.bars.opts["height"]) < view.histogram.viewRange()[1][1]
@@ -57,7 +57,7 @@ def test_only_the_panels_pixels_are_counted(view: SpectrumView, snapshot_of: Sna
     image = snapshot.frame.camera_image
     assert min(left, top) > 20
     assert (right < image.shape[1] - 20, bottom < image.shape[0] - 20) == (True, True)
-    measured(view, snapshot)
+    show(view, snapshot)
     panel = image[int(top) : int(bottom) + 1, int(left) : int(right) + 1]
     counts = np.bincount(panel.ravel(), minlength=256)
     np.testing.assert_allclose(view.bars.opts["height"], 100.0 * counts / panel.size, atol=1e-9)

@@ -18,7 +18,7 @@ import occ_model as occ
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.story import code_row, light_row
 from occ_gui.story.column_axis import GUTTER, Crosshair
-from occ_gui.story.column_values import ColumnValues, describe_values
+from occ_gui.story.column_values import describe_values
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.widgets.state_look import State
@@ -33,10 +33,6 @@ def all_rows(rows: StoryRows) -> list[StoryRow]:
 
 def place_of(row: StoryRow, column: float) -> QPoint:
     return QPointF(row.x_of(column), row.height() / 2).toPoint()
-
-
-def read_out(rows: StoryRows) -> ColumnValues:
-    return rows.values()
 
 
 @pytest.mark.parametrize(("width", "zoom"), [(520, 4.0), (900, 1.0), (1573, 0.13)])
@@ -144,7 +140,7 @@ def test_the_values_at_the_crosshair_are_the_models(
     chips, frequency = occ.packet(scene), scene.transmitter.switching_frequency
     for column in (1, 1213, 1344, 1501):
         rows.crosshair.point_at(column + 0.2)
-        values = read_out(rows)
+        values = rows.values()
         time = scene.model.start_time + column * scene.camera.readout_time
         assert (values.column, values.time) == (column, time)
         exact = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
@@ -155,7 +151,7 @@ def test_the_values_at_the_crosshair_are_the_models(
         assert f"column {column}" in words
         assert ("light on" in words) == bool(values.light)
         rows.choose_picture("receiver")
-        values = read_out(rows)
+        values = rows.values()
         assert values.level == frame.signal[column]
         rows.choose_picture("camera")
 
@@ -167,7 +163,7 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
     bits: dict[int | None, int | None] = {}
     for field in code.fields:
         rows.crosshair.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
-        values = read_out(rows)
+        values = rows.values()
         bits[values.bit] = values.value
         assert values.state is (State.NEUTRAL if field.bit is None else State.GOOD)
     assert bits.pop(None) is None
@@ -177,7 +173,7 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
     for column in (-3.0, len(snapshot.profile) + 2.0):
         rows.crosshair.point_at(column)
         assert rows.crosshair.mouse_column is None
-        values = read_out(rows)
+        values = rows.values()
         assert values.column == chosen
 
 
@@ -380,7 +376,7 @@ def test_extreme_scenes_are_drawn(
         rows.choose_range(name)
         for row in all_rows(rows):
             assert not row.grab().isNull()
-    values = read_out(rows)
+    values = rows.values()
     assert describe_values(values, snapshot.frame.scene)
 
 

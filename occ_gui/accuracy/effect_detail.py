@@ -42,9 +42,6 @@ class CropPictures(PaintedWidget):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(3 * 96 + 2 * _GAP, 40 + self.fontMetrics().height())
 
-    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return self.minimumSizeHint()
-
     def height_for(self, width: int) -> int:
         if not self._images:
             return 0

@@ -114,9 +114,6 @@ class SliderStrip(PaintedWidget):
         self._is_faded = True
         self.update()
 
-    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(40, _HEIGHT)
-
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(20, _HEIGHT)
 

@@ -49,12 +49,9 @@ class SliderScale(PaintedWidget):
     def text_font(self) -> QFont:
         return resize_font(self.font(), _TEXT_SCALE)
 
-    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(60, round(QFontMetricsF(self.text_font()).height() + _TICK + 2))
-
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return a small width, because names of marks are left out if there is no space."""
-        return QSize(20, self.sizeHint().height())
+        return QSize(20, round(QFontMetricsF(self.text_font()).height() + _TICK + 2))
 
     def x_of(self, value: float) -> float:
         first, last = find_handle_travel(self._slider)

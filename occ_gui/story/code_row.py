@@ -15,7 +15,6 @@ from occ_gui.story.column_facts import PacketField, received_edges, received_fie
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.colours import SIMULATION
-from occ_gui.widgets.guarded_paint import are_equal
 from occ_gui.widgets.state_look import State
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
@@ -36,7 +35,6 @@ class CodeRow(StoryRow):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._result: DecodeResult | None = None
         self._sent_bits: tuple[int, ...] = ()
-        self._drawn_inputs: tuple[object, ...] = ()
         self.edges: FloatArray | None = None
         self.fields: tuple[PacketField, ...] = ()
         self.letters: tuple[PayloadPiece, ...] = ()
@@ -45,13 +43,11 @@ class CodeRow(StoryRow):
     def show_reading(self, reading: ColumnView, result: DecodeResult) -> None:
         payload = reading.scene.transmitter.payload if reading.sent else ""
         fields = received_fields(result, reading.scene)
-        inputs = (
+        if not self.redraw_if_changed(
             result.region, result.failure, result.code, result.chips, result.bits,
             result.chip_starts, result.headers, reading.sent, fields, payload,
-        )  # fmt: skip
-        if are_equal(inputs, self._drawn_inputs):
+        ):  # fmt: skip
             return
-        self._drawn_inputs = inputs
         self._result, self._sent_bits = result, reading.sent
         self.edges = received_edges(result)
         self.fields = fields
@@ -59,7 +55,6 @@ class CodeRow(StoryRow):
         self._form = form_of(payload)
         self.updateGeometry()
         self.setAccessibleDescription(self._describe())
-        self.redraw()
 
     def _describe(self) -> str:
         if self._result is None:
@@ -90,9 +85,6 @@ class CodeRow(StoryRow):
         index = int(edges.searchsorted(column, side="right")) - 1
         bits = (field.bit for field in self.fields if field.first <= index < field.last)
         return int(result.chips[index]), next(bits, None)
-
-    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(200, self._line_bounds()[-1][1] + 2 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(160, self._line_bounds()[-1][1] + 2 * _GAP)

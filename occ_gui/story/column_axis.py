@@ -224,9 +224,6 @@ class Scale(PaintedWidget):
             self.setAccessibleName(name)
             self.update()
 
-    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(200, line_height(self.fontMetrics(), _HEIGHT))
-
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(160, line_height(self.fontMetrics(), _HEIGHT))
 

@@ -49,7 +49,6 @@ class LightRow(StoryRow):
             "it, click, or use the arrow keys."
         )
         self._scene: Scene | None = None
-        self._drawn_inputs: tuple[object, ...] = ()
         self._has_edges = self._has_chips = False
         self._top = 1.0  # the brightest light, 1 being the panel fully lit
         self._sent_bits: tuple[int, ...] = ()
@@ -65,13 +64,11 @@ class LightRow(StoryRow):
         sent = reading.scene.transmitter
         self._has_chips = has_chips(sent)
         self._top = 1.0 + (sent.mains_depth if sent.light == "mains" else 0.0)
-        inputs = (
+        # A new exposure time changes only the window.
+        self.redraw_if_changed(
             self._scene.transmitter, self._scene.camera.readout_time,
             self._scene.model.start_time, self._has_edges, self._sent_bits,
         )  # fmt: skip
-        if inputs != self._drawn_inputs:  # a new exposure time changes only the window
-            self._drawn_inputs = inputs
-            self.redraw()
 
     def find_light(self, first: float, last: float, most: int) -> LightCurve | None:
         """Return the light between two columns; None for more chips than ``most``."""

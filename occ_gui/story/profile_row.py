@@ -14,7 +14,6 @@ from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
 from occ_gui.widgets.columns import round_level_up
-from occ_gui.widgets.guarded_paint import are_equal
 from occ_model.arrays import LARGEST_BYTE, FloatArray
 from occ_model.results.decoding import DecodeResult
 
@@ -42,7 +41,6 @@ class ProfileRow(StoryRow):
         self._result: DecodeResult | None = None
         self._photo: PhotoProfile | None = None
         self._picture_kind = "camera"
-        self._drawn_inputs: tuple[object, ...] = ()
         self._top = LARGEST_BYTE
         self.threshold: tuple[float, float] | None = None
         """The levels between which the decoder's threshold lies; None if it has none."""
@@ -99,11 +97,7 @@ class ProfileRow(StoryRow):
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
         self._top = round_level_up(largest)
         region = None if self._result is None else self._result.region
-        inputs = (*curves, self.threshold, region, self._photo)
-        # Results from the picture are mostly equal to the earlier ones.
-        if not are_equal(inputs, self._drawn_inputs):
-            self._drawn_inputs = inputs
-            self.redraw()
+        self.redraw_if_changed(*curves, self.threshold, region, self._photo)
 
     def y_of(self, level: _Level, area: QRectF) -> _Level:
         inner = area.adjusted(0, 8, 0, -8)

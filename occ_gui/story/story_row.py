@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QSizePolicy
 from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, LEFT, ColumnAxis, Crosshair, measure_name
 from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.event_filters import call_at
-from occ_gui.widgets.guarded_paint import PaintedWidget
+from occ_gui.widgets.guarded_paint import PaintedWidget, are_equal
 from occ_model.arrays import FloatArray
 
 _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
@@ -48,6 +48,7 @@ class StoryRow(PaintedWidget):
         self.axis, self.crosshair = axis, crosshair
         self._pixmap: QPixmap | None = None
         self._is_pixmap_valid = False
+        self._drawn_inputs: tuple[object, ...] = ()
         self._sentences: list[QRectF] = []  # the places of sentences, which no line crosses
         self._press_position: QPointF | None = None
         self._last_position: QPointF | None = None
@@ -61,6 +62,17 @@ class StoryRow(PaintedWidget):
         crosshair.pointed_at.connect(self.update)
         crosshair.chosen.connect(self.update)
         crosshair.cursors.changed.connect(self.update)
+
+    def redraw_if_changed(self, *inputs: object) -> bool:
+        """Redraw the row if what it draws has changed, and return whether it has.
+
+        Results of a picture are mostly equal to those of the profile or the draft before it.
+        """
+        is_changed = not are_equal(inputs, self._drawn_inputs)
+        if is_changed:
+            self._drawn_inputs = inputs
+            self.redraw()
+        return is_changed
 
     def redraw(self) -> None:
         self._is_pixmap_valid = False

@@ -7,6 +7,7 @@ from traceback import clear_frames
 from typing import Any, TypeVar
 
 import numpy as np
+from PySide6.QtCore import QSize
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
@@ -29,7 +30,7 @@ def guarded(paint: Paint) -> Paint:
 
 
 class PaintedWidget(QWidget):
-    """A widget that is drawn by its method :meth:`paint_with`."""
+    """A widget that :meth:`paint_with` draws, and that asks for its least size."""
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
@@ -37,6 +38,9 @@ class PaintedWidget(QWidget):
 
     def paint_with(self, painter: QPainter) -> None:
         raise NotImplementedError
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        return self.minimumSizeHint()
 
 
 def are_equal(first: Sequence[object], second: Sequence[object]) -> bool:

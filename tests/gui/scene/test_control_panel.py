@@ -156,9 +156,7 @@ def test_edits_and_refusals_of_every_part_are_passed_on(
 ) -> None:
     edits: list[object] = []
     editor = SceneEditor(store_of())
-    monkeypatch.setattr(
-        SceneStore, "change", lambda _store, _gesture, **edit: edits.extend(edit)
-    )
+    monkeypatch.setattr(SceneStore, "change", lambda _store, _gesture, **edit: edits.extend(edit))
     panel.connect_editor(editor)
     editor.input_refused.connect(edits.append)
     for page in panel.panels.values():

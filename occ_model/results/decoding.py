@@ -45,6 +45,14 @@ class Region:
             f"rows {self.first_row} to {self.last_row - 1}"
         )
 
+    def within(self, outer: "Region") -> "Region":
+        """Return a rectangle of a part of an image, ``outer``, in the rows and columns of all."""
+        row, column = outer.first_row, outer.first_column
+        return Region(
+            row + self.first_row, row + self.last_row,
+            column + self.first_column, column + self.last_column,
+        )  # fmt: skip
+
     def crop(self, image: NDArray[Any]) -> NDArray[Any]:
         """Return the rectangle's pixels, a view of an image of shape (rows, columns)."""
         return image[self.first_row : self.last_row, self.first_column : self.last_column]

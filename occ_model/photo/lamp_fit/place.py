@@ -48,13 +48,9 @@ def find_place(photo: Photo, region: Region) -> LampPlace | None:
         mask = _patch(small.astype(np.float32) / photo.white)
         if mask is None:
             return None
-        first_row, last_row, first, last = (
-            step * each for each in _bounds(mask, 0.0 if step == 1 else _MARGIN)
-        )
-        inner = Region(
-            region.first_row + first_row, min(region.first_row + last_row, region.last_row),
-            region.first_column + first, min(region.first_column + last, region.last_column),
-        )  # fmt: skip
+        ends = step * np.array(_bounds(mask, 0.0 if step == 1 else _MARGIN))
+        most = np.repeat(part.shape, 2)
+        inner = Region(*np.minimum(ends, most).tolist()).within(region)
         if step > 1 and inner.columns * inner.rows < 0.5 * region.columns * region.rows:
             region = inner  # small beside its surroundings: searched again, more finely
             continue
@@ -85,13 +81,9 @@ def _inside(part: FloatArray, mask: BoolArray, region: Region, white: int) -> La
     if len(shown) < _LEAST_COLUMNS:
         return None
     inner[:, : shown[0]] = inner[:, shown[-1] + 1 :] = False
-    first_row, last_row, first, last = _bounds(inner, 0.0)
-    rows, columns = slice(first_row, last_row), slice(first, last)
-    place = Region(
-        region.first_row + first_row, region.first_row + last_row,
-        region.first_column + first, region.first_column + last,
-    )  # fmt: skip
-    return LampPlace(place, part[rows, columns].astype(np.float32) / white, inner[rows, columns])
+    place = Region(*_bounds(inner, 0.0))
+    pixels = place.crop(part).astype(np.float32) / white
+    return LampPlace(place.within(region), pixels, place.crop(inner))
 
 
 def _hull(mask: BoolArray) -> ByteArray:

@@ -30,7 +30,7 @@ _LONGEST_NAME = 60
 _FIRST_TRANSPOSED = 5  # the first orientation in which the picture's columns are stored as lines
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class CameraNotes:
     """A photo's EXIF data; None for a value that is missing or out of range."""
 

@@ -15,7 +15,7 @@ from occ_model.camera.pixel_arrays import Samples, samples_of, white_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, quote
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
-from occ_model.photo.reading.exif import camera_notes, turns_of
+from occ_model.photo.reading.exif import CameraNotes, camera_notes, turns_of
 from occ_model.photo.reading.file import open_file, open_picture
 from occ_model.photo.reading.image_decoding import (
     DECODED_FRACTION,
@@ -40,7 +40,7 @@ Corners: TypeAlias = Region | Sequence[int]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Photo:
+class Photo(CameraNotes):
     """A photograph.
 
     Parameters
@@ -80,14 +80,7 @@ class Photo:
     profile: FloatArray
     turned: bool
     channel: str
-    exposure_time: float | None = None
-    f_number: float | None = None
-    iso: float | None = None
-    camera: str | None = None
     is_linear: bool = False
-    equivalent_focal_length: float | None = None
-    focal_length_step: float = 0.0
-    enhancement: str | None = None
 
     def __post_init__(self) -> None:
         values = np.asarray(self.samples)

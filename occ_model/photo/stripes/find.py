@@ -71,7 +71,7 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
         stripes = _stripes_of(part)
     except MatchError as error:
         raise MatchError(*error.reasons, *_explain_other_axis(part)) from None
-    return replace(stripes, region=_shift_region(stripes.region, rectangle))
+    return replace(stripes, region=stripes.region.within(rectangle))
 
 
 def _explain_other_axis(photo: Photo) -> list[str]:
@@ -88,16 +88,6 @@ def _explain_other_axis(photo: Photo) -> list[str]:
         f"There are stripes along the other axis, which repeat after {stripes.period:.1f} rows: if "
         f"they are the shutter's, read the photo with {axis} as the scan axis."
     ]
-
-
-def _shift_region(region: Region, outer: Region) -> Region:
-    """Return a part's region in the rows and columns of the photo that it was cut from."""
-    return Region(
-        region.first_row + outer.first_row,
-        region.last_row + outer.first_row,
-        region.first_column + outer.first_column,
-        region.last_column + outer.first_column,
-    )
 
 
 def _stripes_of(photo: Photo) -> Stripes:
@@ -123,7 +113,7 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
     high = np.maximum(high, low + FLAT_SPAN)
     repetition = repeat_period((profile - low) / (high - low))
     period, uncertainty = repetition if repetition is not None else (None, None)
-    region = _shift_region(Region(0, rows.rows, first, last), rows)
+    region = Region(0, rows.rows, first, last).within(rows)
     part = region.crop(photo.samples)
     saturated = np.count_nonzero(part >= SATURATED_LEVEL * photo.white) / part.size
     return Stripes(region, profile, low, high, period, uncertainty, saturated)

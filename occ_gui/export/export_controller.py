@@ -119,10 +119,7 @@ class ExportController(Service):
         self._store = store
         self._queue: deque[ExportJob] = deque()
         self._omissions = ""
-        # A lambda looks up `export` at each call, so that tests can replace it.
-        self.task: Task[ExportJob, ExportResult] = Task(
-            lambda request, report: export(request, report), "export"
-        )
+        self.task: Task[ExportJob, ExportResult] = Task(export, "export")
         self.tasks = (self.task,)
         self.task.finished.connect(self._report)
         self.task.failed.connect(self.file_failed)

@@ -1,30 +1,29 @@
 """Figures are exported to files that can be opened again, each complete or not at all."""
 
-import sys
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 from threading import Event, Timer
-from typing import Any
+from typing import Any, NoReturn
 
 import pytest
 from gui.pane_bench import PaneBench
 from gui.photo.photo_bench import no_actions
 from gui.user import PATIENCE_S
 from PIL import Image
+from PySide6.QtCore import QThread
 from PySide6.QtGui import QGuiApplication, QImage
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.panes import accuracy, bands, decoding, detection_map, photo, picture, profile
-from occ_gui.background.task import Report
 from occ_gui.detection_map.map_schedule import SHAPE, MapRequest
 from occ_gui.detection_map.rate_map import RateMap, make_lattice
-from occ_gui.export import export_controller
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.shell.feature import Draw, Feature, Figure, Pane
 from occ_model.figures import drawing
 from occ_model.figures.drawing import Drawing
 from occ_model.results.accuracy import AccuracyPoint
@@ -296,16 +295,21 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     assert begun == []
 
 
+def add_figure(bench: Bench, draw: Draw) -> None:
+    """Add a pane whose figure is drawn by this function."""
+    figure = Figure(name="own", title="Own", draw=lambda _pane, _snapshot: draw)
+    bench.add(Feature(name="own", title="Own", make=lambda: Pane(QWidget()), figures=(figure,)))
+
+
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    bench: Bench, tmp_path: Path
 ) -> None:
-    def broken(_job: object, _report: object) -> None:
+    def fail() -> NoReturn:
         raise ZeroDivisionError("a mistake")
 
-    with monkeypatch.context() as patched:
-        patched.setattr("occ_gui.export.export_controller.export", broken)
-        messages = bench.export("profile", tmp_path / "a.png")
-    assert messages == "The export failed: ZeroDivisionError: a mistake."
+    add_figure(bench, fail)
+    message = bench.export("own", tmp_path / "a.png")
+    assert message == "The export failed: ZeroDivisionError: a mistake."
     assert bench.export("profile", tmp_path / "a.png") == f"Exported a.png into {tmp_path}"
 
 
@@ -346,26 +350,22 @@ def test_a_file_can_be_named_before_there_is_a_picture(
 
 
 def test_the_drawing_is_done_off_the_windows_thread_and_exports_that_come_quickly_are_all_written(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    bench: Bench, tmp_path: Path
 ) -> None:
-    from PySide6.QtCore import QThread
-
     threads: list[bool] = []
-    work = export_controller.export
+    draw_profile = bench.shell.draw("profile", bench.simulate())
 
-    def note(job: export_controller.ExportJob, report: Report) -> export_controller.ExportResult:
+    def note_and_draw() -> Drawing:
         threads.append(QThread.currentThread() is bench.window.thread())
-        return work(job, report)
+        return draw_profile()
 
-    monkeypatch.setattr("occ_gui.export.export_controller.export", note)
-    bench.export("profile", tmp_path / "a.csv")
-    assert threads == [False]
-    assert "matplotlib" in sys.modules
+    add_figure(bench, note_and_draw)
     paths = [tmp_path / f"{place}.csv" for place in range(4)]
     for path in paths:
-        bench.exporter.export("profile", path)
+        bench.exporter.export("own", path)
     bench.wait_until_idle()
-    assert sorted(tmp_path.iterdir()) == [*paths, tmp_path / "a.csv"]
+    assert threads == [False] * 4
+    assert sorted(tmp_path.iterdir()) == paths
 
 
 def test_the_picture_with_the_photo_has_an_entry_of_its_own(

@@ -85,10 +85,10 @@ class Application(Parts):
     def _connect_photos(self) -> None:
         window, photos, menus = self.window, self.photos, self.window.menus
         photos.loading.begun.connect(self._make_photo_pane)
-        photos.loading.begun.connect(window.reading.begin)
-        photos.loading.task.reported.connect(window.reading.show_progress)
-        photos.loading.ended.connect(window.reading.end)
-        window.reading.cancelled.connect(photos.cancel)
+        photos.loading.begun.connect(window.loading_bar.begin)
+        photos.loading.task.reported.connect(window.loading_bar.show_progress)
+        photos.loading.ended.connect(window.loading_bar.end)
+        window.loading_bar.cancelled.connect(photos.cancel)
         photos.failed.connect(self.messages.say_photo_failure)
         photos.opened.connect(self.document.show_photo)
         self.document.photo_named.connect(window.show_photo)

@@ -43,7 +43,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.room(store),
         panes.bench(scenes, parts.background_rates),
         services.export(window, shell, parts.present, preferences, current_pane, store),
-        services.animation(window, scenes, preferences, window.filming),
+        services.animation(window, scenes, preferences, window.animation_bar),
         services.transmitter(window, scenes, preferences),
         services.camera(window, scenes, preferences),
         services.manual(window, shell, current_pane),

@@ -217,7 +217,7 @@ class ViewOptions(QObject):
 class Parts(QObject):
     """Stores, controllers and panes of the window; without ``preferences`` nothing is stored."""
 
-    current_pane: CurrentPane  # of all docks, once they have been added
+    current_pane: CurrentPane  # set once all docks have been added
 
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
         super().__init__()

@@ -26,7 +26,8 @@ def connect_story(parts: Parts) -> None:
 
     readout = parts.window.readout
 
-    def connect_pane(name: str, pane: Any) -> None:  # refers to no part that refers to the shell
+    # It must not refer to the shell, whose signal holds it: neither would ever be freed.
+    def connect_pane(name: str, pane: Any) -> None:
         if name == "equations":
             _link_columns(crosshair, pane.exposure)
         elif name == "picture":
@@ -43,7 +44,7 @@ def connect_story(parts: Parts) -> None:
     parts.shell.made.connect(connect_pane)
     # Overlays and the picture before a change are drawn in the whole picture only.
     menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
-    before.toggled.connect(_WholePictureForBefore(story).show)
+    before.toggled.connect(_PictureDuringComparison(story).show)
     before.toggled.connect(
         lambda on: _find_before_button(parts.shell.pane("picture")).setChecked(on)
     )
@@ -125,7 +126,7 @@ def _link_columns(crosshair: Crosshair, exposure: "ExposureController") -> None:
     follow()
 
 
-class _WholePictureForBefore(QObject):
+class _PictureDuringComparison(QObject):
     """Shows the whole picture during the comparison with the one before a change."""
 
     def __init__(self, story: StoryView) -> None:

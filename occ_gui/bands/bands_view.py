@@ -75,7 +75,7 @@ class BandsView(QWidget):
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _PADDING)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setResizeContentsPrecision(-1)  # of all rows, not of those in view
+        header.setResizeContentsPrecision(-1)  # considers all rows, not only those in view
         header.setSectionResizeMode(header.count() - 1, QHeaderView.ResizeMode.Stretch)
         self.table.itemActivated.connect(self._choose_speed)
         self._speeds: tuple[SpeedDepth, ...] = ()

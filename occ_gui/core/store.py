@@ -64,9 +64,9 @@ class Selection(QObject, Generic[T]):
 
     changed = Signal(object)
 
-    def __init__(self, of: Callable[[Any], T], whole: object) -> None:
+    def __init__(self, find: Callable[[Any], T], whole: object) -> None:
         super().__init__()
-        self.of, self.value = of, of(whole)
+        self.find, self.value = find, find(whole)
 
 
 class Store(QObject):
@@ -87,8 +87,8 @@ class Store(QObject):
         # Announced when the stack has finished, so that a listener's own edit is pushed after it.
         self.undo_stack.indexChanged.connect(self._on_index_changed)
 
-    def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
-        selection = Selection(of, self.workspace)
+    def select(self, find: Callable[[Workspace], T]) -> Selection[T]:
+        selection = Selection(find, self.workspace)
         self._selections.append(selection)  # type: ignore[arg-type]  # Selection is invariant
         return selection
 
@@ -104,7 +104,7 @@ class Store(QObject):
             while self._announced is not self.workspace:
                 self._announced = self.workspace
                 for selection in self._selections:
-                    value = selection.of(self.workspace)  # a listener may have changed it since
+                    value = selection.find(self.workspace)  # a listener may have changed it since
                     if value != selection.value:
                         selection.value = value
                         selection.changed.emit(value)

@@ -57,7 +57,7 @@ class Workspace:
     scene_file: Path | None = None
 
     def __post_init__(self) -> None:
-        # Without a code there is no decision to limit; the signal before it is limited instead.
+        # Without a code no bit is decided: the tolerance limits the signal instead.
         if not self.has_code and self.settings.observable == "decision":
             object.__setattr__(self, "settings", replace(self.settings, observable="signal"))
 

@@ -11,7 +11,7 @@ from occ_gui.widgets.colours import REGION
 from occ_model.arrays import ByteArray
 from occ_model.results.match import Match
 
-_FRACTION = 1 / 3  # of the region's rows; the photo's own stripes go on below
+_FRACTION = 1 / 3  # fraction of the region's rows that are covered; below are the photo's own
 _LAYER = 10  # z value, below the outlines of lamps
 _WIDTH = 2
 

@@ -33,7 +33,7 @@ _ROW_HEIGHT = 24
 _THIN, _THICK = 2, 4  # pen widths in pixels
 _LAYER = 20  # z value of the outlines
 
-_HALF_SIDE = 1e6  # of the area for drawing, in pixels
+_HALF_SIDE = 1e6  # half the side of the area for drawing, in pixels
 _HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be hit
 
 

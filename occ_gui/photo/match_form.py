@@ -24,7 +24,7 @@ from occ_model.scene.scene import Scene
 
 _LAMP = "lamp_frequency"
 
-_STEPS = 1000  # of the progress bar
+_PROGRESS_STEPS = 1000
 
 
 class MatchForm(QWidget):
@@ -146,7 +146,7 @@ class MatchForm(QWidget):
             lambda: self.asked.emit(self.choice()),
         )
         self.progress = name_widget(QProgressBar(), "Progress of the match, in percent")
-        self.progress.setRange(0, _STEPS)
+        self.progress.setRange(0, _PROGRESS_STEPS)
         self.cancel = push_button(
             "&Cancel", "Cancel this match; the previous result stays.", self.cancelled
         )
@@ -215,7 +215,7 @@ class MatchForm(QWidget):
         self.progress.setValue(0)
 
     def show_progress(self, fraction: float) -> None:
-        self.progress.setValue(round(_STEPS * fraction))
+        self.progress.setValue(round(_PROGRESS_STEPS * fraction))
 
     def _show_known(self) -> None:
         is_lamp, name = self.sent.key() == "lamp", self._known_name()

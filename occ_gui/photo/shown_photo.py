@@ -79,7 +79,7 @@ def automatic_placement(
 class ShownPhoto:
     scene: Scene
     choice: PhotoChoice = field(default_factory=PhotoChoice)
-    reading: Reading | None = None  # of the simulated scene
+    reading: Reading | None = None  # the reading of the simulated scene
     document: PhotoDocument | None = None
     part: Part = None
     outcome: MatchOutcome | None = None

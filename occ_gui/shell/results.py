@@ -105,9 +105,9 @@ class ResultsStore(QObject):
         self.results = Results()
         self._selections: list[Selection[Any]] = []
 
-    def select(self, of: Callable[[Results], T]) -> Selection[T]:
+    def select(self, find: Callable[[Results], T]) -> Selection[T]:
         """Return a selection of the results; its listeners are called after the panes."""
-        selection = Selection(of, self.results)
+        selection = Selection(find, self.results)
         self._selections.append(selection)
         return selection
 
@@ -115,7 +115,7 @@ class ResultsStore(QObject):
         self.results = results
         self.changed.emit()
         for selection in self._selections:
-            value = selection.of(self.results)
+            value = selection.find(self.results)
             if value is not selection.value:
                 selection.value = value
                 selection.changed.emit(value)
@@ -185,8 +185,9 @@ def status_message(workspace: Workspace, results: Results) -> str:
 class ResultUpdater(QObject, Generic[Request, Result]):
     """Recomputes a result whenever the workspace, or a result that it depends on, changes.
 
-    ``of`` returns the request for the task, or None if there is nothing to compute. ``put`` stores
-    or removes the result. ``stays``: whether the last result stays until the next one is ready.
+    ``find_request`` returns the request for the task, or None if there is nothing to compute.
+    ``put`` stores or removes the result. ``stays``: whether the last result stays until the next
+    one is ready.
     ``keep``: number of earlier results that are cached for requests made again.
     """
 
@@ -200,7 +201,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
         store: Store,
         results_store: ResultsStore,
         task: Task[Request, Result],
-        of: Callable[[Workspace, Results], Request | None],
+        find_request: Callable[[Workspace, Results], Request | None],
         put: Callable[[Results, Result | None], Results],
         *,
         stays: bool = False,
@@ -208,7 +209,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
     ) -> None:
         super().__init__()
         self._store, self._results_store, self.task = store, results_store, task
-        self._of, self._put, self._stays = of, put, stays
+        self._find_request, self._put, self._stays = find_request, put, stays
         self._request: Request | None = None
         self._cache: deque[tuple[Request, Result]] = deque(maxlen=keep)
         task.finished.connect(self._take)
@@ -218,7 +219,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
         self.update()
 
     def update(self) -> None:
-        request = self._of(self._store.workspace, self._results_store.results)
+        request = self._find_request(self._store.workspace, self._results_store.results)
         if request == self._request:
             return
         self._request = request

@@ -45,7 +45,8 @@ class MatchOutcome:
     part: "Lamp | Region | None"  # what was matched; None for all of the photo
     # The match; after a refusal, the previous match, or None if there was none
     match: "Match | None"
-    given: tuple[str, float]  # the known value of the scene at the request: its name, in SI units
+    # Name and value in SI units of the scene's known parameter when the match was requested
+    given: tuple[str, float]
     # Why the latest match was refused, a sentence for each reason, and the part to be matched
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None
@@ -88,7 +89,7 @@ class ListedRows:
     paths: tuple[Path, ...]
     rows: "Mapping[int, PhotoRow]"  # by the index of the photo
     load_options: LoadOptions
-    given: tuple[str, float]  # the known value of the scene at the request, as above
+    given: tuple[str, float]  # as in a MatchOutcome
     settings: "MatchSettings"
     table: "PhotoTable | None" = None  # the rows with their mean, once all photos are matched
     is_running: bool = False

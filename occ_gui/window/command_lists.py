@@ -30,7 +30,7 @@ from occ_model.scene.parameters import PARAMETERS
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
 
-_WIDTH, _HEIGHT = 560, 560  # of either dialog at first, in pixels
+_WIDTH, _HEIGHT = 560, 560  # first size of both dialogs in pixels
 
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 """Keys that move the selection in the list while the text field has the focus."""

@@ -1,4 +1,4 @@
-"""Modes and docks: the panes of each task, which may float; the current one; the stored layout."""
+"""Modes and docks: which panes a mode shows and where, the pane in use, the stored layout."""
 
 from binascii import crc32
 from collections.abc import Callable, Mapping, Sequence
@@ -110,7 +110,7 @@ class ModeSwitch(QObject):
         self.layouts: dict[str, QByteArray] = {}
         """The last layouts of the other modes, by name."""
         self.is_shown = False  # whether the window has been laid out
-        self.version = 0  # of stored layouts; those of other sets of panes are ignored
+        self.version = 0  # version of stored layouts; those with other panes are ignored
 
     def begin(self) -> None:
         """Lay out the present mode, when the window is first shown."""
@@ -200,7 +200,7 @@ class Dock(QDockWidget):
         self.setObjectName(name)
         self.setWidget(content)
         self._place = QRect()
-        self.height_before = 0  # of the window, before the pane was shown
+        self.height_before = 0  # height of the window before the pane was shown
         self.topLevelChanged.connect(self._on_floated)
         self.toggleViewAction().triggered.connect(self._on_switched)
         self.hide()  # until a mode lays it out

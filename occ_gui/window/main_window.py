@@ -85,7 +85,8 @@ class MainWindow(QMainWindow):
         line = self._status_line
         self.failure = FailureBanner(self, self.toolbar)
         self.leave_messages_to(self.failure.sentence)
-        self.reading, self.filming, self.readout = line.reading, line.filming, line.readout
+        self.loading_bar, self.animation_bar = line.loading_bar, line.animation_bar
+        self.readout = line.readout
         self.show_timing = self._status_line.show_timing
         self.show_accuracy = self._status_line.show_accuracy
         self._photo_name = ""

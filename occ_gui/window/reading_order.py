@@ -31,13 +31,13 @@ def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWid
 
 def focus_stops(widget: QWidget) -> Iterator[QWidget]:
     """Yield the widgets that the Tab key reaches, in reading order."""
-    for child in _sort(_children(widget)):
+    for child in _sort(_list_children(widget)):
         if child.focusPolicy() & Qt.FocusPolicy.TabFocus and child.focusProxy() is None:
             yield child
         yield from focus_stops(child)
 
 
-def _children(widget: QWidget) -> list[QWidget]:
+def _list_children(widget: QWidget) -> list[QWidget]:
     visible = [
         child
         for child in widget.children()

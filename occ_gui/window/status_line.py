@@ -19,7 +19,7 @@ _TEXT_EVENTS = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
 
 _BULLET = "• "
 
-_LASTING = ("photo", "accuracy")  # keys of what lasts though it may be out of view
+_BADGES = ("photo", "accuracy")  # keys of the badges, which no other text replaces
 
 _GAP = 8  # pixels to the left of a readout
 
@@ -39,12 +39,12 @@ class StatusLine(QStatusBar):
         self._sentence = ElidedLabel()
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName("Message")
-        self.reading = WorkBar("Progress of reading the photo")
-        self.filming = WorkBar("Progress of writing the animation")
+        self.loading_bar = WorkBar("Progress of reading the photo")
+        self.animation_bar = WorkBar("Progress of writing the animation")
         self.readout, self.timing = _Readout(), _Readout()
-        self.photo, self.accuracy = (BadgeLabel(Badge(key, "", "")) for key in _LASTING)
+        self.photo, self.accuracy = (BadgeLabel(Badge(key, "", "")) for key in _BADGES)
         self.addWidget(self._sentence, 1)
-        for widget in (self.reading, self.filming, self.readout, self.timing):
+        for widget in (self.loading_bar, self.animation_bar, self.readout, self.timing):
             self.addPermanentWidget(widget)
         for badge in (self.photo, self.accuracy):
             # Its size is fixed, so that other texts cannot reduce it.
@@ -116,7 +116,7 @@ class StatusLine(QStatusBar):
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return a width that does not depend on the texts, so that the window can be narrowed."""
-        return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
+        return QSize(self.loading_bar.minimumSizeHint().width(), super().minimumSizeHint().height())
 
     def _show_sentence(self) -> None:
         is_elsewhere = self.is_shown_elsewhere

@@ -16,7 +16,7 @@ _STYLE = "fusion"  # the style that follows any palette, on every system
 
 _ROLE = QPalette.ColorRole
 
-_COLOURS = {  # of a role in the light theme, and in the dark one
+_COLOURS = {  # the colours of each role: in the light theme, and in the dark one
     _ROLE.Window: ("#f3f4f6", "#1f2226"), _ROLE.WindowText: ("#1a1c1f", "#eceef0"),
     _ROLE.Base: ("#ffffff", "#141619"), _ROLE.AlternateBase: ("#f7f8f9", "#1a1d20"),
     _ROLE.Text: ("#1a1c1f", "#eceef0"), _ROLE.Button: ("#ffffff", "#2c3036"),

@@ -83,7 +83,7 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
         return load(*args, progress=progress, **options)
 
     monkeypatch.setattr(occ, "load_photo", wait_and_load)
-    bar = application.window.reading
+    bar = application.window.loading_bar
     application.photos.open(photo_path, match=True)
     qtbot.waitUntil(bar.isVisible)
     qtbot.waitUntil(lambda: bar.progress.value() == bar.progress.maximum() // 2)

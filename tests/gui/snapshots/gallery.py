@@ -22,10 +22,10 @@ TILE = 24
 """The side of a tile in pixels: a line of text, or two ticks of an axis."""
 
 LEAST_SIMILARITY = 0.75
-"""Of the worst tile's structure, where 1 is the same."""
+"""Least similarity of the worst tile's structure, where 1 means equal."""
 
 MOST_COLOUR = 5.0
-"""Of the worst tile's mean colour, in grey levels of 0 to 255."""
+"""Largest difference of the worst tile's mean colour, in grey levels from 0 to 255."""
 
 Colours = NDArray[np.uint8]
 """Shape (height, width, 3)."""

@@ -40,9 +40,9 @@ def line(qtbot: QtBot) -> StatusLine:
 
 
 @pytest.mark.parametrize(
-    ("width", "points", "is_reading"), [(300, 24, True), (800, 9, False), (1280, 16, True)]
+    ("width", "points", "is_loading"), [(300, 24, True), (800, 9, False), (1280, 16, True)]
 )
-def test_texts_never_overlap(line: StatusLine, width: int, points: int, is_reading: bool) -> None:
+def test_texts_never_overlap(line: StatusLine, width: int, points: int, is_loading: bool) -> None:
     font = line.font()
     font.setPointSize(points)
     line.setFont(font)
@@ -52,7 +52,7 @@ def test_texts_never_overlap(line: StatusLine, width: int, points: int, is_readi
         line.show_plan_change(LONG)
         line.readout.set_full_text(READOUT)
         line.show_timing(1.2345, 0.6789)
-        line.reading.setVisible(is_reading)
+        line.loading_bar.setVisible(is_loading)
         QApplication.processEvents()
         assert len(texts_of(line)) >= (3 if width > 300 else 0)
         check_texts(line)

@@ -4,7 +4,7 @@ import html
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent, QUndoStack
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
@@ -17,16 +17,12 @@ from occ_gui.widgets.state_look import Badge
 from occ_gui.window.docks import DeclaredPane, Dock, ModeSwitch, Panes
 from occ_gui.window.failure_banner import FailureBanner
 from occ_gui.window.menus import Menus
+from occ_gui.window.pane_room import PaneRoom
 from occ_gui.window.reading_order import next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar import ToolBar
 from occ_model.errors import one_line
-
-_OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
-"""Fractions of the window's height and width for a pane opening below the middle or beside it."""
-
-_LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
 
 _FIRST_SIZE = QSize(1280, 800)
 _LONGEST_NAME = 30  # characters of a photo's name in the status line
@@ -68,6 +64,7 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(centre)
         self.docks: dict[str, Dock] = {}
         self._panes = Panes()
+        self._room = PaneRoom(self, self.docks, lambda: self._panes.main_of(self.modes.mode))
         self._add_dock("controls", "Scene", controls, _CONTROLS, "left")
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
@@ -101,15 +98,9 @@ class MainWindow(QMainWindow):
         self, name: str, title: str, content: QWidget, places: Places, default_side: Side
     ) -> Dock:
         dock = self.docks[name] = Dock(name, title, content, self)
-        dock.opened_by_user.connect(self._on_opened)
+        dock.opened_by_user.connect(self._room.give_to_sender)
         self._panes[name] = DeclaredPane(dock, places, default_side)
         return dock
-
-    def _on_opened(self) -> None:
-        dock = self.sender()
-        if isinstance(dock, Dock):
-            self._join_tabs(dock)
-            QTimer.singleShot(0, dock, lambda: self._bring_forward(dock, True))
 
     def add_pane(
         self, name: str, title: str, content: QWidget, places: Places, default_side: Side
@@ -127,99 +118,7 @@ class MainWindow(QMainWindow):
         home = self._panes.home_of(name)
         if self.docks[name].isHidden() and home:
             self.modes.switch(home)
-        self._raise(name)
-
-    def _raise(self, name: str) -> None:
-        dock = self.docks[name]
-        is_new = dock.isHidden()
-        # Otherwise Qt would widen the window for the former page of the middle.
-        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
-        dock.show()
-        if is_new:
-            self._join_tabs(dock)
-        # A window that has just been shown arranges its docks once more, in another order.
-        QTimer.singleShot(0, dock, lambda: self._bring_forward(dock, is_new))
-
-    def _join_tabs(self, dock: Dock) -> None:
-        """Make a pane that has just opened a tab of another one if there is no room for both.
-
-        Qt would widen the window beyond the screen, and draw one pane over the other.
-        """
-        below = Qt.DockWidgetArea.BottomDockWidgetArea
-        if dock.isFloating() or self.dockWidgetArea(dock) != below:
-            return
-        others = [
-            other
-            for other in self.docks.values()
-            if other is not dock
-            and self.dockWidgetArea(other) == below
-            and not (other.isFloating() or other.visibleRegion().isEmpty())
-        ]
-        if not others or self.tabifiedDockWidgets(dock):
-            return
-        left = min(other.geometry().left() for other in others)
-        room = max(other.geometry().right() for other in others) - left
-        if _LEAST_BELOW * (len(others) + 1) > room:
-            self.tabifyDockWidget(others[-1], dock)
-
-    def _bring_forward(self, dock: Dock, is_new: bool) -> None:
-        """Bring a pane to the front, and enlarge it if it is too small when it opens."""
-        dock.raise_()
-        if not is_new or dock.isFloating():
-            return
-        if self._fit_height(dock):
-            dock.raise_()
-        area = self.dockWidgetArea(dock)
-        if area == Qt.DockWidgetArea.BottomDockWidgetArea:
-            least_length, length = round(_OPENED_BELOW * self.height()), dock.height()
-            orientation = Qt.Orientation.Vertical
-        else:
-            least_length, length = round(_OPENED_BESIDE * self.width()), dock.width()
-            orientation = Qt.Orientation.Horizontal
-        if length < least_length:
-            self.resizeDocks([dock], [least_length], orientation)
-        if orientation == Qt.Orientation.Horizontal:
-            self._give_half_height(dock)
-
-    def _fit_height(self, dock: Dock) -> bool:
-        """Make a pane a tab of another one if there is no room for one above the other.
-
-        Qt would make the window higher than the screen. Return whether the pane has moved.
-        """
-        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
-        if self.minimumSizeHint().height() <= dock.height_before:
-            return False
-        area, main = self.dockWidgetArea(dock), self._panes.main_of(self.modes.mode)
-        others = [
-            other
-            for name, other in self.docks.items()
-            if other not in {dock, *self.tabifiedDockWidgets(dock)}
-            and name not in {"controls", main}
-            and not (other.isFloating() or other.isHidden())
-        ]
-        if not others:
-            return False
-        neighbours = [other for other in others if self.dockWidgetArea(other) == area]
-        self.tabifyDockWidget((neighbours or others)[-1], dock)
-        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
-        self.resize(self.width(), dock.height_before)
-        return True
-
-    def _give_half_height(self, dock: Dock) -> None:
-        """Give a pane at a side half of the height, if those above it can spare it."""
-        above = [
-            other
-            for other in self.docks.values()
-            if other not in {dock, *self.tabifiedDockWidgets(dock)}
-            and self.dockWidgetArea(other) == self.dockWidgetArea(dock)
-            and other.isVisible()
-            and not other.isFloating()
-        ]
-        room = dock.height() + sum(other.height() for other in above)
-        needed = sum(other.sizeHint().height() for other in above)
-        fraction = min(room // 2, room - needed)
-        if dock.height() < fraction:
-            self.resizeDocks([dock], [fraction], Qt.Orientation.Vertical)
+        self._room.show_in_front(self.docks[name])
 
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front in the present mode, or the story if it has a row for the pane.
@@ -231,7 +130,7 @@ class MainWindow(QMainWindow):
             return
         if name == _WITH_PICTURE:
             self._story.show_whole_picture(True)
-        self._raise(name)
+        self._room.show_in_front(self.docks[name])
 
     def hide_pane(self, name: str) -> None:
         """Hide a pane that the present mode does not show."""

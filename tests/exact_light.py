@@ -4,6 +4,7 @@ It is apart from the program's own light, and takes a loop over the pieces of a 
 """
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import accumulate, pairwise
 
@@ -25,17 +26,31 @@ OTHER_LIGHTS: dict[str, dict[str, float | str]] = {  # changes of a scene, by wh
 }
 
 
+class ExactPieces:
+    """A light that repeats, constant on each piece, and its integral from the time 0."""
+
+    def __init__(self, levels: Sequence[Fraction], lengths: Sequence[Fraction]) -> None:
+        self.levels, self.lengths = levels, lengths
+        self.edges = list(accumulate(lengths, initial=Fraction(0)))
+        self.period = self.edges[-1]
+        light = (level * length for level, length in zip(levels, lengths, strict=True))
+        self._integral = list(accumulate(light, initial=Fraction(0)))
+        self.mean = self._integral[-1] / self.period
+
+    def until(self, time: Fraction) -> Fraction:
+        periods, since = divmod(time, self.period)
+        piece = bisect_right(self.edges, since) - 1  # the last edge at or before the time
+        part = (since - self.edges[piece]) * self.levels[piece]
+        return periods * self._integral[-1] + self._integral[piece] + part
+
+
 class ExactLight:
     """The light of a scene, whose mean over any time is exact: 1 is the panel fully lit."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene, self._sent = scene, scene.transmitter
         if self._sent.light != "mains":
-            levels, lengths = _pieces(scene)
-            self._levels = levels
-            self._edges = list(accumulate(lengths, initial=Fraction(0)))
-            light = (level * length for level, length in zip(levels, lengths, strict=True))
-            self._light = list(accumulate(light, initial=Fraction(0)))
+            self._pieces = ExactPieces(*_pieces(scene))
 
     def mean(self, start: Fraction, step: Fraction, count: int) -> FloatArray:
         """Return the mean light of exposures that start in equal steps, in seconds."""
@@ -50,13 +65,7 @@ class ExactLight:
         return self.mean(start, Fraction(camera.readout_time), camera.columns)
 
     def _mean_of_pieces(self, start: Fraction, length: Fraction) -> Fraction:
-        return (self._until(start + length) - self._until(start)) / length
-
-    def _until(self, time: Fraction) -> Fraction:
-        periods, since = divmod(time, self._edges[-1])
-        piece = bisect_right(self._edges, since) - 1
-        part = (since - self._edges[piece]) * self._levels[piece]
-        return periods * self._light[-1] + self._light[piece] + part
+        return (self._pieces.until(start + length) - self._pieces.until(start)) / length
 
     def _mean_of_cosine(self, start: Fraction, length: Fraction) -> mpmath.mpf:
         """Return 1 + m (sin(2 pi b) - sin(2 pi a)) / (2 pi (b - a)), a and b being the cycles."""

@@ -1,11 +1,10 @@
 """The integral of any waveform over exposures, compared with exact rational arithmetic."""
 
-from bisect import bisect_right
 from fractions import Fraction
-from itertools import accumulate
 
 import numpy as np
 import pytest
+from exact_light import ExactPieces
 
 from occ_model.light.edged import EdgedWaveform
 from occ_model.light.times import Duration, PhasesInPeriod, count_phases
@@ -15,36 +14,24 @@ STARTS = 12
 DECADES = (-9.0, 9.0)  # of exposure / period
 
 
-class Exact:
-    """One period of pieces, in exact arithmetic."""
+class Exact(ExactPieces):
+    """One period of pieces, in exact arithmetic; the unit is the mean length of a piece."""
 
     def __init__(self, levels: list[float], lengths: list[Fraction]) -> None:
-        self.levels = [Fraction(level) for level in levels]
         unit = sum(lengths, Fraction(0)) / len(lengths)
-        self.lengths = [length / unit for length in lengths]
-        self.edges = [Fraction(0), *accumulate(self.lengths)]
-        light = (a * b for a, b in zip(self.levels, self.lengths, strict=True))
-        self.integral = [Fraction(0), *accumulate(light)]
-        self.period = len(levels)
-
-    def until(self, time: Fraction) -> Fraction:
-        periods, rest = divmod(time, self.period)
-        # The last edge at or before the time, since edges rise.
-        piece = bisect_right(self.edges, rest) - 1
-        within = (rest - self.edges[piece]) * self.levels[piece]
-        return periods * self.integral[-1] + self.integral[piece] + within
+        super().__init__([*map(Fraction, levels)], [length / unit for length in lengths])
+        self.count = len(levels)
 
     def twice_until(self, time: Fraction) -> Fraction:
         """Return the integral of the integral of the light minus its mean, times 2."""
         total, at, run = Fraction(0), Fraction(0), Fraction(0)
-        mean = self.integral[-1] / self.period
         rest = time % self.period
         for level, length in zip(self.levels, self.lengths, strict=True):
             part = min(length, rest - at)
             if part <= 0:
                 break
-            total += 2 * run * part + (level - mean) * part * part
-            run += (level - mean) * part
+            total += 2 * run * part + (level - self.mean) * part * part
+            run += (level - self.mean) * part
             at += part
         return total
 
@@ -74,10 +61,10 @@ def test_exposures_hold_the_light_of_exact_arithmetic(block: int) -> None:
     for _ in range(100):
         levels, lengths = pieces(random)
         exact, waveform = Exact(levels, lengths), Waveform(levels, lengths)
-        exposure = Fraction(float(10.0 ** random.uniform(*DECADES))) * exact.period
-        starts = phases(random, exact.period)
-        duration = Duration.of(exposure, exact.period)
-        light = waveform.light_in(starts, duration) / duration.in_units(exact.period)
+        exposure = Fraction(float(10.0 ** random.uniform(*DECADES))) * exact.count
+        starts = phases(random, exact.count)
+        duration = Duration.of(exposure, exact.count)
+        light = waveform.light_in(starts, duration) / duration.in_units(exact.count)
         # Relative to a thousandth of a unit at least, as a start is known to 2e-16 units only.
         scale = max(exposure, Fraction(1, 1000))
         for whole, fraction, value in zip(starts.whole, starts.fraction, light, strict=True):
@@ -94,12 +81,12 @@ def test_starts_at_edges_and_an_ulp_beside_lie_on_the_right_side() -> None:
         levels, lengths = pieces(random)
         exact, waveform = Exact(levels, lengths), Waveform(levels, lengths)
         exposure = Fraction(1, 3)
-        for edge in exact.edges[:: max(1, exact.period // 6)]:
-            near = float(edge % exact.period)
+        for edge in exact.edges[:: max(1, exact.count // 6)]:
+            near = float(edge % exact.count)
             for place in (near, np.nextafter(near, 0.0), np.nextafter(near, np.inf)):
-                whole = int(place) % exact.period
+                whole = int(place) % exact.count
                 starts = PhasesInPeriod(np.array([whole]), np.array([place - int(place)]))
-                light = waveform.light_in(starts, Duration.of(exposure, exact.period))
+                light = waveform.light_in(starts, Duration.of(exposure, exact.count))
                 start = whole + Fraction(float(place - int(place)))
                 true = exact.until(start + exposure) - exact.until(start)
                 assert float(light[0]) == pytest.approx(float(true), abs=3e-13)
@@ -114,29 +101,28 @@ def test_edges_of_any_length_are_those_of_exact_arithmetic(block: int) -> None:
         edge = Fraction(float(10.0 ** random.uniform(-4.0, 1.5)))
         exposure = Fraction(float(10.0 ** random.uniform(-3.0, 1.0)))
         waveform = EdgedWaveform(Waveform(levels, lengths), edge)
-        start, step = (Fraction(float(random.uniform(0.0, exact.period))) for _ in range(2))
+        start, step = (Fraction(float(random.uniform(0.0, exact.count))) for _ in range(2))
 
         def starts(
             shift: Fraction,
             start: Fraction = start,
             step: Fraction = step,
-            period: int = exact.period,
+            period: int = exact.count,
         ) -> PhasesInPeriod:
             return count_phases((start + shift) % period, step % period, period, STARTS)
 
         light = waveform.light_in(starts, exposure) / float(exposure)
-        mean = exact.integral[-1] / exact.period
         for number, value in enumerate(light):
             at = start + number * step
             ends = (at + exposure, at), (at + exposure - edge, at - edge)
             swing = [exact.twice_until(last) - exact.twice_until(first) for last, first in ends]
             # The second integral of a period is no multiple of it: only whole ones are taken off.
-            period_gain = exact.twice_until(exact.period - Fraction(1, 10**40))
+            period_gain = exact.twice_until(exact.count - Fraction(1, 10**40))
             swing = [
-                each + period_gain * (last // exact.period - first // exact.period)
+                each + period_gain * (last // exact.count - first // exact.count)
                 for each, (last, first) in zip(swing, ends, strict=True)
             ]
-            true = mean + (swing[0] - swing[1]) / (2 * edge * exposure)
+            true = exact.mean + (swing[0] - swing[1]) / (2 * edge * exposure)
             assert float(value) == pytest.approx(float(true), abs=2e-11)
 
 

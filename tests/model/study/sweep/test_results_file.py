@@ -45,6 +45,11 @@ def complete_file(table: SweepTable) -> bytes:
 
 
 @pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "r.csv"
+
+
+@pytest.fixture
 def measured_points(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Record the indices of the points that are measured."""
     indices: list[int] = []
@@ -59,21 +64,17 @@ def measured_points(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 
 def header_size(complete_file: bytes) -> int:
-    return (
-        complete_file.index(b"\ndistance (m),")
-        + complete_file[complete_file.index(b"\ndistance (m),") + 1 :].index(b"\n")
-        + 2
-    )
+    names = complete_file.index(b"\ndistance (m),") + 1
+    return complete_file.index(b"\n", names) + 1
 
 
 def test_the_file_is_the_table_in_order_with_its_scene(
-    scene: Scene, table: SweepTable, complete_file: bytes, tmp_path: Path
+    scene: Scene, table: SweepTable, complete_file: bytes, path: Path
 ) -> None:
-    path = tmp_path / "r.csv"
     assert run_sweep(scene, path) == table
     assert path.read_bytes() == complete_file
-    table.to_csv(tmp_path / "t.csv")
-    assert (tmp_path / "t.csv").read_bytes() == complete_file
+    table.to_csv(path.with_name("t.csv"))
+    assert path.with_name("t.csv").read_bytes() == complete_file
     lines = complete_file.decode().splitlines()
     comments = "\n".join(line[2:] for line in lines if line.startswith("#"))
     assert Scene.from_toml(comments[comments.index("format = 1\n") :]) == scene
@@ -89,10 +90,9 @@ def test_a_complete_file_is_read_and_nothing_is_measured(
     scene: Scene,
     table: SweepTable,
     complete_file: bytes,
-    tmp_path: Path,
+    path: Path,
     measured_points: list[int],
 ) -> None:
-    path = tmp_path / "r.csv"
     path.write_bytes(complete_file)
     counts: list[int] = []
     assert run_sweep(scene, path, progress=lambda done, *_: counts.append(done)) == table
@@ -105,10 +105,10 @@ def test_a_truncated_file_is_completed_with_the_missing_points(
     scene: Scene,
     table: SweepTable,
     complete_file: bytes,
-    tmp_path: Path,
+    path: Path,
     measured_points: list[int],
 ) -> None:
-    path, begin = tmp_path / "r.csv", header_size(complete_file)
+    begin = header_size(complete_file)
     cuts = {
         0,
         1,
@@ -128,9 +128,9 @@ def test_a_truncated_file_is_completed_with_the_missing_points(
 
 
 def test_a_file_with_rows_in_any_order_is_continued_and_sorted(
-    scene: Scene, table: SweepTable, complete_file: bytes, tmp_path: Path
+    scene: Scene, table: SweepTable, complete_file: bytes, path: Path
 ) -> None:
-    path, begin = tmp_path / "r.csv", header_size(complete_file)
+    begin = header_size(complete_file)
     lines = complete_file[begin:].splitlines(keepends=True)
     points = [b"".join(lines[first : first + 2]) for first in range(0, len(lines), 2)]
     path.write_bytes(complete_file[:begin] + points[4] + points[0] + points[5])
@@ -152,9 +152,8 @@ def test_a_file_with_rows_in_any_order_is_continued_and_sorted(
     ],
 )
 def test_the_file_of_another_sweep_is_refused_and_unchanged(
-    scene: Scene, complete_file: bytes, tmp_path: Path, others: dict[str, object], words: str
+    scene: Scene, complete_file: bytes, path: Path, others: dict[str, object], words: str
 ) -> None:
-    path = tmp_path / "r.csv"
     path.write_bytes(complete_file)
     with pytest.raises(occ.OutputError, match=f"contains the results of another sweep.*{words}"):
         run_sweep(scene, path, **others)
@@ -162,9 +161,8 @@ def test_the_file_of_another_sweep_is_refused_and_unchanged(
 
 
 def test_another_scene_or_format_is_another_sweep(
-    scene: Scene, complete_file: bytes, tmp_path: Path
+    scene: Scene, complete_file: bytes, path: Path
 ) -> None:
-    path = tmp_path / "r.csv"
     path.write_bytes(complete_file)
     with pytest.raises(occ.OutputError, match=r"'iso = 100.0' where this one has 'iso = 200.0'"):
         run_sweep(scene.replace(iso=200.0), path)
@@ -190,9 +188,8 @@ def test_another_scene_or_format_is_another_sweep(
     ],
 )
 def test_foreign_lines_are_refused_and_kept(
-    scene: Scene, complete_file: bytes, tmp_path: Path, change: Callable[[bytes], bytes]
+    scene: Scene, complete_file: bytes, path: Path, change: Callable[[bytes], bytes]
 ) -> None:
-    path = tmp_path / "r.csv"
     path.write_bytes(change(complete_file))
     with pytest.raises(occ.OutputError, match=r"Line \d+ of .* is not a new row of this sweep"):
         run_sweep(scene, path)
@@ -225,7 +222,7 @@ HUGE = "9" * 5000
     ],
 )
 def test_impossible_counts_are_refused_with_line_and_value(
-    scene: Scene, complete_file: bytes, tmp_path: Path, cells: dict[int, str], said: str
+    scene: Scene, complete_file: bytes, path: Path, cells: dict[int, str], said: str
 ) -> None:
     lines = complete_file.decode().splitlines()
     place = next(n for n, line in enumerate(lines) if line.startswith("1.0,15000.0,matched,"))
@@ -235,7 +232,6 @@ def test_impossible_counts_are_refused_with_line_and_value(
         row[cell] = count
     if cells.keys() == {RIGHT} and cells[RIGHT] in ("11", "9"):  # the values derived from it agree
         row[7] = repr(10.0 * int(cells[RIGHT]))
-    path = tmp_path / "r.csv"
     content = "\n".join([*lines[:place], ",".join(row), *lines[place + 1 :], ""]).encode()
     path.write_bytes(content)
     with pytest.raises(occ.OutputError) as refused:
@@ -246,10 +242,8 @@ def test_impossible_counts_are_refused_with_line_and_value(
     assert path.read_bytes() == content
 
 
-def test_counts_with_a_varied_payload_are_limited_by_its_own_bits(
-    scene: Scene, tmp_path: Path
-) -> None:
-    path, axes = tmp_path / "r.csv", {"distance": [1.0], "bits": [10, 12]}
+def test_counts_with_a_varied_payload_are_limited_by_its_own_bits(scene: Scene, path: Path) -> None:
+    axes = {"distance": [1.0], "bits": [10, 12]}
     found = run_sweep(scene, path, axes=axes)
     assert found.sent.tolist() == [[10, 12]]
     assert run_sweep(scene, path, axes=axes) == found
@@ -278,12 +272,11 @@ def test_a_full_disk_gives_a_sentence_and_keeps_what_was_written(
     scene: Scene,
     table: SweepTable,
     complete_file: bytes,
-    tmp_path: Path,
+    path: Path,
     monkeypatch: pytest.MonkeyPatch,
     space: float,
 ) -> None:
-    path, real = tmp_path / "r.csv", os.write
-    left = space
+    real, left = os.write, space
 
     def write(descriptor: int, text: memoryview) -> int:
         nonlocal left
@@ -305,9 +298,8 @@ def test_a_full_disk_gives_a_sentence_and_keeps_what_was_written(
 
 
 def test_two_sweeps_on_one_file_are_refused(
-    scene: Scene, table: SweepTable, complete_file: bytes, tmp_path: Path
+    scene: Scene, table: SweepTable, complete_file: bytes, path: Path
 ) -> None:
-    path = tmp_path / "r.csv"
     refusals: list[str] = []
 
     def second(done: int, *_: object) -> None:
@@ -323,8 +315,8 @@ def test_two_sweeps_on_one_file_are_refused(
     assert path.read_bytes() == complete_file
 
 
-def test_a_link_is_followed(scene: Scene, complete_file: bytes, tmp_path: Path) -> None:
-    link, path = tmp_path / "link.csv", tmp_path / "r.csv"
+def test_a_link_is_followed(scene: Scene, complete_file: bytes, path: Path) -> None:
+    link = path.with_name("link.csv")
     link.symlink_to(path)
     run_sweep(scene, link)
     assert link.is_symlink()
@@ -332,9 +324,8 @@ def test_a_link_is_followed(scene: Scene, complete_file: bytes, tmp_path: Path) 
 
 
 def test_results_are_not_appended_to_a_write_protected_file(
-    scene: Scene, complete_file: bytes, tmp_path: Path
+    scene: Scene, complete_file: bytes, path: Path
 ) -> None:
-    path = tmp_path / "r.csv"
     part = complete_file[: header_size(complete_file)]
     path.write_bytes(part)
     path.chmod(0o444)

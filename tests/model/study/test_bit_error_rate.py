@@ -13,7 +13,6 @@ from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
 from occ_model.study.bit_error_rate import bit_errors_of, error_interval, with_payload
 from occ_model.study.signals.pictures import observe_images
-from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
 
 SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")
 
@@ -103,23 +102,6 @@ def test_net_bits_per_second_are_whole_payloads_over_time() -> None:
 def test_a_raw_pattern_has_no_bit_errors() -> None:
     with pytest.raises(ParameterError, match="raw pattern"):
         occ.bit_error_rate(SCENE.replace(pattern="01"), bits=10)
-
-
-@pytest.mark.parametrize("decibels", [0.0, 20.0, 40.0])
-@pytest.mark.parametrize("exposure", [20e-6, 136e-6, 1e-3])
-def test_the_rate_bound_is_the_water_filling_integral(decibels: float, exposure: float) -> None:
-    scene = Scene().replace(exposure_time=exposure)
-    half, power = row_rate_frequency(scene), 10.0 ** (decibels / 10.0)
-
-    grid = np.linspace(0.0, half, 40_001)
-    noise = 1.0 / half / np.maximum(np.sinc(grid * exposure) ** 2, 1e-300)
-    # The power fills the frequencies with the lowest noise up to one level.
-    least = np.sort(noise)
-    levels = (power / grid[1] + np.cumsum(least)) / np.arange(1, len(least) + 1)
-    level = levels[levels > least][-1]
-    bits = float(np.trapezoid(np.log2(np.maximum(level / noise, 1.0)), grid))
-    seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
-    assert gaussian_rate_bound(scene, power, 30.0) == pytest.approx(bits * seconds, rel=1e-3)
 
 
 def test_a_panel_out_of_view_takes_no_time_to_read_out() -> None:

@@ -35,7 +35,7 @@ class SceneCosts:
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
     def is_of(self, request: SimulationRequest) -> bool:
-        return _comparison_key(request) == _comparison_key(self.request)
+        return _make_key(request) == _make_key(self.request)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class CostMeasurement:
         report(replace(costs, errors=complete.errors))
 
     def _simulate(self, request: SimulationRequest, timer: StageTimer) -> CompleteSimulation:
-        key = _comparison_key(request)
+        key = _make_key(request)
         if self._complete is None or self._complete[0] != key:
             self._complete = None  # one at a time: its pictures are large
             settings = request.settings
@@ -80,7 +80,7 @@ class CostMeasurement:
         return self._complete[1]
 
 
-def _comparison_key(request: SimulationRequest) -> tuple[object, ...]:
+def _make_key(request: SimulationRequest) -> tuple[object, ...]:
     return request.scene, request.settings.observable, request.settings.seed
 
 

@@ -168,11 +168,11 @@ class EffectTable(QTableView):
             self.setColumnHidden(column, False)
         switch = next(iter(self.switches.values()))
         for column, width in (
-            (STAGE, max(metrics.horizontalAdvance("Sensor") + 8, self._title_width(STAGE))),
-            (PICTURE, max(_PICTURE_WIDTH, self._title_width(PICTURE))),
-            (ERROR, max(_ERROR_WIDTH, self._title_width(ERROR))),
-            (TIME, max(_TIME_WIDTH, self._title_width(TIME))),
-            (SWITCH, max(switch.minimumSizeHint().width() + 4, self._title_width(SWITCH))),
+            (STAGE, max(metrics.horizontalAdvance("Sensor") + 8, self._measure_title(STAGE))),
+            (PICTURE, max(_PICTURE_WIDTH, self._measure_title(PICTURE))),
+            (ERROR, max(_ERROR_WIDTH, self._measure_title(ERROR))),
+            (TIME, max(_TIME_WIDTH, self._measure_title(TIME))),
+            (SWITCH, max(switch.minimumSizeHint().width() + 4, self._measure_title(SWITCH))),
         ):
             header.resizeSection(column, width)
             self._widths[column] = width
@@ -190,7 +190,7 @@ class EffectTable(QTableView):
             room -= self._widths.get(column, 0)
             self.setColumnHidden(column, room < 0)
 
-    def _title_width(self, column: int) -> int:
+    def _measure_title(self, column: int) -> int:
         """Return a title's width, which has room for an arrow only where a click sorts."""
         header = self.horizontalHeader()
         header.setSortIndicatorShown(column in SORTABLE)
@@ -209,23 +209,23 @@ class EffectTable(QTableView):
             QTimer.singleShot(0, self, self._size_columns)  # once the switches have the font, too
             self._size_rows()
 
-    def _row_heights(self) -> tuple[int, int]:
+    def _find_row_heights(self) -> tuple[int, int]:
         """Return the height in pixels of a row in a low pane, and in a high one."""
         lowest, highest = (self.fontMetrics().height() + margin for margin in _ROW_MARGINS)
         return lowest, highest
 
     def _size_rows(self) -> None:
-        rows, (lowest, highest) = self.verticalHeader(), self._row_heights()
+        rows, (lowest, highest) = self.verticalHeader(), self._find_row_heights()
         height = self.viewport().height() // max(1, len(self.effects.rows))
         rows.setMinimumSectionSize(lowest)
         rows.setDefaultSectionSize(min(max(height, lowest), highest))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        height = (1 + _LEAST_ROWS) * self._row_heights()[0] + 2 * self.frameWidth()
+        height = (1 + _LEAST_ROWS) * self._find_row_heights()[0] + 2 * self.frameWidth()
         return QSize(super().minimumSizeHint().width(), height)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         rows = len(self.effects.rows) or _EMPTY_TABLE_ROWS
-        lowest, highest = self._row_heights()
+        lowest, highest = self._find_row_heights()
         height = lowest + rows * highest + 2 * self.frameWidth()
         return QSize(super().sizeHint().width(), height)

@@ -123,7 +123,7 @@ class SliderStrip(PaintedWidget):
         offset = self.slider.x() - self.x()
         return first + offset, last + offset
 
-    def _handle_area(self) -> QRectF:
+    def _find_handle_area(self) -> QRectF:
         left, right = find_handle_sides(self.slider)
         offset = self.slider.x() - self.x()
         return QRectF(left + offset, 0, right - left, self.height()).adjusted(
@@ -148,7 +148,7 @@ class SliderStrip(PaintedWidget):
             colour = make_image(
                 to_colours(np.array([[self.present_rate.fraction]]), 0.0, 1.0, RATES)
             )
-            painter.drawImage(self._handle_area(), colour)
+            painter.drawImage(self._find_handle_area(), colour)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.setBrush(Qt.BrushStyle.NoBrush)

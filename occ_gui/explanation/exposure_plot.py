@@ -62,17 +62,17 @@ class ColumnPicker(QObject):
         self.marker.setPen(thin_pen(palette.color(QPalette.ColorRole.Text), style))
 
     def _hover(self, place: QPointF) -> None:
-        column = self._column_at(place)
+        column = self._find_column(place)
         if self._is_active and column is not None and column != self._marked_column:
             self._marked_column = column
             self.hovered.emit(column)
 
     def _click(self, event: MouseClickEvent) -> None:
-        column = self._column_at(event.scenePos())
+        column = self._find_column(event.scenePos())
         if self._is_active and column is not None and event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit(column)
 
-    def _column_at(self, place: QPointF) -> int | None:
+    def _find_column(self, place: QPointF) -> int | None:
         if not self._box.sceneBoundingRect().contains(place):
             return None
         return int(round(self._box.mapSceneToView(place).x()))  # noqa: RUF046 - it has no type

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_gui.scene.forced_effects import forced_text
+from occ_gui.scene.forced_effects import describe_forced
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import cause_in, is_right, reason_in
@@ -78,7 +78,7 @@ def _compare_inputs(a: Pin, b: Pin, labels: Mapping[str, str]) -> list[Differenc
             first, second = (text or "none" for text in texts)
             rows.append(DifferenceRow(parameter.label, first, second, explain(parameter)))
     if a.settings.force != b.settings.force:
-        forced = (forced_text(pin.settings.force, labels) for pin in (a, b))
+        forced = (describe_forced(pin.settings.force, labels) for pin in (a, b))
         first, second = (text or "none" for text in forced)
         meaning = "Effects that you have switched on or off; the plan decides about the others."
         rows.append(DifferenceRow("Effects switched", first, second, meaning))

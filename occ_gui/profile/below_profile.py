@@ -165,12 +165,12 @@ class _Cells(PaintedWidget):
         start, step = first + self.reading.start * scale, self.reading.columns_per_chip * scale
         cells = []
         for index, chip in enumerate(self.reading.chips.tolist()):
-            left, right = (self._pixel(start + edge * step) for edge in (index, index + 1))
+            left, right = (self._find_pixel(start + edge * step) for edge in (index, index + 1))
             if right > 0.0 and left < self.width():
                 cells.append((chip, QRectF(left, 1.0, right - left, self.height() - 2.0)))
         return cells
 
-    def _pixel(self, column: float) -> float:
+    def _find_pixel(self, column: float) -> float:
         point = self._plot.getViewBox().mapViewToScene(QPointF(column, 0.0))
         in_plot = self._plot.mapFromScene(point)
         return float(self.mapFromGlobal(self._plot.mapToGlobal(in_plot)).x())

@@ -57,7 +57,7 @@ class ProfileView(QWidget):
         self._make_curves()
         self.reason = paragraph(name="Why the band model drifts or is undefined")
         self._make_controls()
-        self.plot.getAxis("left").setWidth(self._axis_width())
+        self.plot.getAxis("left").setWidth(self._measure_axis())
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
         self._lay_out()
         call_at(self, self._widen_axes, QEvent.Type.FontChange)
@@ -106,11 +106,12 @@ class ProfileView(QWidget):
         )
         self.enhanced.toggled.connect(self._redraw)
         self.enhanced.toggled.connect(self.enhanced_chosen)
-        self._packets = self._range_button(*first_periods(Transmitter()))
-        self._panel = self._range_button("Panel", "Show all columns of the panel, and follow it.")
+        self._packets = self._make_range_button(*first_periods(Transmitter()))
+        tip = "Show all columns of the panel, and follow it."
+        self._panel = self._make_range_button("Panel", tip)
         self._packets.setChecked(True)
 
-    def _range_button(self, text: str, tip: str) -> QPushButton:
+    def _make_range_button(self, text: str, tip: str) -> QPushButton:
         button = push_button(text, tip, lambda: self._follow(button))
         button.setCheckable(True)
         return button
@@ -120,10 +121,10 @@ class ProfileView(QWidget):
         layout = self._rows = fill(
             QVBoxLayout(self), row, self.reason, (self.plot, 3), margins=4, spacing=2
         )
-        self.chips = ChipStrip(self.plot, self._axis_width())
+        self.chips = ChipStrip(self.plot, self._measure_axis())
         layout.addWidget(self.chips)
 
-    def _axis_width(self) -> int:
+    def _measure_axis(self) -> int:
         """Return the width of the left axes: room for the rotated name and the longest number."""
         metrics = self.fontMetrics()
         needed = metrics.height() + metrics.horizontalAdvance(_LONGEST_LEVEL) + _AXIS_GAPS
@@ -134,12 +135,12 @@ class ProfileView(QWidget):
         """The plot of photo minus simulation, made when the first photo is shown."""
         residual = ResidualPlot(self.plot)
         # So that the columns of both plots are aligned.
-        residual.plot.getAxis("left").setWidth(self._axis_width())
+        residual.plot.getAxis("left").setWidth(self._measure_axis())
         self._rows.addWidget(residual, 2)
         return residual
 
     def _widen_axes(self) -> None:
-        width = self._axis_width()
+        width = self._measure_axis()
         self.plot.getAxis("left").setWidth(width)
         self.chips.copy.setFixedWidth(width)
         if "residual" in vars(self):

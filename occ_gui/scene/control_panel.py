@@ -79,7 +79,7 @@ class ControlPanel(QWidget):
             "Main": ParameterPage(MAIN, lambda: ParameterPanel(MAIN, with_scales=True)),
             "Panel and camera": ParameterPage([name for name in others if name not in model]),
             "Effects": ParameterPage(
-                effects, lambda: ParameterPanel(effects, self._headings(stages))
+                effects, lambda: ParameterPanel(effects, self._make_headings(stages))
             ),
             "Model": ParameterPage(
                 [*model, *colours],
@@ -107,7 +107,7 @@ class ControlPanel(QWidget):
             panel.show_scene(self._scene)
             self._show_bits(self._scene)
 
-    def _headings(self, stages: Mapping[str, str]) -> dict[str, str]:
+    def _make_headings(self, stages: Mapping[str, str]) -> dict[str, str]:
         titles = {
             "light": "Light: LED and room",
             "optics": "Optics: from the panel through the lens",
@@ -121,7 +121,7 @@ class ControlPanel(QWidget):
 
     def connect_editor(self, editor: SceneEditor) -> None:
         self._editor = editor
-        _connect(self._fields().values(), editor)
+        _connect(self._list_fields().values(), editor)
 
     def _lay_out(self) -> None:
         pages = QTabWidget()
@@ -181,7 +181,7 @@ class ControlPanel(QWidget):
         self._show_bits(scene)
 
     def _show_bits(self, scene: Scene) -> None:
-        row = self._fields().get("bits")
+        row = self._list_fields().get("bits")
         if isinstance(row, CountRow):
             sent = scene.transmitter
             reason = "Bits of the payload, which is sent in place of the code."
@@ -197,7 +197,7 @@ class ControlPanel(QWidget):
 
     def end_refusals(self, names: Iterable[str] | None = None) -> None:
         """Remove the refusals from the fields of parameters; by default all."""
-        for field in self._fields().values() if names is None else self._fields_of(names):
+        for field in self._list_fields().values() if names is None else self._find_fields(names):
             field.end_refusal()
 
     def _make_fields(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
@@ -205,13 +205,13 @@ class ControlPanel(QWidget):
         for page in self._pages.values():
             if wanted.intersection(page.names):
                 page.panel()
-        return self._fields_of(wanted)
+        return self._find_fields(wanted)
 
-    def _fields_of(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
-        fields = self._fields()
+    def _find_fields(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
+        fields = self._list_fields()
         return [fields[name] for name in names if name in fields]
 
-    def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
+    def _list_fields(self) -> dict[str, CodeEntry | ParameterRow]:
         fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code, "light": self.light}
         for panel in self._existing_panels:
             fields.update(panel.rows)

@@ -21,7 +21,7 @@ def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -
     return f"{labels.get(effect, effect)} {state}"
 
 
-def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
+def describe_forced(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
     order = {name: index for index, name in enumerate(labels)}
     names = sorted(force, key=lambda name: order.get(name, len(order)))
     return ", ".join(switch_text(name, force[name], labels) for name in names)
@@ -29,11 +29,11 @@ def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
 
 def describe_accuracy(settings: SimulationSettings, labels: Mapping[str, str]) -> str:
     """Describe how the accuracy differs from that of a new window; empty if it does not."""
-    texts = (_tolerance_text(settings), forced_text(settings.force, labels))
+    texts = (_describe_tolerance(settings), describe_forced(settings.force, labels))
     return capitalize(", ".join(text for text in texts if text))
 
 
-def _tolerance_text(settings: SimulationSettings) -> str:
+def _describe_tolerance(settings: SimulationSettings) -> str:
     tolerance, observable = settings.tolerance, settings.observable
     if (tolerance, observable) == (FIRST_SETTINGS.tolerance, FIRST_SETTINGS.observable):
         return ""
@@ -49,10 +49,10 @@ def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> B
     if not changes:
         return None
     count = len(settings.force)
-    forced = forced_text(settings.force, labels)
+    forced = describe_forced(settings.force, labels)
     if count > _MOST_NAMED:
         forced = f"{inflect(count, 'effect')} switched"
-    text = " · ".join(part for part in (_tolerance_text(settings), forced) if part)
+    text = " · ".join(part for part in (_describe_tolerance(settings), forced) if part)
     meaning = f"{changes}.\nThe mode Effects shows what this changes."
     return Badge("accuracy", text, meaning, State.DOUBTFUL)
 

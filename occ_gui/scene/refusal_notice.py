@@ -71,7 +71,7 @@ class RefusalNotice(QLabel):
 
     def _show_on_page(self) -> None:
         """Show the sentence on top of the field's page, in place of any other of the window."""
-        page = _page_of(self._field)
+        page = _find_page(self._field)
         if self.parentWidget() is not page:
             self.setParent(page)
             page.installEventFilter(self)
@@ -89,7 +89,7 @@ class RefusalNotice(QLabel):
         if application is None or self._is_watching or self.isHidden():
             return
         self._is_watching = True
-        if (area := _area_of(self)) is not None:
+        if (area := _find_area(self)) is not None:
             area.ensureWidgetVisible(self, 0, _MARGIN)
         application.installEventFilter(self)
 
@@ -169,7 +169,7 @@ class RefusalNotice(QLabel):
             self.setPalette(colours)
 
 
-def _area_of(notice: QWidget) -> QScrollArea | None:
+def _find_area(notice: QWidget) -> QScrollArea | None:
     """Return the area with which a notice scrolls."""
     parent = notice.parentWidget()
     while parent is not None and not isinstance(parent, QScrollArea):
@@ -177,7 +177,7 @@ def _area_of(notice: QWidget) -> QScrollArea | None:
     return parent
 
 
-def _page_of(field: QWidget) -> QWidget:
+def _find_page(field: QWidget) -> QWidget:
     """Return the page with which a field scrolls, or else its pane or window."""
     page = field
     while not page.isWindow() and (parent := page.parentWidget()) is not None:

@@ -103,7 +103,7 @@ class SceneStore(QObject):
             self.refused_for.emit(sentence, tuple(refused_names or changes))
             return
         labels = " and ".join(PARAMETERS[name].in_sentence for name in changes)
-        self.store.put(self._workspace_of(scene), f"change of {labels}", gesture)
+        self.store.put(self._make_workspace(scene), f"change of {labels}", gesture)
 
     def force(self, effect: str, included: bool | None) -> None:
         """Switch an effect on or off, or leave it to the plan (None)."""
@@ -117,17 +117,17 @@ class SceneStore(QObject):
     def release_effects(self) -> None:
         """Leave all effects to the plan, with the tolerance of a new window."""
         title = "return of all effects to the plan"
-        self.store.put(replace(self.store.workspace, settings=self._planned_settings()), title)
+        self.store.put(replace(self.store.workspace, settings=self._make_planned_settings()), title)
 
-    def _planned_settings(self) -> SimulationSettings:
+    def _make_planned_settings(self) -> SimulationSettings:
         """Return the settings with all effects left to the plan, and the usual tolerance."""
         settings = self.settings.settings
         return replace(FIRST_SETTINGS, seed=settings.seed)
 
     def begin(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
         """Replace the scene in one step, and leave all effects to the plan."""
-        settings, former = self._planned_settings(), self.settings.settings
-        self.store.put(replace(self._workspace_of(scene), settings=settings), title, gesture)
+        settings, former = self._make_planned_settings(), self.settings.settings
+        self.store.put(replace(self._make_workspace(scene), settings=settings), title, gesture)
         if settings != former:
             self.noted.emit("The plan decides on all effects again, within the usual tolerance.")
 
@@ -144,12 +144,12 @@ class SceneStore(QObject):
         ``preset``: the preset that the scene is based on; by default, a scene with few changes
         keeps its preset.
         """
-        workspace = self._workspace_of(scene, preset)
+        workspace = self._make_workspace(scene, preset)
         if force is not None:
             workspace = workspace.with_force(force)
         self.store.put(workspace, title, gesture)
 
-    def _workspace_of(self, scene: Scene, preset: str = "") -> Workspace:
+    def _make_workspace(self, scene: Scene, preset: str = "") -> Workspace:
         workspace, last_scene = self.store.workspace, self.scene
         changed_count = sum(scene.value(name) != last_scene.value(name) for name in PARAMETERS)
         preset = preset or (workspace.preset if changed_count <= _MOST_PARAMETERS_OF_EDIT else "")

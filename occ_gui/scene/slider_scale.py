@@ -40,10 +40,10 @@ class SliderScale(PaintedWidget):
         inside = tuple(mark for mark in marks if low <= mark.value <= high)
         if inside != self.marks:
             self.marks = inside
-            self.setAccessibleDescription(" ".join(self._meaning(mark) for mark in inside))
+            self.setAccessibleDescription(" ".join(self._explain_mark(mark) for mark in inside))
             self.update()
 
-    def _meaning(self, mark: MarkedValue) -> str:
+    def _explain_mark(self, mark: MarkedValue) -> str:
         return f"{self._quantity.format(mark.value, 3)}: {mark.meaning}"
 
     def text_font(self) -> QFont:
@@ -67,7 +67,7 @@ class SliderScale(PaintedWidget):
                 if abs(self.x_of(mark.value) - event.pos().x()) <= _TOOLTIP_DISTANCE
             ]
             if near:
-                QToolTip.showText(event.globalPos(), self._meaning(near[0]), self)
+                QToolTip.showText(event.globalPos(), self._explain_mark(near[0]), self)
             else:
                 QToolTip.hideText()
             return True
@@ -140,18 +140,18 @@ def _is_free(box: QRectF, occupied: Sequence[QRectF]) -> bool:
 
 def find_handle_travel(slider: QSlider) -> tuple[float, float]:
     """Return the x of the handle's centre at both ends, in the slider's own pixels."""
-    ends = (_handle_rect(slider, position) for position in (slider.minimum(), slider.maximum()))
+    ends = (_find_handle(slider, position) for position in (slider.minimum(), slider.maximum()))
     first, last = (end.center().x() for end in ends)
     return first, last
 
 
 def find_handle_sides(slider: QSlider) -> tuple[float, float]:
     """Return the x of the handle's left and right side, in the slider's own pixels."""
-    handle = _handle_rect(slider, slider.sliderPosition())
+    handle = _find_handle(slider, slider.sliderPosition())
     return handle.left(), handle.right()
 
 
-def _handle_rect(slider: QSlider, position: int) -> QRectF:
+def _find_handle(slider: QSlider, position: int) -> QRectF:
     option = QStyleOptionSlider()
     slider.initStyleOption(option)
     option.sliderPosition = position

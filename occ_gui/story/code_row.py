@@ -87,9 +87,9 @@ class CodeRow(StoryRow):
         return int(result.chips[index]), next(bits, None)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(160, self._line_bounds()[-1][1] + 2 * _GAP)
+        return QSize(160, self._find_line_bounds()[-1][1] + 2 * _GAP)
 
-    def _line_bounds(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
+    def _find_line_bounds(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
         """Return top and bottom of the chips, of the letters, if any, and of the bits."""
         metrics = self.fontMetrics()
         bit = line_height(metrics, _BIT_HEIGHT, 4)
@@ -103,7 +103,7 @@ class CodeRow(StoryRow):
             return
         chips, letters, bits = (
             QRectF(area.left(), area.top() + top, area.width(), bottom - top)
-            for top, bottom in self._line_bounds()
+            for top, bottom in self._find_line_bounds()
         )
         if self.edges is None:
             self._explain_no_chips(painter, chips, result)
@@ -200,5 +200,5 @@ class CodeRow(StoryRow):
         is_text = bool(self.letters) and self._form == "text"
         letters = "text" if is_text else "bytes"
         names = ("chips", letters if self.letters else "", "bits")
-        for text, (top, bottom) in zip(names, self._line_bounds(), strict=True):
+        for text, (top, bottom) in zip(names, self._find_line_bounds(), strict=True):
             painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), RIGHT, text)

@@ -227,7 +227,7 @@ class Scale(PaintedWidget):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(160, line_height(self.fontMetrics(), _HEIGHT))
 
-    def ticks(self) -> list[tuple[float, str]]:
+    def list_ticks(self) -> list[tuple[float, str]]:
         low, high = (self._start + end * self._step for end in (self.axis.first, self.axis.last))
         per_pixel = (high - low) / self.axis.plot_width(self.width())
         step = max(round_step(_SPACING * per_pixel), self._least_step)
@@ -243,7 +243,7 @@ class Scale(PaintedWidget):
         end = float(self.height()) if self._is_above else 0.0
         tick = -_TICK if self._is_above else _TICK
         metrics = painter.fontMetrics()
-        for column, number in self.ticks():
+        for column, number in self.list_ticks():
             x = round(self.axis.find_pixel(column, self.width())) + 0.5
             painter.setPen(QPen(self.palette().color(QPalette.ColorRole.WindowText), 1))
             painter.drawLine(QPointF(x, end), QPointF(x, end + tick))

@@ -83,21 +83,21 @@ class LightRow(StoryRow):
             return None
         return float(column), column + scene.camera.exposure_time / scene.camera.readout_time
 
-    def _light_area(self, area: QRectF) -> QRectF:
-        strip = self._strip_height() if area.height() >= _LEAST_FOR_STRIP else 0
-        return area.adjusted(0, self._label_height() + 1, 0, -strip - 5)
+    def _find_light_area(self, area: QRectF) -> QRectF:
+        strip = self._find_strip_height() if area.height() >= _LEAST_FOR_STRIP else 0
+        return area.adjusted(0, self._find_label_height() + 1, 0, -strip - 5)
 
-    def _strip_height(self) -> int:
+    def _find_strip_height(self) -> int:
         """Return the height of the strip of the bits sent, and of the letters above them."""
         return line_height(self.fontMetrics(), _STRIP_HEIGHT) * (2 if self.letters else 1)
 
-    def _label_height(self) -> int:
+    def _find_label_height(self) -> int:
         return line_height(self.fontMetrics(), _LABEL_HEIGHT, 0)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         if self._scene is None:
             return
-        light = self._light_area(area)
+        light = self._find_light_area(area)
         most = round(area.width() / _LEAST_CHIP)
         curve = self.find_light(self.axis.first, self.axis.last, most)
         if curve is None:
@@ -117,7 +117,7 @@ class LightRow(StoryRow):
         painter.drawLines(make_lines(xs, ys))
         if self._has_chips and have_room_for_digits(cells):
             draw_digits(painter, cells, light)
-        if light.bottom() < area.bottom() - self._strip_height():
+        if light.bottom() < area.bottom() - self._find_strip_height():
             self._draw_fields(painter, area, curve)
 
     def _draw_glow(
@@ -178,7 +178,7 @@ class LightRow(StoryRow):
         step: float,
     ) -> None:
         header, *bits = fields
-        strip_line = self._strip_height() / (2 if self.letters else 1)
+        strip_line = self._find_strip_height() / (2 if self.letters else 1)
         bits_top = area.bottom() - strip_line + 1
         width = (bits[0].last - bits[0].first) * step
         has_text = have_room_for_bits(painter.fontMetrics(), [width]) or None
@@ -202,7 +202,7 @@ class LightRow(StoryRow):
                            has_text=has_text if top == bits_top else None, within=area)  # fmt: skip
 
     def _write_sent(self, painter: QPainter, area: QRectF) -> None:
-        rect = area.adjusted(8, area.height() - self._strip_height(), 0, 0)
+        rect = area.adjusted(8, area.height() - self._find_strip_height(), 0, 0)
         self.write_sentence(painter, rect, self.describe_sent())
 
     def describe_sent(self) -> str:
@@ -219,13 +219,13 @@ class LightRow(StoryRow):
     def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         if self._scene is None:
             return
-        light = self._light_area(area)
+        light = self._find_light_area(area)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         is_switched = self._has_chips or blinking_lamp(self._scene.transmitter) is not None
         ends = ("on", "off") if is_switched else (f"{100.0 * self._top:.0f} %", "0 %")
         for text, y in zip(ends, (light.top(), light.bottom()), strict=True):
             painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), RIGHT, text)
-        strip = self._strip_height()
+        strip = self._find_strip_height()
         if light.bottom() < area.bottom() - strip:
             rect = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
             painter.drawText(rect, LEFT, "sent")
@@ -235,7 +235,7 @@ class LightRow(StoryRow):
         window, scene = self.exposure_window(), self._scene
         if window is None or scene is None:
             return
-        light = self._light_area(area)
+        light = self._find_light_area(area)
         left, right = (self.x_of(column) for column in window)
         accent = self.colour(QPalette.ColorRole.Highlight)
         shade = QColor(accent)
@@ -271,7 +271,7 @@ class LightRow(StoryRow):
     def _label_window(self, painter: QPainter, rect: QRectF, text: str) -> None:
         width = painter.fontMetrics().horizontalAdvance(text) + 8
         area = self.plot_area()
-        label = QRectF(rect.center().x() - width / 2, area.top(), width, self._label_height())
+        label = QRectF(rect.center().x() - width / 2, area.top(), width, self._find_label_height())
         label.moveLeft(min(max(label.left(), area.left()), area.right() - width))
         if not area.left() - width < rect.center().x() < area.right() + width:
             return

@@ -152,7 +152,7 @@ class ProfileRow(StoryRow):
             if low < high:
                 painter.fillRect(QRectF(low, area.top(), high - low, area.height()), shade)
 
-    def _ticks(self, area: QRectF) -> list[float]:
+    def _list_ticks(self, area: QRectF) -> list[float]:
         most_ticks = (area.height() - 16) / _LEAST_SPACING
         step = next((step for step in _STEPS if self._top / step <= most_ticks), _STEPS[-1])
         return [step * multiple for multiple in range(int(self._top / step) + 1)]
@@ -161,7 +161,7 @@ class ProfileRow(StoryRow):
         faint = QColor(self.colour(QPalette.ColorRole.Text))
         faint.setAlpha(_GRID_ALPHA)
         painter.setPen(QPen(faint, 1))
-        for level in self._ticks(area):
+        for level in self._list_ticks(area):
             y = round(self.y_of(level, area)) + 0.5
             painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
 
@@ -180,7 +180,7 @@ class ProfileRow(StoryRow):
         unit = QRectF(4, 3 + painter.fontMetrics().lineSpacing(), area.left(), self.height())
         left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
         painter.drawText(unit, left, "grey\nlevel")
-        for level in self._ticks(area):
+        for level in self._list_ticks(area):
             rect = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
             painter.drawText(rect, RIGHT, f"{level:g}")
 

@@ -212,7 +212,7 @@ class StoryRow(PaintedWidget):
             painter.setPen(self.colour(QPalette.ColorRole.HighlightedText))
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
 
-    def _cursor_at(self, x: float) -> int | None:
+    def _find_cursor(self, x: float) -> int | None:
         grip = _GRIP * self.axis.span / self.axis.plot_width(self.width())  # in columns
         return self.crosshair.cursors.find_nearest(self.column_at(x), grip)
 
@@ -234,7 +234,7 @@ class StoryRow(PaintedWidget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         if event.button() == Qt.MouseButton.LeftButton:
-            self._grabbed_cursor = self._cursor_at(event.position().x())
+            self._grabbed_cursor = self._find_cursor(event.position().x())
             self._press_position = self._last_position = event.position()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name

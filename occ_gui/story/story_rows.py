@@ -73,7 +73,7 @@ class StoryRows(QWidget):
         self.code = CodeRow(self.axis, self.crosshair)
         layout = fill(QVBoxLayout(self), margins=0, spacing=2)
         for part, stretch in (
-            (self.time, 0), (self.light, 3), (self.stripes, 4), (self._legend_line(), 0),
+            (self.time, 0), (self.light, 3), (self.stripes, 4), (self._make_legend_line(), 0),
             (self.profile, 6), (self.code, 0), (self.columns, 0),
         ):  # fmt: skip
             layout.addWidget(part, stretch)
@@ -83,7 +83,7 @@ class StoryRows(QWidget):
         self.crosshair.cursors.changed.connect(self._measure)
         call_at(self, self._reserve_gutter, QEvent.Type.FontChange)
 
-    def _legend_line(self) -> QWidget:
+    def _make_legend_line(self) -> QWidget:
         line = Qt.PenStyle
         self.legend = CurveLegend(
             {

@@ -94,14 +94,14 @@ class LogAxis(Axis):
         step = max(1, math.ceil(self._number_length * decades_a_pixel))
         edge = 0.4 * self._number_length * decades_a_pixel
         numbered = [
-            float(power) for power in self._powers(low, high, step)
+            float(power) for power in self._list_powers(low, high, step)
             if low + edge <= power <= high - edge
         ]  # fmt: skip
         is_short = len(numbered) < _LEAST_NUMBERS and self._least not in numbered
         if is_short and abs(high) <= _LARGEST_POWER:
             numbered = self._round_values(low + edge, high - edge, decades_a_pixel)
         # Limited by the pixels, because a view can show any number of decades.
-        powers = self._powers(low, high, max(1, math.ceil(_LEAST_SPACING * decades_a_pixel)))
+        powers = self._list_powers(low, high, max(1, math.ceil(_LEAST_SPACING * decades_a_pixel)))
         digits = range(1, 10) if step == 1 else (1,)
         ticks = [power + math.log10(digit) for power in powers for digit in digits]
         unnumbered = [tick for tick in ticks if low <= tick <= high and tick not in numbered]
@@ -114,7 +114,7 @@ class LogAxis(Axis):
         first, last = math.ceil(10.0**low / step), math.floor(largest / step)
         return [math.log10(place * step) for place in range(max(first, 1), last + 1)]
 
-    def _powers(self, low: float, high: float, step: int) -> range:
+    def _list_powers(self, low: float, high: float, step: int) -> range:
         """Return every ``step``-th exponent in an interval, counted from the least exponent."""
         first = math.floor(low)
         return range(first + ((self._least or 0) - first) % step, math.ceil(high) + 1, step)
@@ -125,10 +125,10 @@ class LogAxis(Axis):
         if spacing < 1.0:
             return [""] * len(values)
         signs = ["≤ " if value == self._least else "" for value in values]
-        return [f"{sign}{_power(value)}" for sign, value in zip(signs, values, strict=True)]
+        return [f"{sign}{_format_power(value)}" for sign, value in zip(signs, values, strict=True)]
 
 
-def _power(exponent: float) -> str:
+def _format_power(exponent: float) -> str:
     if abs(exponent) > _LARGEST_POWER:
         return f"1e{exponent:+g}"
     return f"{10.0**exponent:g}"

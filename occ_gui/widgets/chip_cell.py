@@ -17,7 +17,7 @@ _FADED_OPACITY = 0.45
 
 
 @cache
-def _digit_text(value: float) -> QStaticText:
+def _make_digit(value: float) -> QStaticText:
     text = QStaticText(f"{value:g}")
     text.setTextFormat(Qt.TextFormat.PlainText)
     return text
@@ -38,12 +38,12 @@ def draw_digits(
             continue
         top = cell.top() + (cell.height() - height) / 2
         if cell.width() >= _LEAST_DIGIT_WIDTH:
-            painter.drawStaticText(QPointF(left, top), _digit_text(chip))
+            painter.drawStaticText(QPointF(left, top), _make_digit(chip))
             continue
         painter.save()
         painter.translate(cell.center().x(), top)
         painter.scale(cell.width() / _LEAST_DIGIT_WIDTH, 1.0)
-        painter.drawStaticText(QPointF(-width / 2, 0.0), _digit_text(chip))
+        painter.drawStaticText(QPointF(-width / 2, 0.0), _make_digit(chip))
         painter.restore()
 
 

@@ -18,7 +18,7 @@ _INK = "currentColor"  # the drawings' placeholder for a colour, as in CSS
 
 
 @cache
-def _drawing(name: str) -> str:
+def _read_drawing(name: str) -> str:
     return resource_text(_FOLDER, f"{name}{_ENDING}")
 
 
@@ -54,7 +54,8 @@ def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
     image = QPixmap(side, side)
     image.fill(Qt.GlobalColor.transparent)
     painter = QPainter(image)
-    QSvgRenderer(QByteArray(_drawing(name).replace(_INK, colour.name()).encode())).render(painter)
+    drawing = _read_drawing(name).replace(_INK, colour.name())
+    QSvgRenderer(QByteArray(drawing.encode())).render(painter)
     painter.end()
     image.setDevicePixelRatio(ratio)
     return image

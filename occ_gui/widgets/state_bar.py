@@ -56,10 +56,10 @@ class StateBar(PaintedWidget):
         return QSize(400, self.minimumSizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        height = sum(self._heights()) + 2 * _MARGIN + self._step_height
+        height = sum(self._find_heights()) + 2 * _MARGIN + self._step_height
         return QSize(_ICON + 4 * _PADDING, height)
 
-    def _heights(self) -> tuple[int, int]:
+    def _find_heights(self) -> tuple[int, int]:
         metrics = self.title.fontMetrics()
         title = metrics.height() + (self._title_lines - 1) * metrics.lineSpacing()
         title = max(title, self.badges.sizeHint().height()) + 2
@@ -80,7 +80,7 @@ class StateBar(PaintedWidget):
         text_room = room if is_beside_title else max(0, room - badges)
         text = self._choose_sentence(text_room)
         self._set_line_count(text, text_room)
-        first, second = self._heights()
+        first, second = self._find_heights()
         title = min(title_width, room)
         self.icon.move(_PADDING, (self.height() - _ICON) // 2)
         self.title.setGeometry(left, _MARGIN, title, first)

@@ -93,13 +93,13 @@ def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: Snap
     snapshot = bare_snapshot_of(start_time=2.5e-3, readout_time=11e-6)
     rows.show_reading(snapshot)
     assert (rows.time.accessibleName(), rows.columns.accessibleName()) == ("time (µs)", "column")
-    ticks = rows.time.ticks()
+    ticks = rows.time.list_ticks()
     assert len(ticks) > 3
     for column, text in ticks:
         assert float(text) == pytest.approx(2500.0 + 11.0 * column, abs=1e-6)
         assert rows.axis.first <= column <= rows.axis.last
     for columns in (rows.axis.span, 4.0):  # no part of a column is numbered
         rows.axis.zoom(columns / rows.axis.span, 1500.0)
-        assert [float(text) for _, text in rows.columns.ticks()] == [
-            int(column) for column, _ in rows.columns.ticks()
+        assert [float(text) for _, text in rows.columns.list_ticks()] == [
+            int(column) for column, _ in rows.columns.list_ticks()
         ]

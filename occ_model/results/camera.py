@@ -1,6 +1,5 @@
 """A camera's readout time, measured by the bars that lamps on the mains make in its pictures."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
@@ -10,7 +9,7 @@ from occ_model.scene.light_words import MAINS_HARMONIC
 from occ_model.scene.units import HERTZ, NONE, PERCENT, SECOND
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, kw_only=True, slots=True)
 class CameraMeasurement(LineReadout):
     """How fast a camera reads its lines, by bars of lamps on the mains.
 
@@ -19,15 +18,8 @@ class CameraMeasurement(LineReadout):
     mains_frequency
         Frequency of the mains in Hz, as given; the light swings at twice that.
     bars
-        Cycles of the light while a frame is read.
-    readout_time, frame_readout_time
-        Time from one line to the next, and of all lines, in seconds.
-    uncertainties
-        Standard deviations of these three, by name. They include that of the mains' frequency.
-    scan_axis
-        ``"lines"`` or ``"columns"`` of the upright picture: what the camera reads one by one.
-    lines
-        Number of them.
+        Cycles of the light while a frame is read, with their standard deviation among the
+        ``uncertainties``, which include that of the mains' frequency.
     pictures
         Number of pictures: 1 or 2.
     depth
@@ -39,24 +31,16 @@ class CameraMeasurement(LineReadout):
     waves : ndarray of float64, shape (tiles, points)
         The fitted bars in equal tiles across the lines, from the first line to the last: the
         natural logarithm of the light, or of the quotient, about its mean.
-    reasons
-        Sentences on why the measurement is doubtful; empty if it is sure.
     other_bars
         Number of bars that explains the pictures second best; None if there is none.
     """
 
     mains_frequency: float
     bars: float
-    readout_time: float
-    frame_readout_time: float
-    uncertainties: Mapping[str, float]
-    scan_axis: str
-    lines: int
     pictures: int
     depth: float
     longest_exposure: float | None
     waves: FloatArray
-    reasons: tuple[str, ...] = ()
     other_bars: float | None = None
 
     @property
@@ -79,8 +63,7 @@ class CameraMeasurement(LineReadout):
         light = HERTZ.format(self.light_frequency, 4)
         of_what = "one picture" if self.pictures == 1 else "the quotient of two pictures"
         rows = [
-            Fact("readout_time", "Readout time", self._estimate("readout_time")),
-            Fact("frame_readout_time", "Frame's readout", self._estimate("frame_readout_time")),
+            *self._readout_facts,
             Fact("bars", "Bars a frame", f"{self._estimate('bars', NONE)}, of light at {light}"),
             Fact("scan_axis", "Read one by one", f"{self.lines:,} {self.scan_axis}"),
             Fact("depth", "Depth of the bars", f"{PERCENT.format(self.depth, 2)} in {of_what}"),

@@ -20,7 +20,7 @@ _DEGREES = 4.0  # degrees of freedom of Student's t, which gives lines of a move
 _ROUNDS = 4
 _REACH = 20  # part of the lines up to which residuals are taken to correlate (Newey and West, 1987)
 _LEAST_SHARE = 0.2  # least energy in the harmonics that waves of twice or thrice the bars lack
-# Prior of the scales' logarithms: standard deviations, and the largest deviations allowed.
+# Standard deviations of the prior of the scales' logarithms, and the largest deviations allowed.
 _SPREAD, _FARTHEST = np.array([1.5, 0.4, 0.7, 2.0, 0.5]), np.array([3.0, 0.7, 1.4, 3.0, 1.0])
 _APART = 0.04  # relative difference from which two numbers of bars are different answers
 _MODULATIONS = (0.06, 0.12, 0.25, 0.5)
@@ -157,7 +157,7 @@ def _grid(lines: int) -> FloatArray:
 
 
 def _fit_scales(model: BarsModel, start: Scales) -> Scales:
-    """Find the most likely scales, each within a factor that keeps it sane."""
+    """Find the most likely scales, each within an allowed factor of its start."""
     middle = np.log(astuple(start))
 
     def cost(logs: FloatArray) -> float:

@@ -114,7 +114,7 @@ class BarsModel:
 
     def _solve(self, scales: Scales) -> tuple[FloatArray, FloatArray, FloatArray]:
         prior = _prior(scales, self._shape)
-        # In units of the prior's deviations, so that any coefficient may be absent.
+        # In units of the prior's deviations, of which any may be 0.
         precision = prior[:, None] * self._squares * prior / scales.noise**2 + np.eye(len(prior))
         product = prior * self._products / scales.noise**2
         return precision, product, prior

@@ -123,7 +123,7 @@ class _AxisBars:
     is_single: bool
 
     def credit(self) -> tuple[float, ...]:
-        """Return what orders the axes: of one picture how level bars are, else how many doubts."""
+        """Return what axes are ordered by: how level bars of one picture are, else their doubts."""
         fit, shows_any = self.fit, self.fit.gap_to_none > LEAST_FOR_ANY
         if self.is_single:
             return (shows_any, -tilt_of(self.lines, fit).largest)

@@ -1,6 +1,6 @@
 """The quotient of two pictures of one room, in which the room cancels and the bars stay.
 
-Of one picture the other is made of the medians of its columns, which cancels an even wall.
+If there is one picture, the medians of its columns are the other, which cancels an even wall.
 """
 
 from dataclasses import dataclass

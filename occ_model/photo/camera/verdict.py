@@ -25,9 +25,9 @@ _MOST_MODULATION = 0.5
 # Relative deviations of answers that are doubtful for these reasons, from the same simulated pairs.
 _ERROR_OF_FEW, _ERROR_OF_CHANGING = 0.12, 0.08
 
-# Slopes of the bars in radians in a single picture, where no other one cancels the room's pattern:
-_MOST_TILT = 5e-4  # for bars of light; what people hang up is level to about 1e-2 only
-_SLANTED = 0.08  # more than lamps on different phases of the mains can cause
+# Slopes in radians, for a single picture, in which the room's own pattern does not cancel:
+_MOST_TILT = 5e-4  # of bars of light; what people hang up is level only to about 1e-2
+_SLANTED = 0.08  # which is more than lamps on different phases of the mains cause
 
 _ANOTHER = "Take a second picture a moment later, and give both."
 _ONE_PICTURE = (

@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 
-_HYSTERESIS = 0.15  # distance from the middle level that a profile reaches on both sides of an edge
+_HYSTERESIS = 0.15  # least distance from the middle level on both sides of an edge
 
 LEAST_COHERENCE_RATIO = 0.93
 """Minimum coherence of a coarser lattice relative to the most coherent one."""
 
-_SHORTENING = 0.7  # minimum ratio of the mean shortest run to a chip: noise shortens runs
-
+_SHORTENING = 0.7  # minimum length of the shortest runs, which noise shortens, in chips
 LEAST_EDGES = 5  # minimum number of edges: a bright and a dark run between the outermost runs
 LEAST_COLUMNS = 2.0  # minimum number of columns per chip
 LEAST_PAIR = 2.0 * _SHORTENING * LEAST_COLUMNS  # minimum columns of a bright and a dark run

@@ -27,7 +27,7 @@ _EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])  # exposures to try, in c
 
 _RIGHT_BELOW, _WRONG_ABOVE = 0.02, 0.08
 """Unexplained fractions of the variance below which nearly all readings are right, and above which
-none is; in the middle about half of them are (1,300 simulated messages)."""
+none is; half-way about half of them are (1,300 simulated messages)."""
 
 _LEAST_BURST_EDGES = 8  # minimum number of edges in a burst; fewer lie on some lattice by chance
 _LEAST_PAUSE_RATIO = 1.25  # minimum ratio of a pause to the longest bright run

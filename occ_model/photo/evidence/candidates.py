@@ -34,28 +34,31 @@ _MOST_POWER_RATIO = 0.9  # ratio of squared residuals below which similar chips 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidates:
-    """Fits hypotheses to stripes."""
+    """The hypotheses about one photo's stripes, which are fitted when they are asked for."""
 
     stripes: Stripes
     scene: Scene
     cameras: list[CameraResponse]
     fit_gamma: bool
     estimate: str  # the unknown one of readout time and switching frequency
-    # The exposure time that the camera noted, in seconds, None if it did not: of fits that are as
-    # good the one that is nearest to it is reported.
+    # The exposure time in seconds that the camera noted, None if it did not. Of fits that are
+    # equally good the nearest to it is reported.
     noted: float | None
     # Called every few hundredths of a second; what it raises ends the fitting.
     check: Callable[[], object]
 
     def as_sent(self) -> Hypothesis | None:
-        """Fit what the scene sends; None where that never changes, or has no possible fit."""
+        """Fit what the scene sends; None if that never changes, or has no possible fit."""
         chips = sent_chips(self.scene.transmitter)
         period = self.stripes.period
         near = [] if period is None else [self._steps_near(len(canonical(chips)) / period)]
         return self._fit("what the scene sends", chips, [*near, None], bits=0.0, was_read=False)
 
     def read(self, as_sent: Hypothesis | None = None) -> list[Hypothesis]:
-        """Fit the chips read in each way, but not those that ``as_sent`` explains well already."""
+        """Fit the chips that are read in each way, but not those that are well explained as sent.
+
+        ``as_sent``: the fit of what the scene sends. Nothing is read if that is sure.
+        """
         period = self.stripes.period
         if period is None:
             return []
@@ -92,10 +95,10 @@ class Candidates:
         return [one for one in found if one is not None]
 
     def correct(self, found: Hypothesis) -> tuple[Hypothesis, list[Hypothesis]]:
-        """Take the nearest other chips instead of those that were read, while they explain more.
+        """Replace chips that were read by the nearest other ones while these explain more.
 
-        Chips are read as if white pixels were as bright as the light: where they are not, the fit
-        may determine a few chips better. Returned are those found, and the others compared.
+        Chips are read as if white pixels were as bright as the light; if they are not, the fit may
+        determine a few chips better. The best hypothesis is returned, and those compared with it.
         """
         others: list[Hypothesis] = []
         for _ in range(_MOST_CORRECTIONS):
@@ -116,7 +119,7 @@ class Candidates:
         if chips is None:
             return None
         bits = max(found.bits, float(self.scene.transmitter.bits))
-        # They differ so little that what explains them best is near: it need not be searched.
+        # The chips differ so little that their best timing is near, and need not be searched for.
         other = explain_from(
             [found.fit.timing], self.stripes, chips, self.cameras, self.fit_gamma, self.check
         )

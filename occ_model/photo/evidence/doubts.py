@@ -1,4 +1,4 @@
-"""Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
+"""Why an explanation of stripes is doubtful, by the figures of its fit and by other readings."""
 
 from occ_model.errors import distinct_texts
 from occ_model.photo.evidence.hypothesis import Hypothesis
@@ -8,10 +8,10 @@ from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes
 
 _LEAST_PERIODS = 1.5  # minimum periods in view of a long pattern that is given
-_LEAST_PERIODS_OF_OTHERS = 3.0  # the same of a short one, or of one that was read
-_LONG_PATTERN = 8  # number of chips from which a pattern is long
+_LEAST_PERIODS_OF_OTHERS = 3.0  # the same of a short pattern, or of one that was read
+_LONG_PATTERN = 8  # minimum number of chips of a long pattern
 _LONGEST_EXPOSURE = 3.2  # exposure in chips above which codes make nearly the same stripes
-_LEAST_CORRELATION = 0.9  # correlation below which something else shapes the stripes, too
+_LEAST_CORRELATION = 0.9  # correlation below which something else also shapes the stripes
 
 LEAST_INFORMATION = {False: 40.0, True: 100.0}
 """Minimum information in bits of given chips, and of chips that were read."""
@@ -24,7 +24,7 @@ _MOST_SATURATED = 0.5  # saturated fraction above which chips that were read are
 
 _MOST_SATURATED_FOR_EXPOSURE = 0.4
 """Saturated fraction above which the exposure time is doubtful: of 34 exposures of such photographs
-two standard deviations covered 79 % only (seeds 700000 to 700599)."""
+only 79 % were within two standard deviations (seeds 700000 to 700599)."""
 
 
 def doubts(found: Hypothesis, stripes: Stripes, row_correlation: float) -> list[str]:

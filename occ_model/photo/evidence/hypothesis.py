@@ -18,9 +18,9 @@ class Hypothesis:
     sent: str
     explanation: Explanation
     fit: StripeFit
-    bits: float  # bits that had to be chosen to state it: 0 where it was given beforehand
+    bits: float  # number of bits that were chosen to explain the stripes; 0 for given chips
     was_read: bool
-    # Whether they were read by trying many sequences, as what was read first explained little.
+    # Whether the chips were found by trying many sequences, as those read first explained little.
     read_again: bool = False
 
     @property

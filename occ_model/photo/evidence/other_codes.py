@@ -1,4 +1,4 @@
-"""The chips besides those found that explain stripes best at the same timing."""
+"""The chips, other than those found, that explain stripes best at the same timing."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from occ_model.products import dot, quadratic_forms, row_products
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.scheme import packet_length, packets_of_codes, sends_paper_code
 
-_MOST_BITS = 12  # bits up to which all codes are compared, and not those of one other chip
+_MOST_BITS = 12  # largest number of bits for which all codes are compared
 _MOST_CHIPS = 512  # number of chips up to which other sequences are compared
 
 
@@ -18,8 +18,8 @@ def nearest_other(
 ) -> ByteArray | None:
     """Find the other chips that explain stripes best at the timing of a hypothesis, if any.
 
-    ``transmitter``: its packets are compared where the chips found are as many; else sequences that
-    differ in one chip, or in two neighbours that are exchanged.
+    If the chips are as many as those of a packet of ``transmitter``, all its codes are compared; if
+    not, sequences in which one chip, or two neighbouring ones, differ.
 
     A column's lit fraction is linear in the chips: with the responses A of the columns to each chip
     and the profile y, both about their means, chips c have the correlation c'A'y / |Ac| |y|.
@@ -46,7 +46,7 @@ def nearest_other(
 
 
 def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
-    """Return the sequences to compare, shape (sequences, chips), also the given one turned."""
+    """Return the sequences to compare, shape (sequences, chips); some are mere rotations."""
     count = len(chips)
     turn = (np.arange(count)[:, None] + np.arange(count)) % count
     is_packet = sends_paper_code(transmitter) and count == packet_length(transmitter.bits)

@@ -18,7 +18,7 @@ from occ_model.results.decoding import Region
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
 _DECISIVE_LOG_LIKELIHOOD = 10.0  # difference of log-likelihoods that decides: a factor of 22,000
-_MODEL_ERROR = 0.02  # error in heights of the stripes that every explanation may have
+_MODEL_ERROR = 0.02  # error of every explanation's model, relative to the stripes' height
 _COSINES_PER_CHIP = 2.0  # maximum number of cosines of a smooth curve per chip in view
 
 _LEAST_CORRELATION_GIVEN, _LEAST_CORRELATION_READ = 0.8, 0.9  # of chips given and read
@@ -35,9 +35,11 @@ _BANDS = 8  # number of bands of rows that are compared
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
+    """How sure a hypothesis is, and how likely the others are beside it."""
+
     reasons: tuple[str, ...]  # why it is doubtful, in sentences; none where it is sure
     exposure_reasons: tuple[str, ...]  # why its exposure alone is doubtful
-    others: tuple[tuple[Hypothesis, float], ...]
+    others: tuple[tuple[Hypothesis, float], ...]  # each with its log-likelihood less that of it
 
 
 class Judge:
@@ -49,16 +51,17 @@ class Judge:
         self._error = len(stripes.profile) * (_MODEL_ERROR * swing) ** 2
 
     def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
+        """Return the most likely hypothesis that is not refused, or raise MatchError."""
         independent = self._count_independent(hypotheses)
         likelihoods = self._likelihoods(hypotheses, independent)
         order = sorted(range(len(likelihoods)), key=lambda i: -likelihoods[i])
         reasons = [self._refusals(hypotheses[i], likelihoods[i], independent) for i in order]
         best = likelihoods[order[0]]
         for i, why in zip(order, reasons, strict=True):
-            # What holds but is decidedly less likely than what was refused explains nothing.
+            # A hypothesis that is decidedly less likely than a refused one explains nothing.
             if not why and likelihoods[i] > best - _DECISIVE_LOG_LIKELIHOOD:
                 return hypotheses[i]
-        # What a user can do about it stands first, with its reason.
+        # The reason that tells the user what to do comes first.
         reasons.sort(key=lambda why: PLAIN_STRIPES not in why)
         sentences = [sentence for why in reasons for sentence in why]
         raise MatchError(*dict.fromkeys(sentences))
@@ -68,7 +71,8 @@ class Judge:
     ) -> Verdict:
         """Return the confidence in a hypothesis among others.
 
-        ``is_given``: whether what was sent is given: as many other chips then change no timing.
+        ``is_given``: whether what was sent is given. Another code of as many chips that is nearly
+        as likely is then no reason for doubt, as it does not change the timing.
         """
         independent = self._count_independent([found, *others])
         own, *likelihoods = self._likelihoods([found, *others], independent)
@@ -89,7 +93,7 @@ class Judge:
         return Verdict(tuple(reasons), tuple(of_exposure), tuple(beside))
 
     def _refusals(self, found: Hypothesis, likelihood: float, independent: float) -> list[str]:
-        """Return why a hypothesis is refused: something else explains the stripes, or chance."""
+        """Return why a hypothesis is refused: something else, or chance, explains the stripes."""
         may_be_object = found.was_read and not self._blinks
         least = _LEAST_CORRELATION_READ if found.was_read else _LEAST_CORRELATION_GIVEN
         if may_be_object:
@@ -135,7 +139,7 @@ class Judge:
         return reasons
 
     def _count_independent(self, hypotheses: Sequence[Hypothesis]) -> float:
-        """Count the independent columns by the least residual: larger ones hold signal."""
+        """Count the independent columns by the least residual, as larger ones contain signal."""
         best = min(hypotheses, key=lambda one: one.fit.residual)
         residual = best.residual(self._stripes.profile)
         return len(residual) / correlated_columns(residual)
@@ -159,9 +163,9 @@ class Judge:
         return log_likelihood(float(left @ left) + self._error, columns, independent, freedom)
 
     def _curve_likelihood(self, found: Hypothesis, independent: float) -> float:
-        """Return the log-likelihood of as few cosines, from the slowest, as are worth their number.
+        """Return the log-likelihood of a smooth curve: of the best number of slowest cosines.
 
-        There are no more than a hypothesis' chips allow: faster ones are stripes.
+        The chips of a hypothesis limit that number, as faster cosines are stripes.
         """
         # Imported only when a photo is matched: it is slow.
         from scipy.fft import dct
@@ -179,11 +183,11 @@ class Judge:
 
 
 def correlate_rows(photo: Photo, region: Region) -> float:
-    """Return the correlation of a band of rows with the other ones, in the median of the bands.
+    """Return the median, over bands of rows, of the correlation of a band with the other ones.
 
-    Slow changes along the columns are removed: the shape of the lamp differs between the rows. A
-    rolling shutter's stripes are the same in all rows but for noise; those of a picture's objects
-    are not where they lean, end, or are broken. The result is from -1 to 1, and 1 for one row.
+    A rolling shutter's stripes are the same in all rows but for noise; those of objects differ if
+    the objects are tilted, end or are broken. Slow changes along the columns are removed, as the
+    shape of the lamp differs between the rows. The result is from -1 to 1, and 1 for one row.
     """
     part = region.crop(photo.samples)
     bands = min(_BANDS, len(part))

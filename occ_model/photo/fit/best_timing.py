@@ -49,7 +49,7 @@ class Explanation:
         return max(fit.correlation for fit in self.fits)
 
     def nearest(self, exposure: Callable[[StripeFit], float], wanted: float | None) -> StripeFit:
-        """Choose the fit of the exposure time nearest to a wanted one, or else of the shortest."""
+        """Choose the fit whose exposure time is nearest to a wanted one, or else the shortest."""
         if wanted is None:
             return self.fits[0]
         return min(self.fits, key=lambda fit: abs(np.log(exposure(fit) / wanted)))
@@ -67,9 +67,9 @@ def explain(
 ) -> Explanation | None:
     """Find the timings with which given chips fit a photo's stripes best.
 
-    There are none where the chips never change, or where no fit has the levels of a picture.
-    ``steps``: chips per column to try, in groups, None for all that are possible; a group is tried
-    where none before it surely fits. What ``check`` raises ends the search.
+    None is returned if the chips never change, or no fit has levels that a picture can have.
+    ``steps``: chips per column to try, in groups; None for all that are possible. A group is tried
+    only if those before it do not surely fit. What ``check`` raises ends the search.
     """
     if chips.min() == chips.max():
         return None
@@ -80,7 +80,7 @@ def explain(
         if candidates[0].correlation >= _LEAST_SURE_CORRELATION:
             break
     if candidates[0].correlation < _LEAST_SURE_CORRELATION:
-        # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
+        # Removing a trend of the mean distorts the stripes of chips that are mostly on or off.
         others = TimingSearch(stripes.flattened, chips).candidates(steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     return explain_from(_choose_starts(candidates), stripes, chips, cameras, with_gamma, check)
@@ -96,8 +96,8 @@ def explain_from(
 ) -> Explanation | None:
     """Fit each camera's response from some timings, and keep the one with the least residual.
 
-    That of an equalized picture must have half the least residual of the others. What ``check``
-    raises ends the fits.
+    The response of an equalized picture is kept only if its residual is less than half of the
+    others'. What ``check`` raises ends the fits.
     """
     found: list[tuple[float, list[StripeFit], CameraResponse]] = []
     for camera in cameras:

@@ -9,8 +9,8 @@ from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 
 _BLACK_LEVEL = 0.5  # grey level below which dark columns are black
-_LEAST_LIGHT = 1e-3  # of a lit column, down to which the slope of its value is that of the curve
-_NEAR = 0.02  # of the values' range: the distance within which neighbours in rank are counted
+_LEAST_LIGHT = 1e-3  # fraction of a lit column's light below which the curve's slope is bounded
+_NEAR = 0.02  # distance within which neighbours in rank are counted, over the range of values
 
 AVERAGINGS = ("pixel-value", "light")
 
@@ -65,7 +65,7 @@ def camera_responses(
 
 @dataclass(frozen=True)
 class _AveragedLight(PixelResponse):
-    """The response of a panel whose dark pixel value is ``black`` relative to the lit one's.
+    """The response to averaged light; ``black``: the dark pixel value over the lit one's.
 
     By equations (1) to (3) of the paper: light is the pixel value to the power of gamma.
     """
@@ -79,7 +79,7 @@ class _AveragedLight(PixelResponse):
 
     def rates(self, lit: FloatArray, gamma: float) -> tuple[FloatArray, FloatArray]:
         dark = self.black**gamma
-        # From black the curve rises without limit: no column sees so little of a chip.
+        # At black the slope of the curve is infinite, but no column sees so little of a chip.
         light = np.maximum(dark + (1.0 - dark) * lit, _LEAST_LIGHT)
         value = light ** (1.0 / gamma) / (1.0 - self.black)
         by_light = value / (gamma * light)
@@ -103,7 +103,8 @@ class _Ranks(PixelResponse):
     def slopes(self, lit: FloatArray, gamma: float, by_timing: FloatArray) -> FloatArray:
         """Return the slopes of the ranks.
 
-        A value rises in rank by the density of values near it, times what it rises more than they.
+        The rank of a value rises by the density of values near it, times the difference of its rise
+        to theirs.
         """
         values = self.response(lit, gamma)
         order = np.argsort(values)

@@ -32,10 +32,10 @@ def is_single_pulse(chips: ByteArray) -> bool:
 
 
 def chips_if_longer(chips: ByteArray) -> tuple[int, int]:
-    """Return how many chips may be one, and by how many each bright run is too long for that.
+    """Return how many chips may be one longer chip, and the excess of each bright run.
 
-    Rising edges lie on a lattice of such chips, and falling edges on another; (1, 0) where they do
-    not. A single pulse is of any such length.
+    If white lengthens bright runs, rising and falling edges lie on two lattices of longer chips.
+    (1, 0) is returned if they do not, and for a single pulse, which fits any lattice.
     """
     runs = runs_of(canonical(chips))
     if len(runs) <= 2:

@@ -18,7 +18,7 @@ from occ_model.photo.stripes.period import Harmonics, repeated_wave
 from occ_model.products import row_products
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
-_PHASES = np.arange(8) / 8.0  # exposures and phases in chips that are tried
+_PHASES = np.arange(8) / 8.0  # in chips, as the exposures, that are tried for division
 _LEAST_WEIGHT = 0.01  # weight relative to the largest one below which a harmonic is mostly noise
 
 _MOST_HARMONICS = 160
@@ -29,7 +29,7 @@ _MOST_WIDENING = 0.5  # maximum change, in chips, of bright runs by gamma and sa
 
 _DENSE_EXPOSURES = (0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.0, 2.15, 2.3, 2.5, 2.7, 2.85, 3.0, 3.15)
 _DENSE_PHASES = np.arange(16) / 16.0
-"""Exposures and phases in chips that are tried, twice as dense as for division."""
+"""Exposures and phases in chips that are tried for a descent."""
 
 _LEAST_GAIN = 1e-9  # increase of the likeness beyond rounding error
 
@@ -38,8 +38,8 @@ _LEAST_GAIN = 1e-9  # increase of the likeness beyond rounding error
 class ReadPattern:
     chips: ByteArray  # shape (chips,); one period
     explained: float  # correlation of their harmonics with those in the photo
-    # exposure, phase: the exposure, and the place of the first chip, in chips, that explain the
-    # harmonics so.
+    # exposure, phase: the exposure and the place of the first chip, in chips, with which the
+    # harmonics are explained best.
     exposure: float
     phase: float
     times: int = 1  # how many times the chips are sent in a period of the stripes
@@ -48,7 +48,7 @@ class ReadPattern:
 def harmonics_of(even: FloatArray, period: float) -> Harmonics:
     """Return the strength of each harmonic of 1/period, from the first.
 
-    They are fitted together with a trend: the removal of one has changed the slow harmonics.
+    They are fitted together with a trend, whose removal before has changed the slow harmonics.
     """
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
@@ -90,10 +90,10 @@ def refine_timing(
 ) -> ReadPattern:
     """Refine exposure and phase, and let bright runs be longer or shorter than their chips.
 
-    ``column``: chips a column, where no pixel is white. The light then passes half its height
-    within each edge's ramp, whatever the tone curve: bright runs are longer by less than a ramp,
-    which lasts the exposure and, by blur, a column. White hides the upper part of a ramp, so that
-    this does not hold for saturated stripes.
+    ``column``: chips a column; None for saturated stripes. Whatever the tone curve, light passes
+    half its height within the ramp of each edge, so that bright runs are longer by less than a
+    ramp, which lasts the exposure and, by blur, a column. In saturated stripes white hides the
+    upper part of the ramps.
     """
     # Imported only when a photo is matched: it is slow.
     from scipy.optimize import minimize
@@ -198,14 +198,15 @@ def chips_by_descent(
 def _raise_likeness(
     first: ByteArray, towards: FloatArray, products: FloatArray
 ) -> tuple[ByteArray, float]:
-    """Change one chip, or two neighbours, while the likeness c'a / sqrt(c'Qc) rises.
+    """Change one chip, or two neighbours, while the likeness c'a / sqrt(c'Qc) of chips c rises.
 
-    -1 is the likeness of constant chips.
+    ``towards``: the vector a. ``products``: the matrix Q. Constant chips have the likeness -1.
     """
     count, best = len(first), -np.inf
     chips = first.astype(np.float64)
     own, beside = np.diag(products), products[np.arange(count), np.arange(count) - 1]
-    # Where no chip, one, or one and that before it changes: its likeness follows from what is new.
+    # The changes are none, each chip, and each chip with that before it; their likeness follows
+    # from the change of the numerator and of the denominator.
     while True:
         signs = 1.0 - 2.0 * chips
         pull = products @ chips

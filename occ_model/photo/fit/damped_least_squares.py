@@ -19,14 +19,14 @@ _MOST_TRIES = 7  # maximum number of shorter steps after one without a gain
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Bounds:
-    """The least and the largest value of each parameter, and the largest change of it in a step."""
+    """The least and the largest value of each parameter, and its largest change in a step."""
 
     low: FloatArray
     high: FloatArray
     most_change: FloatArray | float = math.inf
 
     def limit(self, place: FloatArray, there: FloatArray) -> FloatArray:
-        """Return where a step from a place to another one may end."""
+        """Return where a step from a place to another one ends within the bounds."""
         there = np.clip(there, place - self.most_change, place + self.most_change)
         return np.clip(there, self.low, self.high)
 
@@ -46,12 +46,12 @@ def minimize_squares(
 ) -> tuple[FloatArray, FloatArray]:
     """Minimize a sum of squares (Levenberg and Marquardt); return the place and its residual.
 
-    It ends where a step gains next to nothing: after as many steps as are worth their time.
+    It ends after a step that gains next to nothing.
 
-    ``residual`` is in standard deviations of the noise; ``slopes`` are its own, shape (residuals,
-    parameters). ``fraction``: where the noise is not known, the part of the sum of squares whose
-    decrease does not matter. ``hopeless``: the sum of squares above which it ends after any step,
-    as it is not worth others.
+    ``residual``: in standard deviations of the noise. ``slopes``: those of the residual, shape
+    (residuals, parameters). ``fraction``: if the noise is not known, the fraction of the sum of
+    squares by which it has to decrease for a further step. ``hopeless``: the sum of squares above
+    which it ends after the first step.
     """
     here, value = first, residual(first)
     damping = 1e-2

@@ -20,13 +20,11 @@ _EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3,
 _ROUGH_EXPOSURES = (0.3, 1.4, 2.4, 3.5, 5.4)  # exposures with which all steps are compared
 _MOST_STEP = 0.95  # maximum number of chips per column
 
-_PADDING = 4
-_PHASES_A_CHIP = 8
-_ROUGH_PHASES_A_CHIP = 2
+_PADDING = 4  # length of the Fourier transform over the number of columns
+_PHASES_A_CHIP, _ROUGH_PHASES_A_CHIP = 8, 2
 
 _STEPS_PER_CHIP = 3.0  # number of steps tried while the last column moves by one chip
-
-_BEST_STEPS = 24
+_BEST_STEPS = 24  # number of steps with which all exposures are compared
 _AT_ONCE = 2**19  # maximum number of array elements at once, which bounds the memory
 
 

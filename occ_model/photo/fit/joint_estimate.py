@@ -1,7 +1,7 @@
-"""Refine an explanation's timing, with uncertainties that hold what is not known of the camera.
+"""Refine an explanation's timing, with uncertainties that include what is unknown of the camera.
 
-Which quantity the camera averages and blurs is not known either: each possibility is fitted, and
-the estimate is the mean over all of them, weighted by how likely they are.
+It is also unknown whether the camera averages and blurs light or pixel values: each possibility is
+fitted, and the estimate is the mean over all of them, weighted by how likely they are.
 """
 
 import math
@@ -21,8 +21,7 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells, EvenProfile
 from occ_model.results.match import Stripes
 
-_CHIPS_LIT = 8
-"""Number of chips within which an LED is on at least once; a period where that is shorter."""
+_CHIPS_LIT = 8  # number of chips within which an LED is on at least once, as within any period
 
 _UNKNOWN_RAMP = 0.002  # relative deviation of an exposure by its ramps' shape
 
@@ -35,7 +34,7 @@ _LEAST_EDGES = 0.1  # minimum fraction of the edges' columns that is seen withou
 
 _MOST_UNUSUAL_DEVIATIONS = 3.55
 """Distance of the camera's and the LED's six unknowns from their means, in standard deviations,
-that five of a hundred usual ones exceed (chi-square distribution)."""
+which five of a hundred usual cameras exceed (chi-square distribution)."""
 
 _MOST_CORRELATION_LOSS = 0.02
 """Loss of correlation by which a refined fit contradicts the first one: exposures of 0.4 and 8.9
@@ -48,8 +47,8 @@ _CONTRADICTION = (
 
 
 _ROUNDS = 6  # number of iterations after which the rims are seen in the residual
-_COLUMNS_LEFT_OUT = 16  # number of columns that are left out together
-_MOST_RATIO = 3.0  # root mean square of their residual over the median above which they are
+_COLUMNS_LEFT_OUT = 16  # number of columns at a rim that are left out together
+_MOST_RATIO = 3.0  # maximum root mean square of their residual over the median of all
 _LEAST_KEPT = 24  # minimum number of columns of a profile
 
 
@@ -71,8 +70,7 @@ def refine_fits(
 ) -> Refined:
     """Refine the fits of an explanation.
 
-    Where the fits hold an estimate of gamma, it is estimated here too. What ``check`` raises ends
-    the work.
+    Gamma is estimated if it was in these fits. What ``check`` raises ends the work.
     """
     step = explanation.fits[0].timing.step
     chips = explanation.chips
@@ -109,7 +107,7 @@ def refine_fits(
 
 
 def _with_step_of(found: JointFit, best: StripeFit) -> JointFit:
-    """Take the step from the mean of all pixels: it is better known where white hides the edges."""
+    """Take the step of the mean of all pixels, which is better known where white hides edges."""
     values, covariance = found.values.copy(), found.covariance.copy()
     values[0] = best.timing.step
     covariance[0, :] = covariance[:, 0] = 0.0
@@ -169,7 +167,7 @@ def rounding_error(low: FloatArray, swing: FloatArray) -> float:
 
 
 def _doubts(unusual: float) -> tuple[str, ...]:
-    """Return why nothing that was found may hold: the model explains the stripes by odd values."""
+    """Return why all estimates are doubtful: the model explains the stripes by unusual values."""
     if unusual <= _MOST_UNUSUAL_DEVIATIONS:
         return ()
     return (
@@ -192,10 +190,10 @@ def _exposure_doubts(seen: float) -> tuple[str, ...]:
 def without_rims(
     profiles: Sequence[EvenProfile], model: JointModel, first: StripeFit, profile: FloatArray
 ) -> list[EvenProfile]:
-    """Return profiles without the columns at their ends that fits do not follow.
+    """Return profiles without the columns at their ends that two fits do not follow.
 
-    Neither the fit to the mean of all pixels, ``profile``, nor one that knows of blur: the levels
-    of the latter bend after a rim, the blur that the former lacks may hide it.
+    These are the fit to the mean of all pixels, ``profile``, and one with blur. Each may follow a
+    rim alone: the levels of the latter bend there, and blur makes up for it in the former.
     """
     start = model.start(first.timing)
     model.estimate_noise(start)

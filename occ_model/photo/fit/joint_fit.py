@@ -1,6 +1,6 @@
 """A joint fit's timing with its covariance, and the mean over the fits of several models.
 
-The residual of a fit to stripes is not mere noise. The mean weighs each model by how likely it is.
+The covariance takes into account that the residual of a fit to stripes is not mere noise.
 """
 
 import math
@@ -15,9 +15,9 @@ from occ_model.photo.fit.timing import SHORTEST_EXPOSURE
 from occ_model.products import row_products
 
 _UNMODELLED_FRACTION = 0.05
-"""Fraction of the data's misfit by which explanations must differ: effects outside the model change
-the misfit of each by chance. Without it, a blur of the wrong shape is often the only one left. The
-misfit of the priors has no such error and counts in full."""
+"""Fraction of the data's misfit by which effects outside the model change it by chance. Without it,
+a blur of the wrong shape often gets all of the weight. The misfit of the priors has no such error
+and counts in full."""
 
 _MOST_STEP_RATIO = 5.0
 """Maximum ratio of a step's standard deviation to the smallest one: all models have the same
@@ -38,12 +38,12 @@ class JointFit:
     values: FloatArray
     covariance: FloatArray  # shape (9, 9); 0 for what is not fitted
     misfit: float  # twice the negative logarithm of the posterior density, less a constant
-    prior: float = 0.0  # the part of the misfit by which the unknowns are off what is usual
-    shift: FloatArray | None = None  # shape (9,); by how much blurred levels bias the values
+    prior: float = 0.0  # part of the misfit that is due to unknowns that are not as usual
+    shift: FloatArray | None = None  # shape (9,); bias of the values by blurred levels
 
     @property
     def unbiased(self) -> "JointFit":
-        """The fit without the bias of blurred levels, which is known as well as the blur is."""
+        """The fit without the bias by blurred levels, whose relative error is twice the blur's."""
         if self.shift is None or not self.values[7] > 0.0:
             return self
         error = min(1.0, 2.0 * math.sqrt(float(self.covariance[7, 7])) / float(self.values[7]))
@@ -92,11 +92,11 @@ def covariance_of(slopes: FloatArray, residual: FloatArray, block: NDArray[np.in
 def average_fits(fits: Sequence[JointFit]) -> JointFit:
     """Average over models, each weighted by the density of its best fit.
 
-    The estimate is the fit of the median exposure: where an edge is either blur's or the
-    exposure's, the mean of both is neither. The deviation is that of densities which are trusted
-    less, since they are of noise alone. An exposure that has shrunk to nothing, a gamma at its
-    bound, or a step that is far less known than by another fit, has no slope, and so no
-    covariance: such a fit counts only where there is no other.
+    The estimate is the fit of the median exposure: if an edge is wide by blur or by the exposure,
+    the mean of both explanations is neither. For the covariance, differences of the misfit count
+    less, as effects outside the model change it. A fit counts only if there is no other where its
+    covariance means nothing: its exposure has shrunk to nothing, its gamma is at a bound, or its
+    step is far less known than in another fit.
     """
     most = _MOST_STEP_RATIO**2 * min(one.covariance[0, 0] for one in fits)
     known = [one for one in fits if one.covariance[0, 0] <= most]
@@ -119,9 +119,9 @@ def average_fits(fits: Sequence[JointFit]) -> JointFit:
 
 
 def keep_distinct(fits: Sequence[JointFit]) -> list[JointFit]:
-    """Keep the best fit of each minimum, the best first: several starts may end in the same one.
+    """Keep the best fit of each minimum, the best first, as several starts may end in the same one.
 
-    Two are the same where their exposures differ by less than the better one's deviation.
+    Two fits are of the same minimum if their exposures differ by less than the better one's error.
     """
     kept: list[JointFit] = []
     for fit in sorted(fits, key=lambda one: one.misfit):

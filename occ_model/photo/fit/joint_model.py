@@ -1,10 +1,10 @@
 """Fit the timing together with what else is unknown of the camera, and state its uncertainty.
 
 The light of a column is a(i) + b(i) x lit(i), with levels a and b that vary slowly; the camera's
-tone curve makes it a grey level. Tone curve, blur and the LED's switching are not known: they are
-fitted too, held by what is usual (a Gaussian prior each), so that the timing's uncertainty includes
-them. Clipped columns are left out: in some hundred simulated photographs, forty of them with a
-fifth or more saturated, that their light is at least white made estimates no nearer to the truth.
+tone curve makes it a grey level. Tone curve, blur and the LED's switching are unknown: they are
+fitted too, each with a Gaussian prior of what is usual, so that the timing's uncertainty includes
+them. Clipped columns are left out. To use that their light is at least white made estimates no
+better in some hundred simulated photographs, forty of them with a fifth or more saturated.
 """
 
 import math
@@ -45,9 +45,9 @@ JPEG."""
 
 _CHIPS_PER_SLOW_SHAPE = 4
 _MOST_SLOW_SHAPES = 32
-"""Polynomials that are projected out of a residual: a lamp's brightness along the columns is not a
-combination of a few of them. The rest would count as noise of many columns, and the priors would
-outweigh the data."""
+"""Chips in view per polynomial that is projected out of a residual, and their largest number. The
+brightness of a lamp along the columns is no combination of a few polynomials; the rest would count
+as noise of many columns, so that the priors would outweigh the data."""
 
 _EXPOSURE_SCALE = 0.05  # of the exposure: a change that matters about as much as the others'
 _EDGE_BAND = 0.05  # from both levels, relative to the swing, at which a column is on an edge
@@ -62,9 +62,9 @@ _MOST_LOG_CHANGE = 5.0  # of the exposure, in a step of the search
 class JointModel:
     """The model of profiles of one lamp, by one sequence of chips.
 
-    ``step``: chips per column, roughly. ``gamma``: usual one; 1 where pixel values are averaged.
-    ``values_blurred``: pixel values are blurred (noise reduction, resizing), else light
-    (demosaicing). ``wide``: gamma may be any that a scene's may be.
+    ``step``: chips per column, roughly. ``gamma``: the usual one; 1 if pixel values are averaged.
+    ``values_blurred``: whether pixel values are blurred (noise reduction, resizing) or light
+    (demosaicing). ``wide``: whether gamma may have any value of a scene's.
     """
 
     def __init__(
@@ -108,18 +108,18 @@ class JointModel:
         self._seen = SeenStripes(chips, columns, gamma, values_blurred=values_blurred)
 
     def start(self, timing: Timing) -> FloatArray:
-        """Return the parameters of a timing, and what is usual."""
+        """Return the parameters of a timing with the usual values of all others."""
         values = np.array([timing.step, timing.exposure, timing.middle, *self._mean])
         if self.gamma == 1.0:
             values[4] = 0.0
         return values
 
     def adapt(self, values: FloatArray) -> FloatArray:
-        """Return another model's parameters, what this one does not fit being as usual."""
+        """Return parameters of another model with usual values of what this one does not fit."""
         return self._usual_but(values, self._free)
 
     def with_usual(self, values: FloatArray) -> FloatArray:
-        """Keep the timing, the blur, and a gamma that may be any; let all else be as usual."""
+        """Return parameters with usual values of all but timing, blur and a gamma that is free."""
         is_wide = self._deviation[0] == ANY_GAMMA
         kept = np.flatnonzero([True] * 3 + [is_wide] + [False] * 3 + [True, False])
         return self._usual_but(values, kept)
@@ -141,7 +141,7 @@ class JointModel:
         shape: BlurShape = "normal",
         hopeless: float = math.inf,
     ) -> JointFit:
-        """Fit from a first guess; end after a step where the misfit is beyond what is hopeless."""
+        """Fit from a first guess; end after a step if the misfit is above ``hopeless``."""
         index = self._free
         values, residual = self._minimize(first, rounds, shape, hopeless)
         scale = np.where(np.arange(9) == 1, _EXPOSURE_SCALE * values[1], self._scale)
@@ -196,7 +196,7 @@ class JointModel:
         return values_of(place), residual
 
     def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
-        """Return by how many chips the place of each residual is later because levels are blurred.
+        """Return by how many chips blurred levels shift the edge at each residual.
 
         The model multiplies blurred stripes by the levels, but a lens blurs their product. Where
         the swing E changes along the columns, a blur of variance s^2 thus moves an edge towards the
@@ -208,7 +208,7 @@ class JointModel:
         return np.concatenate([moved, np.zeros(len(PRIORS))])
 
     def distance_from_usual(self, values: FloatArray) -> float:
-        """Return by how many standard deviations the unknowns of a fit are off what is usual."""
+        """Return the distance of a fit's unknowns from usual ones, in standard deviations."""
         return float(np.linalg.norm((values[3:] - self._mean) / self._deviation))
 
     def estimate_noise(self, values: FloatArray) -> None:

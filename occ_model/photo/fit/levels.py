@@ -1,4 +1,4 @@
-"""The light of columns by levels, one of them times what is lit, and the levels' normal equations.
+"""The light of columns as a dark level plus a swing times the lit fraction, and its least squares.
 
 The levels c, combinations of shapes S, solve normal equations: the sums over the columns of
 w e (S, lit S) are 0, where the error e is the light that is seen of a column less its model

@@ -1,4 +1,4 @@
-"""The model of one profile of pixels that are lit equally: its levels, and the residual they leave.
+"""The model of one profile of pixels that are lit equally: its levels and its residual.
 
 For given lit fractions and a given tone curve the levels are found by linear least squares, so that
 a search need not know them (variable projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413,
@@ -37,8 +37,8 @@ class LitProfile:
     """A profile's columns that are not clipped, with the levels' shapes.
 
     ``freedom``: number of Chebyshev polynomials of which either level is a combination. ``slow``:
-    number of those that carry no information: the shape of a lamp does not
-    depend on the stripes.
+    number of those that carry no information, as the shape of a lamp does not depend on the
+    stripes.
     """
 
     def __init__(self, profile: EvenProfile, freedom: int, slow: int = 0) -> None:

@@ -1,6 +1,6 @@
-"""Fit the timing of chips as the mean over cameras' models and the shapes that blur may have.
+"""Average the timing of chips over models of the camera and shapes of the blur.
 
-Edges show the width of an exposure and of blur together, so that one may be mistaken for the other.
+The width of edges is that of exposure and blur together, so that one may be mistaken for the other.
 """
 
 import math
@@ -15,7 +15,7 @@ from occ_model.photo.fit.seen_stripes import BlurShape
 from occ_model.photo.fit.timing import Timing
 
 _MOST_EXCESS_MISFIT = 60.0  # excess of the misfit above which a model is left out
-_MOST_SHAPED_EXCESS = 20.0  # and above which another shape of the blur makes no model the likeliest
+_MOST_SHAPED_EXCESS = 20.0  # the same, above which other shapes of the blur are not tried
 
 _MOST_COLUMNS = 12.0  # exposure in columns below which blur may be taken for it
 
@@ -28,7 +28,7 @@ _BLUR_FRACTIONS: dict[BlurShape, tuple[float, ...]] = {
 }
 """Fractions of an edge's variance due to blur from which fits start, by the shape of the blur. A
 box of blur and an exposure look alike, and each shape has several minima: starts at one half alone
-took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
+found a blur of 1.1 columns and an exposure of 3.5, with a larger misfit, instead of 1.3 and 2.2."""
 
 _HOPELESS_RATIO = 6.0
 """Ratio of misfits to the least one above which a fit that begins elsewhere is not finished."""
@@ -83,7 +83,7 @@ def mirror_exposure(values: FloatArray) -> FloatArray:
 
 
 def _fit_near(model: JointModel, here: FloatArray) -> JointFit:
-    """Fit near an exposure, a short one from every blur, which it may be taken for."""
+    """Fit near some parameters, from every blur if the exposure is short enough to look like it."""
     if not _is_short(here):
         return model.fit(here)
     best = model.fit(here, rounds=_NEAR_ROUNDS)
@@ -96,9 +96,9 @@ def _fit_near(model: JointModel, here: FloatArray) -> JointFit:
 
 
 def _fit_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
-    """Fit also with each shape of the blur, where it may be taken for the exposure.
+    """Fit with each shape of the blur if the exposure is so short that it looks like blur.
 
-    Each minimum counts once, however many starts end in it.
+    Of the fits that end in the same minimum one is returned.
     """
     if not _is_short(free.values):
         return [free]
@@ -121,7 +121,7 @@ def _fit_each_shape(model: JointModel, free: JointFit) -> list[JointFit]:
         found["box"] += fits(_exchange_blur(box.values), _LAST_ROUNDS, "box")
     best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
     for shape, others in found.items():
-        # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
+        # Each shape also starts from the best fit, as a wrong shape bends the tone curve.
         others.append(model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
     return [fit for fits in found.values() for fit in keep_distinct(fits)]
 
@@ -135,7 +135,7 @@ def _exchange_blur(found: FloatArray) -> list[FloatArray]:
     """Exchange exposure and blur: two boxes make the same edge in either order."""
     step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
     starts = []
-    # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
+    # Blur far below a column is hardly seen, so that a box of one column is tried, too.
     for box in (max(math.sqrt(12.0) * blur, _SHORTEST_EXPOSURE), 1.0):
         values = found.copy()
         values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)

@@ -31,10 +31,10 @@ from occ_model.photo.stripes.period import Harmonics
 MOST_CHIPS = 128  # maximum number of chips in a period
 
 _LEAST_COHERENCE = 0.6  # minimum coherence of edges with the best lattice of chips
-_LONGEST_FOR_EDGES = 1.5  # exposure in chips above which edges may not show the lattice
+_LONGEST_FOR_EDGES = 1.5  # exposure in chips above which edges may be off the lattice of chips
 _MOST_COUNTS = 12  # maximum number of lattices that are tried
 _LEAST_UNEXPLAINED = 0.04  # fraction of the harmonics' power at which the search ends
-_MOST_EQUAL_RATIO = 1.5  # ratio to the least unexplained power at which fewer chips do
+_MOST_EQUAL_RATIO = 1.5  # unexplained power over the least one up to which fewer chips are taken
 
 _LEAST_CROSSINGS = 4
 
@@ -45,8 +45,8 @@ _PARTS = (1, 2, 3, 4)
 _LEAST_CHIPS = 5
 _MOST_PER_COUNT = 2
 _LEAST_HARMONIC_CORRELATION = 0.85
-"""Chips that are searched for where those read explain the stripes badly: divisors of the number
-read, minimum number, sequences for each number, and minimum correlation of their harmonics."""
+"""For other chips, where those read explain the stripes badly: divisors of the number read, minimum
+number, sequences for each number, and minimum correlation of their harmonics."""
 
 _NEIGHBOURS = (-3, -2, -1, 1, 2, 3)  # differences of the numbers of chips compared
 
@@ -61,10 +61,10 @@ def read_patterns(
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
-    There is one for each way of reading that finds any, those by edges first.
-    ``is_clipped``: white pixels may lengthen bright runs by more than an edge's ramp. Chips may be
-    misread, or not be read, where the exposure is shorter than a column's readout: the position of
-    an edge within a column is then unknown.
+    Each way of reading, first that by edges, gives one sequence or none. Chips may be misread if
+    the exposure is shorter than a column's readout: the place of an edge within a column is then
+    unknown. ``is_clipped``: whether white pixels may lengthen bright runs by more than an edge's
+    ramp.
     """
     harmonics = harmonics_of(remove_trend(profile), period)
     most = min(MOST_CHIPS, int(period / LEAST_COLUMNS))
@@ -90,8 +90,8 @@ def read_otherwise(
 ) -> list[ReadPattern]:
     """Read other sequences of as many chips as were read, or of a half, third or quarter of them.
 
-    It is called where the chips read explain the stripes badly: an exposure of two or three chips
-    leaves little of some harmonics, and is easily taken for one of a single chip.
+    It is of use if the chips read explain the stripes badly: an exposure of two or three chips
+    leaves little of some harmonics, and is easily taken for that of a single chip.
     """
     harmonics = harmonics_of(remove_trend(profile), period)
     lengths = [one.times * len(one.chips) for one in read]

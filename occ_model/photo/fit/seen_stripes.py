@@ -1,7 +1,7 @@
-"""What the columns see of one lamp's chips: lit fractions that are blurred, and a tone curve.
+"""What the columns see of one lamp's chips: blurred lit fractions, and a tone curve.
 
-Image processing blurs along the columns, and an LED that turns on faster than off (or a driver that
-does) is on a little longer than its chips say.
+Image processing blurs along the columns. An LED or driver that turns on faster than off is on a
+little longer than its chips say.
 """
 
 import math
@@ -72,11 +72,12 @@ def kernel_slope(blur: float, shape: BlurShape = "normal") -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Seen:
-    """What the columns see: lit fractions, blurred, or sharp and blurred as pixel values."""
+    """What the columns see of the chips, and the camera's tone curve."""
 
-    lit: FloatArray
+    lit: FloatArray  # blurred lit fractions, shape (columns,)
     table: ToneTable
-    sharp: FloatArray | None  # also of the columns beside that blur reaches
+    # Sharp lit fractions, also of the columns beside that blur reaches; None if light is blurred.
+    sharp: FloatArray | None
     kernel: FloatArray
 
 
@@ -101,7 +102,7 @@ class SeenStripes:
         self._last = lru_cache(maxsize=1)(self._compute)
 
     def at(self, values: FloatArray, shape: BlurShape = "normal") -> Seen:
-        """Return what is seen by nine parameters, and the blur's shape."""
+        """Return what is seen with nine parameters and a shape of the blur."""
         return self._last(tuple(values.tolist()), shape)
 
     def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
@@ -111,7 +112,7 @@ class SeenStripes:
         slope_of_kernel = kernel_slope(blur, shape)
         lit = np.zeros((5, len(exposed.lit)))
         lit[:BLUR] = exposed.slopes()
-        # The edges that were passed before are each early by half of what the time on is longer.
+        # Each edge comes earlier, or later, by half of what the time on is longer.
         np.multiply(exposed.edges, 0.5 / timing.exposure, out=lit[BLUR + 1])
         if not self._values_blurred:
             lit = blur_rows(lit, seen.kernel)
@@ -119,7 +120,7 @@ class SeenStripes:
         return SeenSlopes(lit, curve.slopes(seen.table), slope_of_kernel)
 
     def gamma(self, values: FloatArray | Sequence[float]) -> float:
-        """Return the gamma, of which the parameters hold the logarithm over the usual one."""
+        """Return gamma; the parameters hold the logarithm of its ratio to the usual one."""
         return self._gamma * math.exp(values[GAMMA])
 
     def _compute(self, values: Sequence[float], shape: BlurShape) -> Seen:

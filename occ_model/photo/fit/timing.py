@@ -38,7 +38,7 @@ class ExposedLight:
     def slopes(self) -> FloatArray:
         """Return the lit fractions' slopes over step, exposure and middle, shape (3, columns).
 
-        An exposure that is later gains the light that it ends in and loses what it starts in.
+        A later exposure gains the light at its end and loses that at its start.
         """
         first, last = self.levels
         later = (last - first) / self.exposure

@@ -41,7 +41,7 @@ class ToneCurve:
     def slopes(self, table: "ToneTable") -> "ToneSlopes":
         """Tabulate the slopes over gamma, offset, shoulder and contrast."""
         bent, rises = self._bend()
-        # The toe is a tangent: by gamma it changes as the point and the slope that it touches.
+        # The toe is a tangent, which changes with gamma as the point of contact and its slope do.
         steady, below = np.maximum(bent, _TOE), np.minimum(bent / _TOE - 1.0, 0.0)
         steep = self.gamma * steady ** (self.gamma - 1.0)
         logarithm = np.log(steady)
@@ -50,7 +50,7 @@ class ToneCurve:
         return ToneSlopes(table, np.vstack([by_gamma, steep / (1.0 + self.offset) * by_bends]))
 
     def _bend(self) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """Return what is raised to the power of gamma, and which of its steps are not the least."""
+        """Return what is raised to the power of gamma, and which of its steps are not limited."""
         steps = _STEP + self.shoulder * _BENDS[0] + self.contrast * _BENDS[1]
         least = _LEAST_SLOPE * _STEP
         bent = _sum_to_white(np.maximum(steps, least))
@@ -99,7 +99,7 @@ class ToneSlopes:
         """Return the slopes of grey levels, shape (parameters, values).
 
         ``values``: shape (values,), the grey levels. ``light``: shape (parameters, values), the
-        slopes of their light over any parameters, at last those of the curve.
+        slopes of their light over any parameters, of which the last ones are those of the curve.
         """
         place = ((values - _LEVELS[0]) / (WHITE * _STEP)).astype(np.intp)
         rises = np.diff(self.table.light)

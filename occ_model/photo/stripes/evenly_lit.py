@@ -1,8 +1,8 @@
 """Average pixels of a lamp that are about equally bright into separate profiles.
 
-A mean over pixels of which some are clipped is not the response to any light. Within a group of
+The mean over pixels of which some are clipped is not the response to any light. In a group of
 pixels that the lamp lights equally, each column is either clipped or the response to one light. The
-groups of a round lamp have profiles whose swing does not depend on the disc's shape.
+swing of such a profile does not depend on the shape of a round lamp.
 """
 
 from dataclasses import dataclass
@@ -29,8 +29,8 @@ _CLIPPED_GROUPS = 2  # number of groups of pixels that are clipped while the lam
 
 _MOST_GROUPS = 3
 _HALF_WEIGHT_ROWS = 16.0
-"""Number of rows with half of the information of infinitely many: more rows average noise, but not
-the errors that are common to all rows."""
+"""Number of rows with half of the information of infinitely many, as errors that are common to all
+rows do not average out."""
 
 _LEAST_COLUMNS = 24
 _LEAST_CELLS = 0.15  # minimum number of pixels in a column relative to the group's median

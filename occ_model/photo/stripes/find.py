@@ -23,7 +23,7 @@ from occ_model.results.match import Stripes
 BANDS = 64  # maximum number of bands into which rows are gathered
 
 _LEAST_STRENGTH = 0.25  # minimum strength of the common stripes in a row relative to the median
-_LEAST_SLOPE = 0.3  # minimum slope of an edge relative to a steep one; lenses darken the rim
+_LEAST_SLOPE = 0.3  # minimum slope of an edge relative to a steep one, as lenses darken the rim
 _LEAST_NEIGHBOUR_RATIO = 0.6  # minimum slope of an outer edge relative to its neighbours
 _NOISE_SLOPE = 0.08  # slope relative to a steep edge below which it is noise or compression
 _SLOPE_COLUMNS = 4  # number of columns over which a slope is measured

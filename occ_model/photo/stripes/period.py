@@ -25,7 +25,7 @@ def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
 
 
 def best_repetition(flattened: FloatArray) -> tuple[int, float]:
-    """Return the longest period searched, in columns, and the largest autocorrelation."""
+    """Return the longest period that is searched for, in columns, and the best autocorrelation."""
     lags, heights = _repetitions(flattened)
     longest = int(_LONGEST_FRACTION * len(flattened))
     return longest, float(heights.max()) if lags.size else 0.0

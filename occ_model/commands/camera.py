@@ -41,7 +41,11 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    measured = _by_mains(options) if options.flash is None else _by_flash(options)
+    is_flash, count = options.flash is not None, len(options.files)
+    if count > (1 if is_flash else MOST_PICTURES):
+        allowed = "one picture of a flash" if is_flash else "two pictures of a room, or one"
+        raise ParameterError.of("PICTURE", f"{count} times", allowed, verb="is given")
+    measured = _measure_by_flash(options) if is_flash else _measure_by_mains(options)
     if options.json:
         print(json.dumps(measured.to_dict(), indent=2))
     else:
@@ -49,23 +53,12 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _by_flash(options: argparse.Namespace) -> FlashMeasurement:
-    if len(options.files) > 1:
-        raise ParameterError.of(
-            "PICTURE", f"{len(options.files)} times", "one picture of a flash", verb="is given"
-        )
+def _measure_by_flash(options: argparse.Namespace) -> FlashMeasurement:
     length = replace(quantity("exposure_time"), name="--flash").parse(options.flash)
     return measure_flash(options.files[0], length, scan_axis=options.scan_axis)
 
 
-def _by_mains(options: argparse.Namespace) -> CameraMeasurement:
-    if len(options.files) > MOST_PICTURES:
-        raise ParameterError.of(
-            "PICTURE",
-            f"{len(options.files)} times",
-            "two pictures of a room, or one",
-            verb="is given",
-        )
+def _measure_by_mains(options: argparse.Namespace) -> CameraMeasurement:
     mains = quantity("mains_frequency").parse(options.mains)
     with fraction_bar() as progress:
         return measure_camera(options.files, mains, scan_axis=options.scan_axis, progress=progress)

@@ -18,6 +18,7 @@ from occ_model.commands.film_lines import (
 )
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     decoder_name,
     scene_of,
@@ -56,19 +57,13 @@ def add_to(commands: Commands) -> None:
         default=PAPER_DECODER,
         help=f"one of {', '.join(DECODERS)} or a plug-in's; default: %(default)s",
     )
-    parser.add_argument(
-        "--scan-axis",
-        choices=SCAN_AXES,
-        default="auto",
-        help="what the shutter scans in the file; auto: across the stripes (default)",
+    scanned = "what the shutter scans in the file; auto: across the stripes"
+    add_option(parser, "--scan-axis", SCAN_AXES[0], scanned, choices=SCAN_AXES)
+    channel = (
+        "the channel of a coloured photo to read; brightest: the colour with the largest mean, or "
+        "luma in a film, of which red, green or blue can be read, too"
     )
-    parser.add_argument(
-        "--channel",
-        choices=CHANNELS,
-        default=CHANNELS[0],
-        help="the channel of a coloured photo to read; brightest: the colour with the largest mean "
-        "(default); of a film it can be red, green or blue, and is luma by default",
-    )
+    add_option(parser, "--channel", CHANNELS[0], channel, choices=CHANNELS)
     parser.add_argument(
         "--follow", action="store_true", help="for a film: print what is known after each frame"
     )

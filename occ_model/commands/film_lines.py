@@ -1,4 +1,4 @@
-"""What the commands share that read films: options on what is known, and lines of the result."""
+"""Options and lines of results that the commands share which read films."""
 
 import argparse
 import sys

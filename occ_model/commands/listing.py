@@ -1,7 +1,7 @@
 """The commands ``codes``, ``presets`` and ``parameters`` of ``occ-model``, which list these."""
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 
 from occ_model.commands.options import Commands
 from occ_model.errors import OccError, one_line
@@ -62,16 +62,20 @@ def _print_parameters(options: argparse.Namespace) -> int:
     return 0
 
 
+def _markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [f"| {' | '.join(heads)} |", f"|{'---|' * len(heads)}"]
+    return "\n".join([*lines, *(f"| {' | '.join(cells)} |" for cells in rows)])
+
+
 def parameter_table() -> str:
     """Write all parameters as a Markdown table: name and symbol, meaning, default and range."""
-    lines = ["| name | meaning | default | allowed |", "|---|---|---|---|"]
+    rows = []
     for name, declaration in PARAMETERS.items():
         symbol = f", {declaration.symbol}" if declaration.symbol else ""
         default = declaration.format(declaration.default)  # type: ignore[arg-type]
         allowed = declaration.allowed.replace("a whole number from", "whole,")
-        cells = (f"`{name}`{symbol}", declaration.meaning, default, allowed)
-        lines.append(f"| {' | '.join(cells)} |")
-    return "\n".join(lines)
+        rows.append((f"`{name}`{symbol}", declaration.meaning, default, allowed))
+    return _markdown_table(("name", "meaning", "default", "allowed"), rows)
 
 
 _EXAMPLE = ("manchester", 10)  # line code and bits for which the lengths of frames are compared
@@ -105,15 +109,11 @@ def _title_of(find: Callable[[str], LineCode | Framing | Decoder], name: str) ->
 
 def line_code_table() -> str:
     """Write the declared properties of the built-in line codes as a Markdown table."""
-    lines = [
-        "| line code | chips a bit | without a bit | longest run, chips | ones and zeros "
-        "| slowest wave | its flicker unseen from | one wrong chip |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
-    lines += [
-        f"| {' | '.join(_line_code_cells(code))} |" for code in LINE_CODES.load_built_in().values()
-    ]
-    return "\n".join(lines)
+    heads = (
+        "line code", "chips a bit", "without a bit", "longest run, chips", "ones and zeros",
+        "slowest wave", "its flicker unseen from", "one wrong chip",
+    )  # fmt: skip
+    return _markdown_table(heads, map(_line_code_cells, LINE_CODES.load_built_in().values()))
 
 
 def _line_code_cells(code: LineCode) -> tuple[str, ...]:
@@ -139,15 +139,8 @@ def _balance_text(code: LineCode) -> str:
 def framing_table() -> str:
     """Write the properties of the built-in framings as a Markdown table."""
     name, bits = _EXAMPLE
-    lines = [
-        f"| framing | a frame | chips for {bits} bits, `{name}` | checks the payload |",
-        "|---|---|---|---|",
-    ]
-    lines += [
-        f"| {' | '.join(_framing_cells(framing))} |"
-        for framing in FRAMINGS.load_built_in().values()
-    ]
-    return "\n".join(lines)
+    heads = ("framing", "a frame", f"chips for {bits} bits, `{name}`", "checks the payload")
+    return _markdown_table(heads, map(_framing_cells, FRAMINGS.load_built_in().values()))
 
 
 def _framing_cells(framing: Framing) -> tuple[str, ...]:

@@ -48,13 +48,8 @@ def add_to(commands: Commands) -> None:
         help="a lamp with this frequency blinks, such as 1kHz; short for "
         "--set light=lamp --set lamp_frequency=1kHz",
     )
-    parser.add_argument(
-        "--sent",
-        choices=PATTERN_SOURCES,
-        default="auto",
-        help="scene: what the scene sends; read: read it from the stripes; auto: whichever fits "
-        "(default)",
-    )
+    sent = "scene: what the scene sends; read: read it from the stripes; auto: whichever fits"
+    add_option(parser, "--sent", PATTERN_SOURCES[0], sent, choices=PATTERN_SOURCES)
     unknown = "the parameter that is not known; switching_frequency stands for a lamp's, too"
     add_option(parser, "--estimate", ESTIMATES[0], unknown, choices=ESTIMATES)
     parser.add_argument("--fit-gamma", action="store_true", help="also estimate gamma")

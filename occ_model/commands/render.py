@@ -7,12 +7,12 @@ from occ_model.commands.files import PICTURE, SCENE_FILE
 from occ_model.commands.options import (
     EFFECTS,
     Commands,
+    add_option,
     add_plan_options,
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
-    whole_number,
 )
 from occ_model.effects.plan import plan_with
 from occ_model.errors import inflect, one_line
@@ -30,20 +30,13 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser("render", help="simulate a picture and write it")
     add_scene_options(parser)
     add_simulation_options(parser, EFFECTS)
-    parser.add_argument(
-        "--picture",
-        choices=PICTURES,
-        default="receiver",
-        help="the picture to write: the receiver's, with the scene's enhancement, which decode "
-        "reads (default), or the camera's, like a photo",
+    picture = (
+        "the picture to write: the receiver's, with the scene's enhancement, which decode reads, "
+        "or the camera's, like a photo"
     )
-    parser.add_argument(
-        "--rows-step",
-        type=whole_number,
-        default=1,
-        metavar="K",
-        help="make a draft of only every K-th row; default: all rows",
-    )
+    add_option(parser, "--picture", "receiver", picture, choices=PICTURES)
+    draft = "make a draft of only every K-th row; 1: a whole picture"
+    add_option(parser, "--rows-step", 1, draft, metavar="K")
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
     parser.set_defaults(command=_run, writes={"out": PICTURE, "save_scene": SCENE_FILE})

@@ -8,7 +8,7 @@ from occ_model.scene.units import HERTZ, PERCENT, SECOND
 MAINS_HARMONIC = 2  # cycles of a mains lamp's light in one cycle of the mains
 CYCLIC_LIGHTS = ("lamp", "pulses", "mains")  # of one pulse or swing a cycle
 
-PICTURE_ONLY = "ask for its picture, its spectrum or its bars"  # of a light that is no code
+PICTURE_ONLY = "ask for its picture, its spectrum or its bars"  # what is known without a code
 
 
 @dataclass(frozen=True, slots=True)

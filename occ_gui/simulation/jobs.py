@@ -6,11 +6,14 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
+import numpy as np
+
 import occ_model as occ
 from occ_gui.simulation.moves import MoveTime
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
+from occ_model.camera.enhancement import enhance
 from occ_model.effects.plan import name_effects_for_signal
 from occ_model.errors import OccError, PluginError
 from occ_model.light.cosine import Cosine
@@ -21,7 +24,7 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
 from occ_model.scene.light_words import has_chips
 from occ_model.scene.scene import Scene
-from occ_model.simulation.band_model import band_drift, enhanced_band_profile
+from occ_model.simulation.band_model import band_drift
 from occ_model.simulation.render import PlannedScene, overexposed_fraction, plan_scene, render_with
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.cause.cause import cause_of
@@ -229,7 +232,8 @@ def _has_few_pieces(scene: Scene) -> bool:
 def _band_model(scene: Scene) -> dict[str, Any]:
     try:
         band = occ.band_profile(scene)
-        enhanced = enhanced_band_profile(scene, band)
+        # As the receiver would enhance it, by the profile's own histogram.
+        enhanced = enhance(band, scene.model.enhancement).astype(np.float64)
         return {"band": band, "enhanced_band": enhanced, "band_drift": band_drift(scene)}
     except OccError as error:
         if scene.transmitter.light == "code" and not isinstance(error, occ.BandModelUndefined):

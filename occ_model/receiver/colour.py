@@ -141,7 +141,7 @@ def _interpolate(row: FloatArray) -> FloatArray:
     missing = np.isnan(row)
     if not missing.any():
         return row
-    padded = np.pad(row, 4, mode="reflect")  # of period 2, so that samples stay in their places
+    padded = np.pad(row, 4, mode="reflect")  # repeats after 2, so that samples stay in their places
     return np.convolve(np.nan_to_num(padded), _CUBIC, mode="same")[4:-4]
 
 

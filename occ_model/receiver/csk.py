@@ -18,8 +18,10 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import code_of
 
 _STARTS = 16  # starts that are tried for each symbol of a packet
-_LEAST_CORRELATION = 0.7  # of the total light with a packet's: below, no header was seen
-_WORST_CONDITION = 1e3  # of the equations: beyond, noise is enlarged too much
+_LEAST_CORRELATION = (
+    0.7  # least correlation of the total light with a packet's: below, no header was seen
+)
+_WORST_CONDITION = 1e3  # condition number beyond which the equations enlarge noise too much
 
 
 def read_symbols(light: FloatArray, scene: Scene) -> DecodeResult:
@@ -36,13 +38,15 @@ def read_symbols(light: FloatArray, scene: Scene) -> DecodeResult:
     total = light.sum(axis=0)
     shape = np.array([0.0] * HEADER + [1.0] * (length - HEADER))
     starts = np.arange(length * _STARTS) / _STARTS
-    models = np.array([shares(scene, length, total.size, start) @ shape for start in starts])
+    models = np.array(
+        [symbol_fractions(scene, length, total.size, start) @ shape for start in starts]
+    )
     fits = [_correlation(total, model) for model in models]
     best = int(np.argmax(fits))
     result = DecodeResult("csk", signal=total, correlation=fits[best])
     if fits[best] < _LEAST_CORRELATION:
         return replace(result, failure="No header: the sum of the colours shows no dark symbols.")
-    table = shares(scene, length, total.size, float(starts[best]))
+    table = symbol_fractions(scene, length, total.size, float(starts[best]))
     if len(total) < length or np.linalg.cond(table) > _WORST_CONDITION:
         return replace(
             result, failure="The exposure or the columns leave the light of single symbols unknown."
@@ -64,7 +68,7 @@ def read_symbols(light: FloatArray, scene: Scene) -> DecodeResult:
     )
 
 
-def shares(scene: Scene, length: int, columns: int, start: float) -> FloatArray:
+def symbol_fractions(scene: Scene, length: int, columns: int, start: float) -> FloatArray:
     """Return the fraction of each column's exposure during each symbol of a packet.
 
     ``start`` is the symbol, with a fraction, during which the first column's exposure starts. Shape

@@ -40,13 +40,13 @@ _UNKNOWN_CURVE = (
 )
 
 _MAX_VOTES = 15  # packets to compare; more take longer and change nothing
-_MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that can be undone
+_MAX_EXPOSURE_FRACTION = 0.25  # longest exposure that can be undone, over all columns
 
-_LEAST_LIGHT = 1e-9  # of white, by which the light of columns differs
+_LEAST_LIGHT = 1e-9  # least difference of the light of columns, over that of white
 
 _WEAK_CHECK = "this scheme does not detect all wrong chips; the framing raw checks the payload."
 
-_SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # of a packet's start, up to a chip
+_SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # shifts of a packet's start, up to a chip
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:

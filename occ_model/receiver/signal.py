@@ -18,7 +18,9 @@ MAX_UNEXPLAINED = 0.05
 It was up to 3 % for packets that the equalizer read correctly, and mostly above 7 % for wrong ones.
 """
 
-_MIN_VARIANCE = 1e-8  # of light, in squared fractions of full light: no model is more exact
+_MIN_VARIANCE = (
+    1e-8  # variance of light, in squared fractions of full light: no model is more exact
+)
 
 _MAX_SUM_ROWS = 2**23  # most rows whose sum of bytes fits a 32-bit integer
 
@@ -100,7 +102,7 @@ def unexplained_fraction(signal: FloatArray, residual: FloatArray) -> float:
 
 _MAX_GRID_CELLS = 512  # maximum number of cells on a side of the grid on which contours grow
 
-_MIN_BRIGHT_FRACTION = 0.04  # of the pixels of a contour's cell; fewer bright pixels are noise
+_MIN_BRIGHT_FRACTION = 0.04  # bright pixels of a contour's cell over all; fewer are noise
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:

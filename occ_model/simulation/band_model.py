@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import enhance
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import level_values, saturate
 from occ_model.errors import BandModelUndefined
@@ -99,11 +98,6 @@ def band_drift(scene: Scene) -> float:
     return float(bands.light.period / Fraction(scene.camera.readout_time)) - float(positions[-1])
 
 
-def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
-    """Enhance the band model's profile as the receiver would, by the profile's own histogram."""
-    return enhance(profile, scene.model.enhancement).astype(np.float64)
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class _Bands:
     """The bands in one period of light: one for each chip, or for each time at one level."""
@@ -112,7 +106,7 @@ class _Bands:
     of_chips: bool
     levels: FloatArray
     exact_lengths: NDArray[Any]  # in units of the light's waveform
-    start: Fraction  # of the first one in the period, in units
+    start: Fraction  # start of the first band in the period, in units
 
     @classmethod
     def of(cls, scene: Scene) -> "_Bands":

@@ -19,7 +19,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import LEVEL, NONE
 from occ_model.simulation.colour_channels import channel_views
 
-_ROWS = 16  # of a sample of the panel, as many as a block of subsampled chroma has
+_ROWS = 16  # rows of a sample of the panel: those of a block of subsampled chroma
 _LEAST_STATED = 1e-6  # levels: less than one grey level of one pixel of a sample
 
 _Change: TypeAlias = tuple[str, str, Stage, float | None]

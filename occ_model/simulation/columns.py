@@ -31,8 +31,8 @@ class Columns:
     # Shape (columns,): the same after saturation; ``profile`` is PV_sim
     profile: FloatArray
     around: FloatArray
-    law: GreyLaw | None  # of the pixels' grey levels; None without noise
-    enhancement: Enhancement  # of the panel, by its columns' pixels
+    law: GreyLaw | None  # The law of the pixels' grey levels; None without noise
+    enhancement: Enhancement  # Of the panel, by the histogram of its pixels
 
 
 def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = None) -> Columns:

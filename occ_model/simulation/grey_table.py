@@ -23,12 +23,12 @@ from occ_model.camera.pixel_noise import GREYS
 Numbers = NDArray[np.uint32]  # uniform numbers in units of 2^-32
 
 _WHOLE = 2**32
-_OCTAVES = 21  # of numbers that have cells, from the median down to either tail
-_FEWEST_BITS, _MOST_BITS = 2, 5  # of the number of cells of an octave
+_OCTAVES = 21  # octaves of numbers that have cells, from the median down to either tail
+_FEWEST_BITS, _MOST_BITS = 2, 5  # binary logarithm of the number of an octave's cells
 _GREYS_TO_CELL = 12  # grey levels of a pixel, over whose number it has so many cells at least
 _SEVERAL = np.uint32(_WHOLE - 1)  # entry of a cell in which several grey levels end
 
-_SIGN, _MANTISSA_BITS, _BIAS = 256, 23, 127  # of single precision; the sign in units of exponents
+_SIGN, _MANTISSA_BITS, _BIAS = 256, 23, 127  # single precision; the sign in units of exponents
 _APART = 96  # exponents from level to level, at which the cells of none overlap those of another
 _SPAN = 288  # exponents from the lowest of a negative number to the highest
 

@@ -38,7 +38,7 @@ class Pictures:
     # column's value if it has no pixel of the panel
     profile: FloatArray
     panels: Sequence[tuple[slice, PanelPart]]  # Parts of the rows, and where they show the panel
-    enhancement: Enhancement  # of the panel, by the receiver
+    enhancement: Enhancement  # What the receiver does to the panel's pixels
     values: FloatArray  # Shape (columns,): the columns' values before enhancement
     timings: dict[str, float]  # Seconds of each stage, to which that of the enhancement is added
 

@@ -137,7 +137,7 @@ class PixelExposure:
         camera_image = np.empty(self._shape, dtype=np.uint8)
         noise = self._prepare_noise(numbers)
 
-        def make(band: _Band) -> tuple[tuple[slice, PanelPart], ColumnMeans, StageTimer]:
+        def expose(band: _Band) -> tuple[tuple[slice, PanelPart], ColumnMeans, StageTimer]:
             timer = StageTimer()
             camera, means = camera_image[band.place], ColumnMeans(self._shape[1])
             mean = self._mean.of(band.rows, timer.end_stage)
@@ -161,14 +161,14 @@ class PixelExposure:
             shown = [(slice(at.start - top, at.stop - top), panel) for at, panel in panels]
             return Pictures(camera_image[place], means.means(own), shown, enhancement, own, timings)
 
-        def watch(bands: Sequence[_Band]) -> Iterator[_Band]:
+        def beat_for_each(bands: Sequence[_Band]) -> Iterator[_Band]:
             for band in bands:
                 heartbeat()
                 yield band
 
         first, others = self._split_panel() if show_panel else ([], self._split_bands())
         timers: list[StageTimer] = []
-        for panel, of_band, timer in each_in_threads(make, watch([*first, *others])):
+        for panel, of_band, timer in each_in_threads(expose, beat_for_each([*first, *others])):
             means.include(of_band)
             panels.append(panel)
             timers.append(timer)

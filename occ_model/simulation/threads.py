@@ -41,4 +41,4 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
         while waiting:
             yield waiting.popleft().result()
     finally:
-        pool.shutdown(cancel_futures=True)  # of work that ends early, only what has begun is done
+        pool.shutdown(cancel_futures=True)  # if the caller ends early, only what has begun is done

@@ -42,12 +42,12 @@ _MIN_DRAFT_ROWS = 4  # minimum number of the panel's rows in a draft
 _EXACT_COLUMNS = 97  # number of columns whose reference is computed in rational arithmetic
 Result = TypeVar("Result")
 
-_ENOUGH_SECONDS = 0.15
-_MOVES = 5
-_MOVE = 1.003  # factor of a move
+_ENOUGH_SECONDS = 0.15  # time of the moves after which no further one is timed
+_MOVES = 5  # most moves that are timed
+_MOVE = 1.003  # factor by which a move changes the exposure time
 _PLACES = cycle(range(4, 44))
-"""Moves still to be timed: so many that none is remembered from before, also by the window, which
-times the first three itself."""
+"""Numbers of moves from the scene to the next place that is timed. The window times the first three
+itself, and no cache remembers as many places as these."""
 
 
 def accuracy(

@@ -73,7 +73,7 @@ def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
     return Trial(value, right, sent, low, high, len(counts), list(counts).count(bits))
 
 
-_REFUTING_PROBABILITY = 0.025  # of wrongly rejecting a rate: one side of a 95 % interval
+_REFUTING_PROBABILITY = 0.025  # that a true rate is rejected: one side of a 95 % interval
 _STAKES = (0.03, 0.1, 0.3)  # fractions of the maximum bet: small ones detect small deficits
 
 

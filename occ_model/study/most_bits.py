@@ -27,7 +27,7 @@ from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import check_code, scheme_of
 
-# Of the line codes with the same rate only the best known
+# Only the best known of the line codes with the same rate
 _TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")
 DECODERS = ("threshold", "equalizer", "sequence")  # for payloads of any length, fastest first
 
@@ -39,7 +39,7 @@ VARIED_PARAMETERS = (  # chosen by the search, whose result depends on all the o
 _FRAMING = "preamble"
 
 _FREQUENCY_RATIO = 1.15  # ratio of neighbouring frequencies
-_FILLED_FRACTIONS = (0.95, 0.5, 0.25)  # of a picture's chips, taken by one payload period
+_FILLED_FRACTIONS = (0.95, 0.5, 0.25)  # period of a payload over the chips of a picture
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,8 +32,9 @@ from occ_model.study.confidence import count_until_refuted
 
 END_RATIO = 1.003  # ratio of an interval's ends at which no more pictures narrow it
 _WIDE_RATIO = 1.02  # ratio above which more pictures are taken where all are read
-_PARTS, _ROUNDS = (0.125, 0.375, 0.625, 0.875), 3  # places in an interval, and times they are set
-_LEAST_IMAGES = 5  # least pictures at a value
+_PARTS = (0.125, 0.375, 0.625, 0.875)  # places within an interval at which pictures narrow it
+_ROUNDS = 3  # times an interval is narrowed at these places
+_LEAST_IMAGES = 5  # fewest pictures at a value
 _MOST_OUTSIDE = 100  # most pictures at a value beyond an end
 MOST_PROVEN = 99.6  # largest rate in percent of which an end has an interval
 _LEAST_LOST_FRACTION = 1.0 - MOST_PROVEN / 100.0
@@ -54,7 +55,7 @@ class Bracket:
 
 @dataclass(frozen=True, slots=True)
 class FoundEnd:
-    interval: tuple[float, float]  # Of 95 %: its limit nearer to the range first
+    interval: tuple[float, float]  # The 95 % interval, its limit nearer to the range first
     sure: float  # A value inside at which no picture lost a bit
     refuted: float  # A value beyond at which pictures refute the rate
 
@@ -167,9 +168,9 @@ def _ratio(first: float, last: float) -> float:
 
 
 _POWERS = (1.0, math.inf, -4.0, -2.0)
-_SLOPES: FloatArray = np.geomspace(0.3, 1e3, 20)  # of the log-odds at the end, over the bracket
+_SLOPES: FloatArray = np.geomspace(0.3, 1e3, 20)  # growth of the log-odds over the bracket
 _ENDS = 81  # values to try: those within the bracket, and as many inside it
-_LEAST_BASE = 1e-9  # of a power, in place of what is not positive
+_LEAST_BASE = 1e-9  # replaces the bases of powers that are not positive
 _TAIL = 0.025  # probability on each side of the interval
 
 

@@ -11,7 +11,7 @@ from occ_model.study.confidence import wilson_interval
 
 _PERCENT = 100.0
 _RATE = Unit("Hz/s")
-_MOST_SPACING = 0.5  # of the frequency, from which no one takes another solution for it
+_MOST_SPACING = 0.5  # spacing of the solutions, over the frequency, above which it is not stated
 
 
 def film_facts(progress: FilmProgress, reading: VideoReading | None) -> tuple[Fact, ...]:

@@ -42,7 +42,7 @@ class RoomMapRequest:
     across: tuple[float, ...]
     along: tuple[float, ...]
     images: int = 1  # Pictures at each place, each with another start time and noise
-    seed: int = 1  # Of start times and noise
+    seed: int = 1  # Seed of start times and noise
     tolerance: float = TOLERANCE.default  # As for render_room
 
     def __post_init__(self) -> None:

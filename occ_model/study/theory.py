@@ -104,7 +104,7 @@ def gaussian_rate_bound(
     # The middles of bins, because no light is transmitted at a null itself.
     frequencies = (np.arange(_BOUND_BINS) + 0.5) * (half_rate / _BOUND_BINS)
     transmitted = np.sinc(frequencies * camera.exposure_time) ** 2
-    noise = 1.0 / half_rate  # of variance 1
+    noise = 1.0 / half_rate  # spectral density of noise with the variance 1
     noise_levels = np.sort(noise / np.maximum(transmitted, np.finfo(float).tiny))
     # The level to which the whole power fills the k best frequencies, for each k.
     counts = np.arange(1, _BOUND_BINS + 1)

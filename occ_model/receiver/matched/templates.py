@@ -45,7 +45,7 @@ class CodeTemplates:
         return _profiles(codes, self.bits, self.response)
 
 
-@lru_cache(maxsize=256)  # of the values of a search, whose images are read in several batches
+@lru_cache(maxsize=256)  # a search reads the images at each of its values in several batches
 def make_code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     """Make the forward model of every code; ``exposure``: exact length in chips."""
     response = chip_response(packet_length(bits), exposure)

@@ -21,7 +21,7 @@ _UNREACHABLE_COST = 1e30  # distance of a state that cannot be reached
 TRUNCATION_DEPTH = 5  # memory lengths after which surviving paths have a common beginning
 _LONGEST_PART = 128  # chips of a part of a sequence, without the overlaps
 
-_DISTANCES_AT_ONCE = 4096  # of states of sequences, to fit the processor's cache
+_DISTANCES_AT_ONCE = 4096  # distances that are updated at once, to fit the processor's cache
 
 
 @dataclass(frozen=True, eq=False, slots=True)

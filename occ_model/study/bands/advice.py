@@ -165,7 +165,7 @@ _THIRDS = (
 """Marked times in seconds, in thirds of a stop. The k-th is really 2^(-k/3) s, so that 1/60 s is
 1/64 s and 1/125 s is 1/128 s."""
 
-_OTHERS = ("1/48", "1/96", "1/120", "1/240")  # of film cameras and phones, kept as marked
+_OTHERS = ("1/48", "1/96", "1/120", "1/240")  # speeds of film cameras and phones, kept as marked
 
 
 def shutter_speeds() -> tuple[ShutterSpeed, ...]:

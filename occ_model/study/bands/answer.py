@@ -24,7 +24,7 @@ FRAME_RATES = {
 
 _ROUNDING_ROWS = 1e-9  # difference from whole cycles, in rows, that is a rounding error
 
-_LARGEST_RATIO = 32.0  # of an advised shutter speed and the scene's, either way
+_LARGEST_RATIO = 32.0  # longer of an advised shutter time and the scene's, over the shorter
 _MOST_SPEEDS = 2
 _SINES_PER_PIECE = 4  # sines that are searched per duration of the shortest piece of light
 _MOST_SINES = 5

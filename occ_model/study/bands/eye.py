@@ -25,8 +25,8 @@ _BREAK_FREQUENCY = 90.0  # Hz below which the limits of IEEE 1789-2015 are stric
 _LOW_RISK_LINE = (0.025, 0.08, 1250.0)
 _NO_EFFECT_LINE = (0.01, 0.0333, 3000.0)  # % per Hz below and above 90 Hz, and the line's end in Hz
 _SVM_BAND = (80.0, 2000.0)  # Hz
-_SVM_EXPONENT = 3.7  # of the Minkowski sum over the components
-_SINES_PER_PIECE = 64  # of the shortest duration; higher sines are below 1 %
+_SVM_EXPONENT = 3.7  # exponent of the Minkowski sum over the components
+_SINES_PER_PIECE = 64  # sines per shortest piece of light; higher ones are below 1 %
 _MAX_SINES = 10_000  # components that are returned; a long payload has millions
 
 

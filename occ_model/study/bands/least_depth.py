@@ -23,7 +23,7 @@ MAX_NODES = 10_000
 """Nodes within an exposure, and cycles of the flicker, up to which depths are computed; beyond,
 bounds replace them. The flicker's depth is below 0.01 % there."""
 
-_MOST_PIECES = 16  # of unequal lengths, whose nodes are the differences of any two edges
+_MOST_PIECES = 16  # unequal pieces of which all differences of two edges are nodes
 _GRID = 512  # nodes of a period that has more pieces
 
 _MAP_EXPOSURES = (1e-5, 0.1)  # seconds; includes usual shutter speeds beyond the slider

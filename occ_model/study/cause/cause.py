@@ -59,9 +59,9 @@ def cause_of(
     return search.find()
 
 
-_MOST_COLUMNS = 100_000  # of a picture: with more, each of many readings takes seconds
-_MOST_PIXELS = 40_000_000  # of a picture to be simulated as a whole
-_DRAWS = 3  # of the noise; with one of them the picture must not be read
+_MOST_COLUMNS = 100_000  # columns of a picture: with more, each of many readings takes seconds
+_MOST_PIXELS = 40_000_000  # pixels of a picture to be simulated as a whole
+_DRAWS = 3  # draws of the noise, with one of which the picture must not be read
 
 
 class _CauseSearch:

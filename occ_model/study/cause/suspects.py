@@ -108,7 +108,7 @@ _COLUMNS_OF_A_CHIP = 5.0  # columns per chip that are certainly enough
 _SHORT_EXPOSURE = 0.5  # exposure in chips that is short enough to show single chips
 _NULL_RANGE = 0.1  # fraction of the null's frequency within which a scene is near it
 _MARGIN = 1.15  # factor by which a remedy shows more than is needed
-_MOST_COLUMNS = 20_000  # of a picture that is widened
+_MOST_COLUMNS = 20_000  # columns to which a picture is widened
 
 
 def suspect_narrow_chips(scene: Scene) -> Suspect | None:

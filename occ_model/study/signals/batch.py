@@ -40,7 +40,7 @@ from occ_model.study.signals.exposed import (
 )
 from occ_model.study.signals.grey_tables import (
     StoredMeans,
-    moved_after_file,
+    convert_to_file_levels,
     places_of_stored,
     table_of_file,
 )
@@ -68,8 +68,8 @@ class Observation:
 def simulate_images(images: Sequence[Image]) -> list[Observation]:
     """Simulate images, at once those of similar scenes, wherever they are in the sequence."""
     found: dict[int, Observation] = {}
-    for numbers, alike in _alike(images):
-        found |= zip(numbers, alike.observe(), strict=True)
+    for numbers, batch in _group_images(images):
+        found |= zip(numbers, batch.observe(), strict=True)
     return [found[number] for number in range(len(images))]
 
 
@@ -78,18 +78,18 @@ def simulate_with_profile(image: Image) -> tuple[FloatArray, FloatArray, Observa
 
     They have the shape (columns,), and are computed for columns that do not show the panel, too.
     """
-    ((_, alike),) = _alike([image])
-    (observation,) = alike.observe()
-    profile, signal = alike.profiles()
-    region, span = observation.region, alike.bands.span
+    ((_, batch),) = _group_images([image])
+    (observation,) = batch.observe()
+    profile, signal = batch.profiles()
+    region, span = observation.region, batch.bands.span
     if region is not None and span is not None and region.rows == span.rows:
         signal[region.first_column : region.last_column] = observation.signal
     return profile, signal, observation
 
 
-def _alike(images: Sequence[Image]) -> Iterator[tuple[Sequence[int], "_Batch"]]:
+def _group_images(images: Sequence[Image]) -> Iterator[tuple[Sequence[int], "_Batch"]]:
     """Group images by what does not depend on the light; yield their numbers, too."""
-    keys: dict[int, Scene] = {}  # of scenes, most of which have many images
+    keys: dict[int, Scene] = {}  # scenes without light by identity, as most have many images
     groups: dict[tuple[Scene, frozenset[str]], list[int]] = {}
     for number, image in enumerate(images):
         scene = keys.get(id(image.scene))
@@ -223,7 +223,7 @@ class _Batch:
         if law is None or span is None or not law.noise.gain_variation:
             return None
         tables = self._table.means_of(self._curves)
-        slopes = np.gradient(tables, axis=1) * self._levels_a_gain(law)
+        slopes = np.gradient(tables, axis=1) * self._levels_per_gain(law)
         slope = interpolate_each(slopes, some_bands(panel))
         camera, variation = self._scene.camera, law.noise.gain_variation
         gains = column_gains(
@@ -233,12 +233,12 @@ class _Batch:
         added = gains * slope.mean(axis=1)
         return np.asarray(added, dtype=np.float64), np.asarray(known, dtype=np.float64)
 
-    def _levels_a_gain(self, law: GreyLaw) -> FloatArray:
+    def _levels_per_gain(self, law: GreyLaw) -> FloatArray:
         """Return by how many levels of the table a pixel moves for a change of its gain by 1."""
         own: FloatArray = np.arange(float(len(law.below))) * (law.power / law.noise.gamma)
         if self._steps is None:
             return own
-        return moved_after_file(law, np.gradient(law.means) * own)
+        return convert_to_file_levels(law, np.gradient(law.means) * own)
 
     def _mean_over_bands(self, places: BandPlaces) -> tuple[FloatArray, FloatArray]:
         """Return the mean of pixels of the receiver's picture, and their variance in a band."""

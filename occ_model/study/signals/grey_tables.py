@@ -116,10 +116,10 @@ def table_of_file(law: GreyLaw | None, steps: bytes) -> GreyDistribution:
     return GreyDistribution(np.arange(GREYS), _spread(law, levels, means, kept, rest))
 
 
-def moved_after_file(law: GreyLaw, moved: FloatArray) -> FloatArray:
-    """Return by how many levels of a file's table means move, given the grey levels in the law."""
+def convert_to_file_levels(law: GreyLaw, changes: FloatArray) -> FloatArray:
+    """Convert changes of the mean, in grey levels at each level of a law, to a file's levels."""
     means = np.arange(_FILE_LEVELS) / _PER_GREY
-    return np.asarray(_PER_GREY * np.interp(means, np.maximum.accumulate(law.means), moved))
+    return np.asarray(_PER_GREY * np.interp(means, np.maximum.accumulate(law.means), changes))
 
 
 def _spread(
@@ -234,7 +234,7 @@ class StoredMeans:
 
 
 _EVEN_NOISE = 0.6  # noise of a coefficient, in steps, above which its rounding has no mean error
-_NEGLIGIBLE_PART = 0.01  # of what rounding changes in single blocks that is neglected
+_NEGLIGIBLE_PART = 0.01  # part of the rounding's own changes of blocks that is neglected
 
 
 @lru_cache(maxsize=1)

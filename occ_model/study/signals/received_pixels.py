@@ -39,7 +39,7 @@ class ReceivedPixels:
     bands: Bands
     table: GreyDistribution
     curves: FloatArray  # Shape (images, 256): each enhancement's level for a grey level
-    places: BandPlaces  # In some of the bands
+    places: BandPlaces  # Of some of the bands only
 
     @property
     def _panel(self) -> Pixels:

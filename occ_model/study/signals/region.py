@@ -48,7 +48,7 @@ class BrightPixels:
             unmarked = ~across.any(axis=1)
             if not unmarked.any():
                 break
-            in_row, in_column = cells.any_marked(cells.mix(inside, beside, pixels, least))
+            in_row, in_column = cells.chances_of_marks(inside, beside, pixels, least)
             across[unmarked] = (drawn[:, 4 : 4 + grid[1]] < in_column)[unmarked]
             down[unmarked] = (drawn[:, 4 + grid[1] :] < in_row)[unmarked]
             likeliest = np.argmax(in_row, axis=1)
@@ -164,8 +164,13 @@ class _RowsOfCells:
         self._part = (kinds - 2.0 * self._band).astype(np.float32)[:, None]
         self._rows = np.bincount(self._kind)[:, None].astype(np.float32)
 
-    def mix(self, inside: _Fractions, beside: _Fractions, pixels: int, least: float) -> Pixels:
-        """Return the probability that cells have enough bright pixels, by kind of row."""
+    def chances_of_marks(
+        self, inside: _Fractions, beside: _Fractions, pixels: int, least: float
+    ) -> tuple[Pixels, Pixels]:
+        """Return the probability that a cell is marked in each row and each column of the grid.
+
+        A cell is marked if more than a fraction ``least`` of its ``pixels`` are bright.
+        """
         fraction, variance = (
             self._part * of_bands[:, self._band] + (np.float32(1.0) - self._part) * around[:, None]
             for of_bands, around in zip(inside, beside, strict=True)
@@ -176,10 +181,6 @@ class _RowsOfCells:
         enough = (fraction > least).astype(np.float32)
         is_open = np.nonzero(~is_sure)
         enough[is_open] = _more_than(least, fraction[is_open].astype(np.float64), pixels)
-        return enough
-
-    def any_marked(self, enough: Pixels) -> tuple[Pixels, Pixels]:
-        """Return the probability of a marked cell in each row and each column of the grid."""
         log_none = _log_dark(enough)
         in_row = -np.expm1(log_none.sum(axis=2))[:, self._kind]
         return in_row, -np.expm1((self._rows * log_none).sum(axis=1))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.receiver.csk import shares
+from occ_model.receiver.csk import symbol_fractions
 from occ_model.scene.csk import BANDS, PARTS, POINTS, bits_of, symbols_of
 from occ_model.scene.parameters.colour import CSK_ORDERS
 from occ_model.scene.scene import Scene
@@ -165,9 +165,9 @@ def test_symbols_carry_bits(order: str, count: int) -> None:
     assert bits_of(order, symbols_of(order, bits), count) == bits
 
 
-def test_shares_of_symbols_are_those_of_dense_sampling() -> None:
+def test_fractions_of_symbols_are_those_of_dense_sampling() -> None:
     scene = small(exposure_time=136e-6, switching_frequency=11e3)
-    table = shares(scene, 7, 300, 2.3)
+    table = symbol_fractions(scene, 7, 300, 2.3)
     steps = (np.arange(20_000) + 0.5) / 20_000 * 136e-6
     time = np.arange(300)[:, None] * 8e-6 + steps
     symbol = np.floor(2.3 + time * 11e3).astype(int) % 7

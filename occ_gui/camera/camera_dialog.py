@@ -35,7 +35,7 @@ _WHY = (
     "lines. Use whole pictures: not cropped, and without lens correction."
 )
 _MAINS = {"50": "50 Hz", "60": "60 Hz (the Americas, parts of Asia)"}
-_ANSWER = QSize(320, 90)  # least size
+_LEAST_ANSWER_SIZE = QSize(320, 90)
 _DROP = "Choose two pictures, or drop them here."
 
 
@@ -69,7 +69,7 @@ class CameraDialog(QDialog):
             form,
             (row, 2),
             self.work,
-            (ScrollPane(self.answer, _ANSWER), 1),
+            (ScrollPane(self.answer, _LEAST_ANSWER_SIZE), 1),
             self._make_buttons(),
         )
         self.resize(700, 600)

@@ -11,7 +11,7 @@ from occ_gui.shell.results import of_reading
 from occ_gui.widgets.building import ScrollPane
 from occ_model.receiver.decode import decoders
 
-_LEAST = QSize(320, 264)
+_LEAST_SIZE = QSize(320, 264)
 
 
 class DecodePane(PiecesPane):
@@ -19,6 +19,6 @@ class DecodePane(PiecesPane):
 
     def __init__(self, store: Store) -> None:
         self.view = view = DecodeView(decoders())
-        super().__init__(ScrollPane(view, _LEAST), view.show_reading, view.choose_decoder)
+        super().__init__(ScrollPane(view, _LEAST_SIZE), view.show_reading, view.choose_decoder)
         self.made_of, self.verdicts = {view: of_reading}, (view,)
         view.decoder_chosen.connect(lambda name: store.put(replace(store.workspace, decoder=name)))

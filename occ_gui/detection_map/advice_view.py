@@ -32,7 +32,7 @@ from occ_gui.widgets.building import (
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Advice, WorkingRange
 
-_LEAST = QSize(200, 60)
+_LEAST_SIZE = QSize(200, 60)
 
 
 class AdviceView(QWidget):
@@ -57,7 +57,7 @@ class AdviceView(QWidget):
         """The parameter that each button changes, and the sentences beside it."""
         self._common_texts: list[str] = []
         self._more: dict[str, MoreButton] = {}
-        """The button that unfolds the details of a decoder; by an empty name, those of all."""
+        """By decoder, the button that shows its details; by an empty name, the common details."""
         self._end_sentence = ""
         self.back = push_button("Back to the map", "Show the map again.", self.map_requested)
         self.search_again = push_button(
@@ -81,7 +81,7 @@ class AdviceView(QWidget):
         self.content = QWidget()
         column = QVBoxLayout(self.content)
         self._column = fill(column, (None, 1), margins=(0, 0, 4, 0))
-        scroll_pane = ScrollPane(self.content, _LEAST)
+        scroll_pane = ScrollPane(self.content, _LEAST_SIZE)
         fill(QVBoxLayout(self), head, (scroll_pane, 1), margins=(4, 2, 4, 2))
 
     def _show_running(self, is_running: bool) -> None:

@@ -128,7 +128,7 @@ class LimitCards(QWidget):
 
 
 class LimitCard(QFrame):
-    chosen = Signal(str, float, str)  # as those of the cards
+    chosen = Signal(str, float, str)  # the parameter, its value in SI units, and the decoder
 
     def __init__(self, decoder: str) -> None:
         super().__init__()

@@ -21,7 +21,7 @@ from occ_model.study.sweep.sweep import measure_points
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
 """Effects that make rows differ, which a column profile cannot show."""
 
-SEED = 1  # that of :func:`occ_model.sweep`, so that its table agrees with the map
+SEED = 1  # the seed of :func:`occ_model.sweep`, so that its table agrees with the map
 
 UNSEEN_PARAMETERS: dict[str, ParameterValue] = {
     "start_time": 0.0,

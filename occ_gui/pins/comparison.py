@@ -58,7 +58,7 @@ _LONGEST_PAYLOAD = 24  # characters of a payload that the table shows
 
 
 def compare_pins(a: Pin | None, b: Pin | None, labels: Mapping[str, str]) -> PinnedPair:
-    """Compare two pins, if there are two; ``labels``: those of effects, by name."""
+    """Compare two pins, if there are two; ``labels``: the labels of effects, by their names."""
     if a is None or b is None:
         return PinnedPair(a, b)
     inputs, outputs = _compare_inputs(a, b, labels), _compare_outputs(a, b)

@@ -32,7 +32,7 @@ MAIN = (
     "waveform_file", "pulse_frequency", "pulse_length", "switching_frequency", "readout_time",
     "iso", "f_number", "distance",
 )  # fmt: skip
-"""The parameters on the first page, of which a scene shows those of its kind of light."""
+"""The parameters on the first page; only those of the scene's kind of light are shown."""
 
 
 def main_of(light: str) -> tuple[str, ...]:

@@ -18,7 +18,8 @@ from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene, Transmitter
 
-_OF_COLOURS = frozenset(GROUPS["colours"]) - {"bayer"}  # of a colour camera only
+_OF_COLOURS = frozenset(GROUPS["colours"]) - {"bayer"}
+"""Parameters of a colour camera only."""
 
 _SPACE_ABOVE = 6  # pixels above the label of each row but the first
 
@@ -126,7 +127,7 @@ def _make_label(declared: Parameter) -> QLabel:
     return label
 
 
-_LEAST = QSize(100, 80)  # of a page in pixels, whatever its rows need
+_LEAST_SIZE = QSize(100, 80)  # of a page in pixels; rows that need more are scrolled
 
 
 class ParameterPage(ScrollPane):
@@ -137,7 +138,7 @@ class ParameterPage(ScrollPane):
     def __init__(
         self, names: Sequence[str], make: Callable[[], ParameterPanel] | None = None
     ) -> None:
-        super().__init__(least=_LEAST)
+        super().__init__(least=_LEAST_SIZE)
         self.names = names
         self.content: ParameterPanel | None = None
         self._make = make or (lambda: ParameterPanel(names))

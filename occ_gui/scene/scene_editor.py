@@ -35,7 +35,7 @@ class BrightnessHold(QObject):
             self.switched.emit(on)
 
     def add_iso_change(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
-        """Return the change of a parameter, and that of the ISO speed if the brightness is kept."""
+        """Return the change of a parameter, and the ISO speed with it if the brightness is kept."""
         self._limit_message = ""
         time = value if isinstance(value, float) else 0.0
         if not self.is_on or name != _EXPOSURE or time <= 0.0:

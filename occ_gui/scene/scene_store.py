@@ -80,7 +80,7 @@ class SceneStore(QObject):
 
     @property
     def seen(self) -> Scene:
-        """The scene that one picture is about: of a colour camera, that of the shown colour.
+        """The scene of one picture; with a colour camera, the scene of the shown colour.
 
         If a colour camera's values do not go together, it is the scene itself, which is refused.
         """

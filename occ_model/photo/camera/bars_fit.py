@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import minimize, minimize_scalar
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.camera.bars_model import COARSE, FINE, BarsModel, Lines, Scales, Shape
+from occ_model.photo.camera.bars_model import COARSE, FINE, BarsModel, Scales, Shape
 from occ_model.photo.camera.quotient import LineValues
 
 FEWEST_BARS, MOST_BARS = 1.0, 16.0
@@ -73,14 +73,17 @@ class BarsFit:
 class _BarsSearch:
     """Lines weighted by what the best number of bars so far does not explain, and that number."""
 
-    given: LineValues
-    lines: Lines
+    lines: LineValues
+    weights: FloatArray  # Shape (tiles, lines): inverse variances
     scales: Scales
     bars: float = math.nan
 
+    def model(self, bars: float, shape: Shape, bend: float = 0.0) -> BarsModel:
+        return BarsModel(self.lines, self.weights, bars, shape, bend)
+
     def evidence(self, bars: float, shape: Shape, bend: float = 0.0) -> float:
         """Return the log-likelihood of a number of bars."""
-        return BarsModel(self.lines, bars, shape, bend).log_evidence(self.scales)
+        return self.model(bars, shape, bend).log_evidence(self.scales)
 
     def evidences(self, grid: FloatArray) -> FloatArray:
         """Return the log-likelihoods of numbers of bars, coarsely."""
@@ -97,31 +100,30 @@ class _BarsSearch:
 
     def weight_for(self, bars: float, shape: Shape) -> "_BarsSearch":
         """Fit the scales, and weight the lines by what a number of bars does not explain."""
-        model = BarsModel(self.lines, bars, shape)
-        scales = _fit_scales(model, _first_scales(self.given))
-        fitted = model.fitted(scales)
-        away = (self.given.values - fitted)[np.isfinite(self.given.deviations)]
-        floor = max(_LEAST_DEVIATION, 1.4826 * float(np.median(np.abs(away))))
-        lines = Lines.of(self.given, floor)
-        factors, inflation = _weights(lines, fitted)
+        model, lines = self.model(bars, shape), self.lines
+        scales = _fit_scales(model, _first_scales(lines))
+        residual = lines.values - model.fitted(scales)
+        spread = 1.4826 * float(np.median(np.abs(residual[np.isfinite(lines.deviations)])))
+        weights = lines.weights(max(_LEAST_DEVIATION, spread))
+        factors, inflation = _weight_factors(residual, weights)
         if shape is COARSE:  # what it does not explain is mostly the wave's higher harmonics
             inflation = 1.0
-        return replace(self, lines=lines.weight(factors / inflation), scales=scales, bars=bars)
+        return replace(self, weights=weights * (factors / inflation), scales=scales, bars=bars)
 
 
-def _first_scales(given: LineValues) -> Scales:
-    seen = given.values[np.isfinite(given.deviations)]
+def _first_scales(lines: LineValues) -> Scales:
+    seen = lines.values[np.isfinite(lines.deviations)]
     spread = max(float(np.std(seen)), _LEAST_DEVIATION) if seen.size else _LEAST_DEVIATION
     return Scales(spread, 1.5, 0.15, 0.5 * spread, 1.0)
 
 
-def fit_bars(given: LineValues) -> BarsFit:
+def fit_bars(lines: LineValues) -> BarsFit:
     """Fit the bars that explain a quotient's lines best, and compare them with other explanations.
 
     These are other numbers of bars, no bars, and bent ones.
     """
-    start, grid = _first_scales(given), _grid(given.values.shape[1])
-    search = _BarsSearch(given, Lines.of(given, start.slow), start)
+    start, grid = _first_scales(lines), _grid(lines.values.shape[1])
+    search = _BarsSearch(lines, lines.weights(start.slow), start)
     for _ in range(_ROUNDS):
         top = float(grid[int(np.argmax(search.evidences(grid)))])
         search = search.weight_for(search.refine(top, COARSE)[0], COARSE)
@@ -141,9 +143,9 @@ def fit_bars(given: LineValues) -> BarsFit:
     bars, deviation = _posterior(search)
     search = replace(search, bars=bars)
     bend, bend_gap = _bend(search)
-    lines, model = search.lines, BarsModel(search.lines, bars, FINE)
-    fitted = model.fitted(search.scales)
-    square = float((lines.weights * (lines.values - fitted) ** 2).sum() / lines.weights.sum())
+    model = search.model(bars, FINE)
+    fitted, weights = model.fitted(search.scales), search.weights
+    square = float((weights * (lines.values - fitted) ** 2).sum() / weights.sum())
     return BarsFit(
         bars, deviation, evidence - next_best, evidence - none, other, bend, bend_gap,
         fitted, model.waves(search.scales), math.sqrt(square), search.scales,
@@ -170,10 +172,9 @@ def _fit_scales(model: BarsModel, start: Scales) -> Scales:
     return Scales(*(float(each) for each in np.exp(found.x)))
 
 
-def _weights(lines: Lines, fitted: FloatArray) -> tuple[FloatArray, float]:
+def _weight_factors(residual: FloatArray, weights: FloatArray) -> tuple[FloatArray, float]:
     """Return factors on the weights by Student's t, and how far correlation inflates variances."""
-    is_seen = lines.weights > 0.0
-    away = np.where(is_seen, (lines.values - fitted) * np.sqrt(lines.weights), 0.0)
+    away = np.where(weights > 0.0, residual * np.sqrt(weights), 0.0)
     factors = (_DEGREES + 1.0) / (_DEGREES + away**2)
     robust = away * np.sqrt(factors)
     energy = max(float((robust**2).sum()), 1e-12)
@@ -196,13 +197,13 @@ def _maxima(grid: FloatArray, values: FloatArray) -> list[float]:
 
 def _share_of_others(search: _BarsSearch, bars: float, factor: int) -> float:
     """Return the share of a wave's energy in harmonics that are no multiples of a factor."""
-    energies = BarsModel(search.lines, bars, FINE).harmonic_energies(search.scales)
+    energies = search.model(bars, FINE).harmonic_energies(search.scales)
     return 1.0 - float(energies[factor - 1 :: factor].sum() / max(energies.sum(), 1e-12))
 
 
 def _fit_none(search: _BarsSearch) -> float:
     """Return the log-likelihood without bars, with the slow change that suits it best."""
-    model, scales = BarsModel(search.lines, search.bars, COARSE), search.scales
+    model, scales = search.model(search.bars, COARSE), search.scales
     slow = [scales.slow * factor for factor in (0.3, 1.0, 3.0, 10.0)]
     return max(model.log_evidence(replace(scales, wave=1e-9, slow=each)) for each in slow)
 
@@ -212,7 +213,7 @@ def _posterior(search: _BarsSearch) -> tuple[float, float]:
     scales, width = search.scales, _width(search)
     near = search.bars + width * np.linspace(-4.0, 4.0, 25)
     near = near[near > 0.5 * FEWEST_BARS]
-    models = [BarsModel(search.lines, each, FINE) for each in near]
+    models = [search.model(each, FINE) for each in near]
     logs = np.array([
         [model.log_evidence(replace(scales, modulation=each))
          - 0.5 * (math.log(each / 0.15) / 0.7) ** 2 for each in _MODULATIONS]
@@ -233,7 +234,7 @@ def _widen_variance(search: _BarsSearch, bars: float, variance: float) -> float:
     """
     step = 0.5 * math.sqrt(variance)
     places = (bars + step, bars, bars - step)
-    models = [BarsModel(search.lines, each, FINE) for each in places]
+    models = [search.model(each, FINE) for each in places]
     even = replace(search.scales, modulation=_NO_MODULATION)
     steepest = _curvature([model.log_evidences(even) for model in models], step)
     least = min(1.0 / steepest, variance)

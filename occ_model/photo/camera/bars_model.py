@@ -6,7 +6,7 @@ the room. Given N and a few scales, the likelihood integrated over all coefficie
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -53,64 +53,23 @@ COARSE = Shape((1,) * 3)
 FINE = Shape((2,) * 4 + (1,) * 8)  # 12 harmonics: dimmers and rectifiers make steps
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Lines:
-    """The lines of all tiles with their weights.
+class BarsModel:
+    """The model for a number of bars: its likelihood for any scales, and its fit.
 
-    Parameters
-    ----------
-    values, weights : ndarray of float64, shape (tiles, lines)
-        ``weights`` are inverse variances, 0 where nothing is seen.
-    places : ndarray of float64, shape (tiles,)
-    height
-        Height of the picture over its width.
+    ``weights``: inverse variances of the lines, 0 where nothing is seen.
     """
 
-    values: FloatArray
-    weights: FloatArray
-    places: FloatArray
-    height: float
-
-    @classmethod
-    def of(cls, lines: LineValues, least: float) -> "Lines":
-        """Weight the lines by their scatter, with a ``least`` deviation."""
-        variances = lines.deviations**2 + least**2
-        return cls(
-            np.where(np.isfinite(variances), lines.values, 0.0),
-            np.where(np.isfinite(variances), 1.0 / variances, 0.0),
-            lines.places,
-            lines.lines / lines.columns,
-        )
-
-    def weight(self, factors: FloatArray) -> "Lines":
-        return replace(self, weights=self.weights * factors)
-
-    def positions(self, bend: float) -> FloatArray:
-        """Return the places of the lines in the frame, of shape (tiles or 1, lines).
-
-        They are 0 to 1, before a lens correction moved them by ``bend`` of their distance from the
-        middle, in the picture's corners.
-        """
-        count = self.values.shape[1]
-        middle = (np.arange(count) + 0.5) / count - 0.5
-        if bend == 0.0:
-            return np.asarray(0.5 + middle[None, :])
-        square = (middle[None, :] * self.height) ** 2 + self.places[:, None] ** 2
-        return np.asarray(0.5 + middle * (1.0 + bend * square / (0.25 * (1.0 + self.height**2))))
-
-
-class BarsModel:
-    """The model for a number of bars: its likelihood for any scales, and its fit."""
-
-    def __init__(self, lines: Lines, bars: float, shape: Shape, bend: float = 0.0) -> None:
+    def __init__(
+        self, lines: LineValues, weights: FloatArray, bars: float, shape: Shape, bend: float = 0.0
+    ) -> None:
         self._shape = shape
         basis = _basis(lines.positions(bend), bars, shape)  # (tiles or 1, lines, coefficients)
         self._tiled_basis = np.broadcast_to(basis, (len(lines.values), *basis.shape[1:]))
-        weighted = lines.weights[:, :, None] * basis
+        weighted = weights[:, :, None] * basis
         self._squares = np.swapaxes(weighted, 1, 2) @ self._tiled_basis
         self._products = np.einsum("tlk,tl->tk", weighted, lines.values)
-        self._energy = (lines.weights * lines.values**2).sum(axis=1)
-        self._count = (lines.weights > 0.0).sum(axis=1)
+        self._energy = (weights * lines.values**2).sum(axis=1)
+        self._count = (weights > 0.0).sum(axis=1)
 
     def _solve(self, scales: Scales) -> tuple[FloatArray, FloatArray, FloatArray]:
         prior = _prior(scales, self._shape)

@@ -32,7 +32,8 @@ class LineValues:
     Parameters
     ----------
     values : ndarray of float64, shape (tiles, lines)
-        (A - B) / (A + B) of the two pictures' light A and B, the mean of a tile's line.
+        (A - B) / (A + B) of the two pictures' light A and B, the mean of a tile's line; 0 where
+        nothing is seen.
     deviations : ndarray of float64, shape as ``values``
         Their standard deviations by the scatter within the line; infinite where nothing is seen.
     places : ndarray of float64, shape (tiles,)
@@ -51,6 +52,23 @@ class LineValues:
     def seen(self) -> float:
         """Fraction of the tiles' lines that have a value."""
         return float(np.isfinite(self.deviations).mean())
+
+    def weights(self, least: float) -> FloatArray:
+        """Return inverse variances with a ``least`` deviation, 0 where nothing is seen."""
+        return np.asarray(1.0 / (self.deviations**2 + least**2))
+
+    def positions(self, bend: float) -> FloatArray:
+        """Return the places of the lines in the frame, of shape (tiles or 1, lines).
+
+        They are 0 to 1, before a lens correction moved them by ``bend`` of their distance from the
+        middle, in the picture's corners.
+        """
+        count, height = self.values.shape[1], self.lines / self.columns
+        middle = (np.arange(count) + 0.5) / count - 0.5
+        if bend == 0.0:
+            return np.asarray(0.5 + middle[None, :])
+        square = (middle[None, :] * height) ** 2 + self.places[:, None] ** 2
+        return np.asarray(0.5 + middle * (1.0 + bend * square / (0.25 * (1.0 + height**2))))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -37,7 +37,7 @@ class DrawnPixels:
 
 
 def step_of(means: FloatArray, squared_steps: FloatArray) -> FloatArray:
-    """Return by how much pixels move that move, from the changes of both means."""
+    """Return the mean change of the pixels that change at all, from the changes of both means."""
     return np.asarray(np.abs(squared_steps) / np.maximum(np.abs(means), _TINY))
 
 

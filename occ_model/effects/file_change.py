@@ -61,9 +61,9 @@ class FileChange:
     """How a file changes a sample's pixels, with all effects and without some.
 
     The file rounds to ``steps``, (8, 8). ``stack``, (sets, columns, nodes), holds the pixels,
-    ``around`` those beside the panel, and ``spread`` is the RMS of their noise; ``moved``, (2,
-    sets), is the mean square by which whole levels add to the change of each set's pixels, and the
-    mean of the square of each pixel's.
+    ``around`` those beside the panel, and ``spread`` is the RMS of their noise. ``moved``, (2,
+    sets), holds what drawing whole levels adds to the change of each set's pixels: the mean over
+    the pixels of each one's mean square, and of the square of that.
     """
 
     def __init__(

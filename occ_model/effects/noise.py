@@ -37,7 +37,7 @@ def noise_of(scene: Scene, included: Collection[str]) -> PixelNoise | None:
 
 
 def law_of(scene: Scene, included: Collection[str], *values: FloatArray) -> GreyLaw | None:
-    """Return the law of grey levels for mean values up to the largest of some."""
+    """Return the law of grey levels, up to the largest of some mean values; None without noise."""
     noise = noise_of(scene, included)
     if noise is None:
         return None

@@ -113,10 +113,10 @@ class NoisyPixels:
         *,
         is_rounded: bool,
     ) -> tuple[FloatArray, FloatArray]:
-        """Return what differs from pixel to pixel in changes, and by how much pixels move.
+        """Return the mean square of changes about the mean, and the step of pixels that change.
 
         The changes are those from the first set to each other, and those without each noise, shape
-        (changes, ...). The mean square is given, apart from that of the pixels' means.
+        (changes, ...).
         """
         each = [self.drawn(included, curve, is_rounded=is_rounded) for included in sets]
         tables = [drawn for drawn in each if drawn is not None]

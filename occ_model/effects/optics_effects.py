@@ -32,8 +32,7 @@ class Emission(OpticsEffect):
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         power = scene.transmitter.lambertian_order - 1.0
-
-        normal = _normal(scene)
+        normal = rotation_of(scene.pose)[:, 2]
         across, _ = pixel_rays(scene.camera, np.zeros(1))
 
         def gain(rows: FloatArray, columns: slice) -> Pixels:
@@ -43,10 +42,6 @@ class Emission(OpticsEffect):
 
         factor = Gain.cached(self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain)
         return replace(optics, emission=(*optics.emission, factor))
-
-
-def _normal(scene: Scene) -> FloatArray:
-    return rotation_of(scene.pose)[:, 2]
 
 
 def _cosine(normal: FloatArray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -73,7 +68,6 @@ class Vignetting(OpticsEffect):
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         power = -scene.lens.vignetting_exponent / 2.0
-
         across, _ = pixel_rays(scene.camera, np.zeros(1))
         across = 1.0 + across * across
 

@@ -14,7 +14,7 @@ from occ_model.effects.smoothed_curves import SmoothedCurves
 class SignalSampling:
     """The mean square deviation of a column's mean without each effect.
 
-    It is that of pixels in a file, or of pixels that are not drawn.
+    The pixels are those of a file, or are not drawn.
 
     A pixel that changes by d crosses a step of the curve with a probability in proportion to d, as
     noise spreads the pixels of a column.

@@ -55,16 +55,9 @@ class SimulatedColumns:
         keys = [included & self._of_light for included in sets]
         distinct = list(dict.fromkeys(keys))
         lights = [self.light(key) for key in distinct]
-        ambient = [
-            light.ambient[columns]
-            if len(light.ambient) > 1
-            else np.repeat(light.ambient, len(columns))
-            for light in lights
-        ]
-        light_of_sets = ColumnLight(
-            np.stack([light.lit[columns] for light in lights]), np.stack(ambient)
-        )
-        return light_of_sets, [distinct.index(key) for key in keys]
+        lit = np.stack([light.lit[columns] for light in lights])
+        ambient = [np.broadcast_to(light.ambient, light.lit.shape)[columns] for light in lights]
+        return ColumnLight(lit, np.stack(ambient)), [distinct.index(key) for key in keys]
 
     def profile(self, included: Names) -> FloatArray:
         """Return the values of all columns after saturation, without noise."""

@@ -53,10 +53,10 @@ class Times:
         return cls(runs[last // 2], runs[0], runs[-1], len(runs), middle)
 
     def is_below(self, other: "Times") -> bool:
-        """Whether it is shorter by more than the runs scatter.
+        """Return whether it is shorter by more than the runs scatter.
 
-        Each of the medians is outside of the middle half of the other's runs: the machine may have
-        been busy in some of them, as in the first.
+        Each median must be outside of the middle half of the other's runs; the other half may have
+        been slowed by a busy machine, as the first run is.
         """
         return self.median < other.middle[0] and self.middle[1] < other.median
 

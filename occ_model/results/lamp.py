@@ -105,6 +105,6 @@ class Lamp:
         return np.vstack([down, up, down[:1]]) - 0.5
 
     def covers(self, row: float, column: float) -> bool:
-        """Whether a pixel belongs to the lamp."""
+        """Return whether a pixel belongs to the lamp."""
         first, last, left, right = self.spans.T
         return bool(np.any((first <= row) & (row < last) & (left <= column) & (column < right)))

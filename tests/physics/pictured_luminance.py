@@ -10,15 +10,17 @@ from occ_model.effects.effect import OpticsEffect
 from occ_model.scene.scene import Scene
 
 
-def pictured_luminance(scene: Scene, effect: OpticsEffect) -> np.ndarray:
-    """Return the luminance of each pixel, shape (rows, columns)."""
+def picture_rows(scene: Scene, effect: OpticsEffect) -> PictureRows:
+    """Return the rows of a picture with one effect of the optics."""
     optics = effect.apply(scene, Optics(occ.panel_corners(scene)))
     light = ColumnLight.of(scene)
     panel = panel_values(scene, light)
     around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
-    rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
-    parts = [
-        rows.of(place).values
-        for place in split_into_blocks(range(scene.camera.rows), scene.camera.columns)
-    ]
+    return PictureRows(scene.camera, [LitPanel(optics, panel)], around)
+
+
+def pictured_luminance(scene: Scene, effect: OpticsEffect) -> np.ndarray:
+    """Return the luminance of each pixel, shape (rows, columns)."""
+    rows, blocks = picture_rows(scene, effect), range(scene.camera.rows)
+    parts = [rows.of(block).values for block in split_into_blocks(blocks, scene.camera.columns)]
     return luminance_of(np.concatenate(parts), scene.camera)

@@ -1,11 +1,11 @@
 """Stated errors hold for photographs from a world that is wider than the model."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from hypotheses import hypothesis
 from photo_world.bounds import bound_of_light, bound_of_picture
 from photo_world.photograph import World, photograph, random_world
 from photo_world.tone_curves import power
@@ -14,6 +14,7 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.photo.evidence.doubts import exposure_doubts
+from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import doubts_by_note
 from occ_model.photo.stripes.evenly_lit import Cells
 
@@ -30,6 +31,10 @@ def small_world(seed: int, **changes: Any) -> World:
         switching_frequency=5e3, exposure_time=130e-6, saturated=0.0, peak=0.5, quality=90,
     )  # fmt: skip
     return replace(small, **changes)
+
+
+def match_of(world: World) -> occ.Match:
+    return occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
 
 
 @pytest.fixture(scope="module")
@@ -95,8 +100,7 @@ def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
 def test_an_exposure_that_may_be_none_at_all_is_doubted() -> None:
     """An exposure of one column, hidden by a long-tailed blur; two deviations include 0."""
     world = small_world(3, exposure_time=10e-6, blur=1.4, blur_shape="exponential")
-    photo = photo_of(photograph(replace(world, curve=power(2.22))))
-    match = occ.match_photo(photo, told(world), sent="scene")
+    match = match_of(replace(world, curve=power(2.22)))
     assert match.uncertainties["exposure_time"] > 0.5 * match.exposure_time
     assert match.verdict == "sure"
     assert any(why.startswith("The exposure time is known only") for why in match.exposure_reasons)
@@ -139,7 +143,7 @@ def test_the_exposure_of_a_lamp_of_few_columns_a_period_is_doubted(seed: int) ->
 def test_an_exposure_is_not_listed_as_an_alternative_to_itself() -> None:
     """Two searches that end at 0.108 chips found one exposure, not two (seed 1120060)."""
     world = random_world(1120060)
-    match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
+    match = match_of(world)
     assert match.other_exposures == ()
     assert not any("Other exposure times" in why for why in match.exposure_reasons)
 
@@ -149,19 +153,17 @@ def test_edges_hidden_by_white_are_doubted() -> None:
     """With a short exposure of a lamp far brighter than white, ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)
     lamp = replace(world.lamp, darkening=0.0, halo=0.0, rim=1.0)
-    match = occ.match_photo(
-        photo_of(photograph(replace(world, lamp=lamp))), told(world), sent="scene"
-    )
+    match = match_of(replace(world, lamp=lamp))
     assert any("Saturation hides" in why for why in match.exposure_reasons)
 
 
 def test_the_exposure_is_doubted_where_more_than_two_fifths_are_white() -> None:
     world = small_world(3, saturated=0.45)
-    match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
+    match = match_of(world)
     assert match.verdict == "sure"
     assert match.scene.model.enhancement == "none"  # cameras are not assumed to equalize
     assert any("at most 40.0 % are allowed" in why for why in match.exposure_reasons)
-    given: Any = SimpleNamespace(rate=1.0, was_read=False)
+    given = hypothesis(np.array([1, 0], np.uint8), Timing(0.1, 0.5, 0.0, 2.2), 400, was_read=False)
     assert exposure_doubts(given, replace(match.stripes, saturated=0.4)) == []
     assert exposure_doubts(given, replace(match.stripes, saturated=0.401)) != []
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from amount import amount
 from each_case import each_case
+from physics.pictured_luminance import picture_rows
 
 import occ_model as occ
 from occ_model.camera.picture_rows import BLOCK_ROWS, split_at
@@ -18,9 +19,8 @@ from occ_model.camera.row_interpolation import (
     row_weights,
 )
 from occ_model.camera.row_memory import CAPACITY, MEMORY, RowMemory
-from occ_model.simulation.render import observe
-
-STILL = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
+from occ_model.effects.effect import OpticsEffect
+from occ_model.effects.optics_effects import Emission, Vignetting
 
 
 @each_case(product((range(64), range(128, 192), range(5, 581, 9), range(100, 110)), range(NODES)))
@@ -56,19 +56,22 @@ def test_smooth_columns_are_exact_to_the_tolerance(length: float) -> None:
     assert smooth.all() == (length > 200.0)
 
 
+@pytest.mark.parametrize(("strength", "is_smooth"), [(8.0, True), (20.0, False)])
 @pytest.mark.parametrize(
-    "changes", [{}, {"vignetting_exponent": 20.0, "roll": 0.4}, {"lambertian_order": 30.0}]
+    ("effect", "name"), [(Vignetting(), "vignetting_exponent"), (Emission(), "lambertian_order")]
 )
-def test_a_picture_is_the_same_by_single_rows(
-    changes: dict[str, float], monkeypatch: pytest.MonkeyPatch
+def test_a_band_is_the_same_by_single_rows_and_interpolated_where_it_is_smooth(
+    effect: OpticsEffect, name: str, strength: float, is_smooth: bool
 ) -> None:
-    scene = occ.load_preset("phone-136us-real").replace(columns=400, rows=1200, **changes)
-    plan = occ.plan(scene, 0.0, force=STILL)
-    interpolated = observe(scene, plan)
-    monkeypatch.setattr(
-        "occ_model.camera.picture_rows.find_smooth_columns", lambda values: np.zeros(1, dtype=bool)
+    scene = occ.load_preset("phone-136us-real").replace(
+        columns=400, rows=1200, roll=0.4, yaw=0.3, **{name: strength}
     )
-    np.testing.assert_allclose(interpolated, observe(scene, plan), rtol=0, atol=2.0 * TOLERANCE)
+    rows, band = picture_rows(scene, effect), range(512, 512 + BLOCK_ROWS)
+    at_once = rows.of(band)
+    assert (at_once.weights is not None) == is_smooth
+    assert at_once.rims
+    singly = np.concatenate([rows.of(range(row, row + 1)).values for row in band])
+    np.testing.assert_allclose(at_once.values, singly, rtol=0, atol=2.0 * TOLERANCE)
 
 
 def kilobyte() -> tuple[np.ndarray, ...]:

@@ -35,9 +35,6 @@ _PREFIXES = {"exposure_time": "", "iso": "ISO ", "f_number": "f/"}
 class PhotoFacts(QWidget):
     settings_asked = Signal()  # the user applies the camera's recorded settings to the scene
 
-    channel_chosen = Signal(str)
-    scan_axis_chosen = Signal(str)
-
     def __init__(self) -> None:
         super().__init__()
         self.name = ElidedLabel(how=Qt.TextElideMode.ElideMiddle)
@@ -56,14 +53,12 @@ class PhotoFacts(QWidget):
             "The colour channel searched for stripes; a grey photo has only one.",
             dict(zip(CHANNELS, CHANNELS, strict=True)),
         )
-        self.channel.chosen.connect(self.channel_chosen)
         self.scan_axis = KeyedComboBox(
             "Scanned",
             "The direction in which the shutter scanned: by columns or by lines of the file. "
             "Automatic: across the stripes.",
             {"auto": "automatic", "columns": "by columns", "lines": "by lines"},
         )
-        self.scan_axis.chosen.connect(self.scan_axis_chosen)
         notes = fill(QHBoxLayout(), (self.notes, 1), self.use_settings)
         choices = fill(
             QHBoxLayout(), QLabel("Channel"), (self.channel, 1), QLabel("Scanned"),

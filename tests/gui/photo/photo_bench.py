@@ -1,5 +1,6 @@
 """A photo in the stores that the pane of the photo depends on, without a window."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.choices import PhotoChoice, PhotoSource
+from occ_gui.values.choices import PhotoChoice
 from occ_gui.values.photo_results import MatchOutcome, MatchRequest, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match, known_value
@@ -47,14 +48,16 @@ class PhotoBench:
         """Open a photo that was read already, or close it."""
         choice = self.choice.close() if photo is None else self.choice.open(photo.path)
         self.store.put(replace(self.store.workspace, photo=choice))
-        document = None
-        if photo is not None:
-            source = choice.source or PhotoSource(Path(), choice.load_options, 0)
-            document = PhotoDocument(photo, source)
+        document = None if photo is None else PhotoDocument(photo, choice.source)
         self.results_store.put(replace(self.results_store.results, document=document))
 
+    def follow(self, show: Callable[[ShownPhoto], object]) -> None:
+        """Show the photo from now on whenever workspace or results change."""
+        for changed in (self.store.select(lambda each: each).changed, self.results_store.changed):
+            changed.connect(lambda: show(self.shown))
+
     def change(self, **changes: object) -> None:
-        """Let something else be found in the open photo, or be asked of it."""
+        """Change the requests for the open photo, or their results."""
         document = self.results_store.results.document
         self.photos.put(replace(document, **changes))  # type: ignore[arg-type]  # fields of its own
 
@@ -82,12 +85,11 @@ def spoken(steps: PhotoSteps) -> list[str]:
 
 def shown_photo(photo: Photo, scene: Scene, match: Match | None = None) -> ShownPhoto:
     """Return a photo that has been opened, with a match that was asked for in a scene."""
-    choice = PhotoChoice().open(photo.path)
-    source = PhotoSource(photo.path, choice.load_options, choice.opening)
-    outcome = None
+    choice, outcome = PhotoChoice().open(photo.path), None
     if match is not None:
         outcome = MatchOutcome(None, match, known_value(match.estimate, scene))
-    return ShownPhoto(scene, choice, document=PhotoDocument(photo, source), outcome=outcome)
+    document = PhotoDocument(photo, choice.source)
+    return ShownPhoto(scene, choice, document=document, outcome=outcome)
 
 
 class LiveView(PhotoView):

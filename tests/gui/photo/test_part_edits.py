@@ -58,12 +58,8 @@ class Bench(PhotoBench):
         qtbot.addWidget(self.pane.widget)
         self.form, self.outlines = self.pane.view.lamps, self.pane.outlines
         self.parts = self.pane.parts
-        self.store.select(lambda workspace: workspace).changed.connect(self._show)
-        self.results_store.changed.connect(self._show)
+        self.follow(self.pane.show_part)
         self.show_photo(photo)
-
-    def _show(self) -> None:
-        self.pane.show_part(self.shown)
 
     def find(self) -> None:
         self.change(lamps=LAMPS)

@@ -59,8 +59,8 @@ def test_facts_about_a_photo_are_shown_with_their_units(
 def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
     view: LiveView, qtbot: QtBot
 ) -> None:
-    received = collect(view.facts.channel_chosen)
-    view.facts.scan_axis_chosen.connect(received.append)
+    received = collect(view.facts.channel.chosen)
+    view.facts.scan_axis.chosen.connect(received.append)
     choices = ((view.facts.channel, CHANNELS), (view.facts.scan_axis, SCAN_AXES))
     for control, keys in choices:
         assert [control.itemData(place) for place in range(control.count())] == list(keys)

@@ -70,12 +70,8 @@ class Listed(PhotoBench):
         super().__init__()
         self.view = add_widget(qtbot, ManyPhotosView())
         self.view.resize(420, 500)
-        self.store.select(lambda workspace: workspace).changed.connect(self._show)
-        self.results_store.changed.connect(self._show)
+        self.follow(self.view.show_photo)
         self.photos.list_files(PATHS)
-
-    def _show(self) -> None:
-        self.view.show_photo(self.shown)
 
     def put(self, listed: ListedRows) -> None:
         self.results_store.put(replace(self.results_store.results, listed=listed))

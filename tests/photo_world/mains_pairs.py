@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from simulated_photos import photo_of
+
 import occ_model as occ
 from photo_world.mains_rooms import Room, photograph_room
 
@@ -88,13 +90,7 @@ def measure_truth(truth: Truth) -> Measured:
 
 
 def measure_room(room: Room) -> Measured:
-    photos = [
-        occ.Photo(
-            path=Path(f"{room.seed}.png"), samples=image, white=255, image=image,
-            profile=image.mean(axis=0), turned=False, channel="grey",
-        )
-        for image in photograph_room(room)
-    ]  # fmt: skip
+    photos = [photo_of(image) for image in photograph_room(room)]
     return measured_of(photos, room.mains_frequency, "lines")
 
 

@@ -1,7 +1,8 @@
 """The fraction of each pixel's light that comes from the panel, bent and blurred by the lens."""
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -14,6 +15,54 @@ from occ_model.results.decoding import Region
 NEGLIGIBLE_BLUR = 0.1  # blur in pixels below which no light of a neighbour reaches a pixel
 STEEP_SLOPE = 1.5  # slope, in pixels a pixel, above which a rim counts as steep
 _FAR_RIM = 1e6  # distance in pixels at which a rim no longer matters
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Outlines:
+    """The panel's outline in the picture, as the lens's effects move or blur it."""
+
+    plain: FloatArray  # Without any effect
+    moved: Mapping[str, FloatArray]  # With each effect alone that moves it
+    blurs: Mapping[str, float]  # Standard deviation in pixels of each effect that blurs it
+
+    @classmethod
+    def of(cls, optics: Mapping[str, Optics], plain: Optics) -> Self:
+        """Compare the optics with each effect alone with those without any."""
+        return cls(
+            plain.outline,
+            {n: lens.outline for n, lens in optics.items() if lens.outline is not plain.outline},
+            {n: lens.blur for n, lens in optics.items() if lens.blur > NEGLIGIBLE_BLUR},
+        )
+
+    @property
+    def each(self) -> list[FloatArray]:
+        """The outline without effects, then with each that moves it."""
+        return [self.plain, *self.moved.values()]
+
+    @property
+    def blur(self) -> float:
+        """The largest blur."""
+        return max(self.blurs.values(), default=0.0)
+
+    @property
+    def are_changed(self) -> bool:
+        """Whether any effect moves or blurs the outline."""
+        return bool(self.moved or self.blurs)
+
+    @property
+    def sets_of_effects(self) -> list[frozenset[str]]:
+        """All sets of the effects that move or blur the outline."""
+        names = [*self.moved, *self.blurs]
+        numbers = range(2 ** len(names))
+        return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
+
+    def moving_effect(self, names: Collection[str]) -> str:
+        """Return the effect of some that moves the outline; empty if none does."""
+        return next((name for name in self.moved if name in names), "")
+
+    def blur_of(self, names: Collection[str]) -> float:
+        """Return the largest blur of some effects."""
+        return max((blur for name, blur in self.blurs.items() if name in names), default=0.0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,23 +98,17 @@ def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
 
 
 def covers_of(
-    columns: FloatArray,
-    rows: FloatArray,
-    outlines: Mapping[str, FloatArray],
-    blurs: Mapping[str, float],
-    plain: Optics,
+    columns: FloatArray, rows: FloatArray, outlines: Outlines
 ) -> dict[frozenset[str], FloatArray | None]:
-    """Return the panel's fraction of each pixel, for every subset of the effects on the outline."""
+    """Return the panel's fraction of each pixel, for every set of the effects on the outline."""
     covers: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
-    for names in subsets_of([*outlines, *blurs]):
-        bending, blur = _bending_and_blur(names, outlines, blurs)
-        if bending not in distances:
-            outline = outlines.get(bending, plain.outline)
-            distances[bending] = _distances(
-                outline, columns, rows, max(blurs.values(), default=0.0)
-            )
-        top, bottom, left, right = distances[bending]
+    for names in outlines.sets_of_effects:
+        moving, blur = outlines.moving_effect(names), outlines.blur_of(names)
+        if moving not in distances:
+            outline = outlines.moved.get(moving, outlines.plain)
+            distances[moving] = _distances(outline, columns, rows, outlines.blur)
+        top, bottom, left, right = distances[moving]
         if blur:
             down = _light_fraction(top, blur) + _light_fraction(bottom, blur) - 1.0
             along = _light_fraction(left, blur) + _light_fraction(right, blur) - 1.0
@@ -77,36 +120,19 @@ def covers_of(
 
 
 def exact_covers(
-    region: Region,
-    rows: FloatArray,
-    outlines: Mapping[str, FloatArray],
-    blurs: Mapping[str, float],
-    plain: Optics,
+    region: Region, rows: FloatArray, outlines: Outlines
 ) -> dict[frozenset[str], FloatArray | None]:
     """Return what :func:`covers_of` does for rows in each column of a region, pixel by pixel."""
     corner = np.array([region.first_column, region.first_row])
     row = np.clip(np.rint(rows) - region.first_row, 0, region.rows - 1).astype(int)
     places = row, np.arange(region.columns)[:, None]
     covers: dict[frozenset[str], FloatArray | None] = {}
-    for names in subsets_of([*outlines, *blurs]):
-        bending, blur = _bending_and_blur(names, outlines, blurs)
-        outline = outlines.get(bending, plain.outline)
+    for names in outlines.sets_of_effects:
+        outline = outlines.moved.get(outlines.moving_effect(names), outlines.plain)
+        blur = outlines.blur_of(names)
         coverage = Coverage(outline - corner, region.rows, region.columns, blur)
         covers[names] = coverage.rows(range(region.rows))[places].astype(np.float64)
     return covers
-
-
-def _bending_and_blur(
-    names: Collection[str], outlines: Iterable[str], blurs: Mapping[str, float]
-) -> tuple[str, float]:
-    """Return the effect of some that moves the outline, if any, and their largest blur."""
-    bending = next((name for name in outlines if name in names), "")
-    return bending, max((blurs[name] for name in blurs if name in names), default=0.0)
-
-
-def subsets_of(names: list[str]) -> list[frozenset[str]]:
-    numbers = range(2 ** len(names))
-    return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
 
 
 def _light_fraction(distance: FloatArray, blur: float) -> FloatArray:

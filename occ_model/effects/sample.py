@@ -15,14 +15,12 @@ import numpy as np
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.camera.optics import Gain, Optics
 from occ_model.effects.cover import (
-    NEGLIGIBLE_BLUR,
     STEEP_SLOPE,
-    Spans,
+    Outlines,
     covers_of,
     exact_covers,
     pixel_boundary,
     spans_of,
-    subsets_of,
 )
 from occ_model.results.decoding import Region
 
@@ -104,10 +102,7 @@ def choose_sample(
     panel ``fills_region`` if it is an upright rectangle. With ``in_blocks``, the columns are whole
     blocks of a file.
     """
-    moved_outlines = {
-        name: lens.outline for name, lens in optics.items() if lens.outline is not plain.outline
-    }
-    blurs = {name: lens.blur for name, lens in optics.items() if lens.blur > NEGLIGIBLE_BLUR}
+    outlines = Outlines.of(optics, plain)
     few = region.columns <= _ALL_COLUMNS
     step = 1 if few else -(-region.columns // COLUMNS)
     main = np.arange(region.first_column + step // 2, region.last_column, step)
@@ -115,27 +110,21 @@ def choose_sample(
         main = np.array([region.first_column])
     columns = _columns_of_blocks(region) if in_blocks and step > 1 else main.astype(np.float64)
     weights = np.full(len(columns), 1.0 / len(columns))
-    outlines = [plain.outline, *moved_outlines.values()]
-    blur = max(blurs.values(), default=0.0)
-    is_moved = bool(moved_outlines or blur)
-    if is_moved and not few:
-        columns, weights = _add_side_columns(columns, region, outlines, blur)
-    covers: dict[frozenset[str], FloatArray | None]
-    is_covered = _is_covered(region, outlines, blur)
-    if is_covered or (fills_region and not is_moved):
+    if outlines.are_changed and not few:
+        columns, weights = _add_side_columns(columns, region, outlines)
+    is_covered = _is_covered(region, outlines)
+    if is_covered or (fills_region and not outlines.are_changed):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
-        first = 0
-        covers = dict.fromkeys(subsets_of([*moved_outlines, *blurs]))
+        first, covers = 0, dict.fromkeys(outlines.sets_of_effects)
     else:
-        spans = [spans_of(outline, columns, 0) for outline in outlines]
-        rows, row_weights, first = _choose_rows(region, spans, is_moved, blur)
+        rows, row_weights, first = _choose_rows(region, columns, outlines)
         if few and region.rows * region.columns <= _ALL_PIXELS:
             rows, row_weights, first = _take_all_rows(region, rows[:, first : first + len(_GAUSS)])
-            covers = exact_covers(region, rows, moved_outlines, blurs, plain)
+            covers = exact_covers(region, rows, outlines)
         else:
-            covers = covers_of(columns, rows, moved_outlines, blurs, plain)
+            covers = covers_of(columns, rows, outlines)
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
     nearest = np.clip((places - along.start + step // 2) // step, 0, len(main) - 1)
@@ -168,12 +157,12 @@ def _columns_of_blocks(region: Region) -> FloatArray:
     return np.asarray((starts[:, None] + np.arange(8.0)).ravel())
 
 
-def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool:
+def _is_covered(region: Region, outlines: Outlines) -> bool:
     """Return whether each outline encloses the region and a margin for the blur."""
-    reach = _REACH * blur + 1.0
+    reach = _REACH * outlines.blur + 1.0
     low, high = region.first_row - reach, region.last_row + reach
     lines = np.linspace(region.first_column - reach, region.last_column + reach, _RIM_COLUMNS)
-    for outline in outlines:
+    for outline in outlines.each:
         spans = spans_of(outline, lines, 0)
         if spans.missed.any() or (spans.first > low).any() or (spans.last < high).any():
             return False
@@ -181,11 +170,11 @@ def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool
 
 
 def _add_side_columns(
-    columns: FloatArray, region: Region, outlines: list[FloatArray], blur: float
+    columns: FloatArray, region: Region, outlines: Outlines
 ) -> tuple[FloatArray, FloatArray]:
     """Add columns across the left and the right rim if these are upright."""
     row = np.linspace(region.first_row, region.last_row - 1, 9)
-    spans = [spans_of(outline, row, 1) for outline in outlines]
+    spans = [spans_of(outline, row, 1) for outline in outlines.each]
     low, high = region.first_column - 0.5, region.last_column - 0.5
     is_kept, parts = np.ones(len(columns), dtype=bool), []
     for side in ("first", "last"):
@@ -194,7 +183,7 @@ def _add_side_columns(
         places = pixel_boundary(np.concatenate(ends))
         if not len(places):
             continue
-        reach = math.ceil(_REACH * blur)
+        reach = math.ceil(_REACH * outlines.blur)
         left = min(max(float(places.min()) - reach, low), high)
         right = min(max(float(places.max()) + reach, low), high)
         if not 0.0 < right - left < region.columns / 4.0:
@@ -214,12 +203,13 @@ def _add_side_columns(
 
 
 def _choose_rows(
-    region: Region, spans: list[Spans], rims: bool, blur: float
+    region: Region, columns: FloatArray, outlines: Outlines
 ) -> tuple[FloatArray, FloatArray, int]:
     """Choose each column's rows beside the panel, across its rims, and, from an index on, inside.
 
     Nodes of zero weight in all columns are dropped, except one at each end, where a rim may lie.
     """
+    spans, blur = [spans_of(outline, columns, 0) for outline in outlines.each], outlines.blur
     low, high = region.first_row - 0.5, region.last_row - 0.5
     edges: list[FloatArray] = []
     for side in ("first", "last"):
@@ -234,7 +224,7 @@ def _choose_rows(
     ends += [np.clip(edge, low, middle) for edge in edges[:half]]
     ends += [np.clip(edge, middle, high) for edge in edges[half:]]
     ends += [np.full(len(middle), high)]
-    rim = _even_nodes(_MOVED_NODES if rims else 0)
+    rim = _even_nodes(_MOVED_NODES if outlines.are_changed else 0)
     across = [_even_nodes(_BLURRED_NODES), rim, _even_nodes(_BLURRED_NODES)] if blur else [rim]
     outer_nodes = _even_nodes(_BESIDE_NODES)
     parts = [outer_nodes, *across, (_GAUSS, _GAUSS_WEIGHTS), *across, outer_nodes]

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 import pytest
-from gui.kinds import Grey, GreyPicture, SnapshotOf, simulated
+from gui.kinds import Grey, GreyPicture, SnapshotOf, simulate_once
 from gui.shared_window import SharedWindow, end, new_window
 from gui.starts import Starts
 from gui.user import PatientQtBot, User
@@ -144,14 +144,14 @@ def small_scene() -> Scene:
 @pytest.fixture
 def snapshot_of(small_scene: Scene) -> SnapshotOf:
     """Simulate the small scene with some parameters changed."""
-    return lambda **changes: simulated(small_scene.replace(**changes))
+    return lambda **changes: simulate_once(small_scene.replace(**changes))
 
 
 @pytest.fixture
 def bare_snapshot_of(small_scene: Scene) -> SnapshotOf:
     """Simulate the small scene as above, without any effect."""
     bare = SimulationSettings(tolerance=math.inf)
-    return lambda **changes: simulated(small_scene.replace(**changes), bare)
+    return lambda **changes: simulate_once(small_scene.replace(**changes), bare)
 
 
 @pytest.fixture(scope="session")

@@ -46,16 +46,16 @@ def show_widget(qtbot: QtBot, widget: Widget, width: int = 0, height: int = 0) -
 
 
 @lru_cache(maxsize=4)  # pictures take much memory
-def _simulated(asked: bytes) -> Snapshot:
+def _simulate_pickled(asked: bytes) -> Snapshot:
     snapshot = simulate(*pickle.loads(asked))
     for picture_kind in PICTURES:  # others show them, too
         snapshot.frame.picture(picture_kind).flags.writeable = False
     return snapshot
 
 
-def simulated(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
+def simulate_once(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
     """Simulate a scene as the window does, once for the tests that want the same."""
-    return _simulated(pickle.dumps((scene, settings)))
+    return _simulate_pickled(pickle.dumps((scene, settings)))
 
 
 def collect(signal: Any) -> list[Any]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from gui.kinds import simulated
+from gui.kinds import simulate_once
 from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
@@ -125,7 +125,7 @@ class PaneBench:
         if changes:
             self.scenes.change(**changes)
         workspace = self.store.workspace
-        snapshot = simulated(workspace.scene, workspace.settings)
+        snapshot = simulate_once(workspace.scene, workspace.settings)
         for hear in self.hear_first:
             hear(snapshot)
         self.results_store.show_picture(Picture(snapshot.frame, snapshot.request))

@@ -76,16 +76,16 @@ STATEMENTS: dict[str, tuple[Unit, tuple[str, ...]]] = {
 def texts_of(application: Application, user: User) -> Iterator[str]:
     """Yield the texts of the story, and of each pane once it is in front."""
     user.switch("explore")
-    yield from map(plain, visible_texts(application.window))
-    yield from (plain(badge.text) for badge in application.story.verdict.badges.badges)
+    yield from map(strip_markup, visible_texts(application.window))
+    yield from (strip_markup(badge.text) for badge in application.story.verdict.badges.badges)
     for pane in PANES:
         user.bring_to_front(pane)
         dock: QWidget = application.window.docks[pane]
-        yield from map(plain, visible_texts(dock))
+        yield from map(strip_markup, visible_texts(dock))
         application.window.hide_pane(pane)
 
 
-def plain(text: str) -> str:
+def strip_markup(text: str) -> str:
     return " ".join(re.sub(r"<[^>]*>", "", text).split(" ")).replace("\n", " ")
 
 

@@ -29,7 +29,7 @@ _LAMP = occ.load_preset("phone-136us").replace(
 
 
 @cache
-def _shown(scene: Scene) -> SceneBars:
+def _bars_of(scene: Scene) -> SceneBars:
     return compute_bars(scene)
 
 
@@ -49,7 +49,7 @@ def _rows(view: BandsView) -> dict[str, list[str]]:
 
 
 def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -> None:
-    view.show_bands(_shown(_LAMP))
+    view.show_bands(_bars_of(_LAMP))
     depth = occ.band_depth(_LAMP)
     assert f"{100 * depth.peak_to_peak:.3g} %" in view.scene_answer.line.text()
     assert depth.is_visible
@@ -60,7 +60,7 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
     assert rows["1/125 s"][2] == "depends"
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
-    view.show_bands(_shown(_LAMP.replace(exposure_time=1 / 1920)))
+    view.show_bands(_bars_of(_LAMP.replace(exposure_time=1 / 1920)))
     assert "Not visible on a display" in view.scene_answer.details.text()
 
 
@@ -72,21 +72,21 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
 def test_bars_that_the_picture_hides_are_not_headlined_as_seen(
     view: BandsView, changes: dict[str, float], why: str
 ) -> None:
-    view.show_bands(_shown(_LAMP.replace(**changes)))
+    view.show_bands(_bars_of(_LAMP.replace(**changes)))
     assert ", not visible: " in view.scene_answer.line.text()
     assert why in view.scene_answer.line.text()
     assert why in view.scene_answer.details.text()
 
 
 def test_a_lamp_without_light_has_no_valleys(view: BandsView) -> None:
-    view.show_bands(_shown(_LAMP.replace(luminance=0.0)))
+    view.show_bands(_bars_of(_LAMP.replace(luminance=0.0)))
     assert not any(line.isVisible() for line in view.map.valleys)
     assert "Nothing blinks" in view.scene_answer.details.text()
     assert "No exposure of" not in view.scene_answer.details.text()
 
 
 def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> None:
-    found = _shown(_LAMP)
+    found = _bars_of(_LAMP)
     depths = found.map
     view.show_bands(found)
     for order in (1, 2, 3):
@@ -105,7 +105,7 @@ def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> 
 
 @pytest.fixture
 def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> PaneBench:
-    monkeypatch.setattr(pane, "compute_bars", _shown)
+    monkeypatch.setattr(pane, "compute_bars", _bars_of)
     return PaneBench(qtbot, _LAMP.replace(exposure_time=136e-6))
 
 
@@ -116,7 +116,7 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
 
     def shown_late(scene: Scene) -> SceneBars:
         assert was_marked.wait(PATIENCE_S)
-        return _shown(scene)
+        return _bars_of(scene)
 
     view, scenes = bench.add(bands(bench.scenes)).view, bench.scenes
     bench.wait_until_idle()

@@ -77,7 +77,7 @@ def no_actions() -> WindowActions:
     )
 
 
-def spoken(steps: PhotoSteps) -> list[str]:
+def names_of_steps(steps: PhotoSteps) -> list[str]:
     """Return what a screen reader says about the steps."""
     faces = [QAccessible.queryAccessibleInterface(button) for button in steps.buttons.values()]
     return [face.text(QAccessible.Text.Name) for face in faces]

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from gui.photo.photo_bench import LiveView, spoken
+from gui.photo.photo_bench import LiveView, names_of_steps
 from matches import match_of_lamp
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
@@ -221,7 +221,7 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
         assert result.reasons.isEnabled() == is_present
         for button in (result.apply, result.save, result.without_bars, steps.buttons["apply"]):
             assert button.isEnabled() == is_present
-        assert spoken(steps)[2:] == (
+        assert names_of_steps(steps)[2:] == (
             ["Match: done", "Apply: done"] if is_present else ["Match: next step", "Apply"]
         )
         assert bar.state is (State.GOOD if is_present else State.WAITING)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from gui.combo_box import choose
 from gui.kinds import add_widget, collect
-from gui.photo.photo_bench import LiveView, spoken
+from gui.photo.photo_bench import LiveView, names_of_steps
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
@@ -142,7 +142,7 @@ def test_each_step_says_how_far_it_is(
     steps: PhotoSteps, has_photo: bool, match: str, is_applied: bool, words: list[str]
 ) -> None:
     steps.show_state(has_photo=has_photo, match=match, is_applied=is_applied)
-    assert spoken(steps) == words
+    assert names_of_steps(steps) == words
     assert (steps.buttons["match"].text() == "? Match") == (match == "doubtful")
     enabled = [name for name, button in steps.buttons.items() if button.isEnabled()]
     able = 1 if not has_photo else 4 if match in {"sure", "doubtful"} else 3
@@ -158,18 +158,18 @@ def test_a_scene_that_differs_by_rounding_is_the_matched_one(
     view.show_matched(match)
     for shown, word in ((brighter, "done"), (scene.replace(luminance=4e3), "next step")):
         view.change(scene=shown)
-        assert spoken(view.steps)[3] == f"Apply: {word}"
+        assert names_of_steps(view.steps)[3] == f"Apply: {word}"
         told = {chip.text for chip in view.verdict.badges.badges}
         assert ("not applied" in told) == (word != "done")
 
 
 def test_the_pane_leads_from_step_to_step(view: LiveView, qtbot: QtBot, photo: Photo) -> None:
     view.open(None)
-    assert spoken(view.steps)[0] == "Open: next step"
+    assert names_of_steps(view.steps)[0] == "Open: next step"
     with qtbot.waitSignal(view.open_asked):
         view.steps.buttons["open"].click()
     view.open(photo)
-    assert spoken(view.steps)[1] == "Sent?: next step"
+    assert names_of_steps(view.steps)[1] == "Sent?: next step"
     view.steps.buttons["sent"].click()
     assert view.focusWidget() is view.form.sent
     with qtbot.waitSignal(view.form.asked):

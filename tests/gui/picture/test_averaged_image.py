@@ -53,7 +53,7 @@ def fine_stripes() -> Grey:
     return np.tile(stripes, (HEIGHT, 1))
 
 
-def inner(picture: Grey) -> NDArray[np.int64]:
+def cut_rim(picture: Grey) -> NDArray[np.int64]:
     """Leave out the outermost pixels, which the image may cover only partly."""
     return picture[2:-2, 2:-2].astype(np.int64)
 
@@ -63,7 +63,7 @@ def test_fine_stripes_shown_small_are_grey_and_no_coarse_stripes(
     screen: Screen, fine_stripes: Grey, width: int, shift: float
 ) -> None:
     screen.item.set_image(fine_stripes)
-    picture = inner(screen.shown(width, HEIGHT, QRectF(shift - 0.5, -0.5, COLUMNS, HEIGHT)))
+    picture = cut_rim(screen.shown(width, HEIGHT, QRectF(shift - 0.5, -0.5, COLUMNS, HEIGHT)))
     picture = picture[:, :-4] if shift else picture
     # A pixel's mean can be off by the part of a stripe that does not fit in it, and no more; a
     # whole number of periods leaves nothing over.
@@ -79,14 +79,14 @@ def test_the_mean_is_taken_along_rows_too_and_along_one_axis_while_the_other_is_
     screen: Screen, fine_stripes: Grey
 ) -> None:
     screen.item.set_image(np.ascontiguousarray(fine_stripes.T))
-    picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
+    picture = cut_rim(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
     assert np.abs(picture - 127.5).max() <= 3
     wide_stripes = fine_stripes[:, np.arange(COLUMNS) // 32]  # each four screen pixels wide
     screen.item.set_image(np.ascontiguousarray(wide_stripes.T))
-    picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
+    picture = cut_rim(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
     assert set(np.unique(picture).tolist()) == {0, 255}
     screen.item.set_image(fine_stripes[:2])
-    picture = inner(screen.shown(500, 80, QRectF(-0.5, -0.5, COLUMNS, 2)))
+    picture = cut_rim(screen.shown(500, 80, QRectF(-0.5, -0.5, COLUMNS, 2)))
     assert np.abs(picture - 127.5).max() <= 3
 
 
@@ -107,7 +107,7 @@ def test_enlarged_stripes_have_no_value_between_black_and_white(
     screen: Screen, fine_stripes: Grey, zoom: float
 ) -> None:
     screen.item.set_image(fine_stripes)
-    picture = inner(screen.shown(400, HEIGHT, QRectF(1000.2, -0.5, 400 / zoom, HEIGHT)))
+    picture = cut_rim(screen.shown(400, HEIGHT, QRectF(1000.2, -0.5, 400 / zoom, HEIGHT)))
     assert set(np.unique(picture).tolist()) == {0, 255}
 
 
@@ -115,7 +115,7 @@ def test_an_image_of_one_pixel_is_shown_and_by_default_its_centre_is_the_origin(
     screen: Screen, fine_stripes: Grey
 ) -> None:
     screen.item.set_image(np.full((1, 1), 77, dtype=np.uint8))
-    single = inner(screen.shown(60, 30, QRectF(-0.5, -0.5, 1, 1)))
+    single = cut_rim(screen.shown(60, 30, QRectF(-0.5, -0.5, 1, 1)))
     assert set(np.unique(single).tolist()) == {77}
     screen.item.set_image(np.zeros((3, 5), dtype=np.uint8))
     assert screen.item.boundingRect() == QRectF(-0.5, -0.5, 5, 3)
@@ -127,7 +127,7 @@ def test_an_image_of_one_pixel_is_shown_and_by_default_its_centre_is_the_origin(
     assert box == pytest.approx((10, 29, 30, 69), abs=1)
     screen.item.set_image(fine_stripes)
     picture = screen.shown(200, 100, QRectF(1002.0, 20.0, 1e-6, 1e-6))
-    assert set(np.unique(inner(picture)).tolist()) == {255}
+    assert set(np.unique(cut_rim(picture)).tolist()) == {255}
 
 
 def test_an_empty_image_shows_nothing_and_a_new_one_takes_the_place_of_the_last(
@@ -141,7 +141,7 @@ def test_an_empty_image_shows_nothing_and_a_new_one_takes_the_place_of_the_last(
     for image in (fine_stripes, np.full_like(fine_stripes, 9)):
         screen.item.set_image(image)
         shown = screen.shown(200, HEIGHT, QRectF(-0.5, -0.5, COLUMNS, HEIGHT))
-    assert set(np.unique(inner(shown)).tolist()) == {9}
+    assert set(np.unique(cut_rim(shown)).tolist()) == {9}
 
 
 def test_only_the_visible_part_is_averaged_when_the_view_changes(
@@ -174,10 +174,10 @@ def test_pixels_that_are_large_enough_have_their_grey_level_written(screen: Scre
     screen.box.addItem(screen.item)
     image = np.full((200, 200), 255, dtype=np.uint8)
     screen.item.set_image(image)
-    assert inner(screen.shown(400, 400, QRectF(0, 0, 100, 100))).min() == 255
-    near = inner(screen.shown(400, 400, QRectF(10, 10, 6, 6)))
+    assert cut_rim(screen.shown(400, 400, QRectF(0, 0, 100, 100))).min() == 255
+    near = cut_rim(screen.shown(400, 400, QRectF(10, 10, 6, 6)))
     assert near.max() == 255
     pixels = near[:390, :390].reshape(6, 65, 6, 65)
     assert (pixels.min(axis=(1, 3)) < 60).all()  # black figures on white, in each
     screen.item.set_image(np.zeros((200, 200), dtype=np.uint8))
-    assert inner(screen.shown(400, 400, QRectF(10, 10, 6, 6))).max() > 200
+    assert cut_rim(screen.shown(400, 400, QRectF(10, 10, 6, 6))).max() > 200

@@ -121,7 +121,7 @@ def pane_with_wipe(qtbot: QtBot) -> tuple[PicturePane, BeforeWipe]:
     return pane, wipe
 
 
-def flat(snapshot: Snapshot, level: int) -> Snapshot:
+def paint_flat(snapshot: Snapshot, level: int) -> Snapshot:
     """Return a copy of a snapshot with pictures of a single grey level."""
     painted = deepcopy(snapshot)
     for picture_kind in PICTURES:
@@ -139,7 +139,7 @@ def test_the_old_picture_is_left_of_the_line_in_the_picture_the_new_one_right(
     qtbot: QtBot, pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
 ) -> None:
     pane, wipe = pane_with_wipe
-    now, then = flat(snapshot_of(columns=400), 200), flat(snapshot_of(columns=400), 50)
+    now, then = paint_flat(snapshot_of(columns=400), 200), paint_flat(snapshot_of(columns=400), 50)
     pane.show_picture(now.frame.image)
     wipe.show_before(then)
     assert 50 not in picture(pane)

@@ -51,14 +51,14 @@ def screen(qtbot: QtBot, grey_picture: Callable[[pg.GraphicsView], Grey]) -> Scr
     return Screen(qtbot, grey_picture)
 
 
-def even(level: int, rows: int = SIDE, columns: int = SIDE) -> Grey:
+def make_flat(level: int, rows: int = SIDE, columns: int = SIDE) -> Grey:
     return np.full((rows, columns), level, dtype=np.uint8)
 
 
 def test_a_blended_photo_hides_as_much_as_it_is_opaque_and_one_beside_nothing(
     screen: Screen,
 ) -> None:
-    screen.overlay.set_photo(even(200))
+    screen.overlay.set_photo(make_flat(200))
     assert (screen.shown()[5:-5, 5:-5] == 60).all()
     screen.overlay.set_mode("blend")
     for opacity in (0.0, 0.25, 1.0):
@@ -70,7 +70,7 @@ def test_split_shows_the_photo_below_a_line_that_stays_until_another_photo_comes
     screen: Screen,
 ) -> None:
     line = screen.overlay.line
-    screen.overlay.set_photo(even(200))
+    screen.overlay.set_photo(make_flat(200))
     screen.overlay.set_mode("split")
     assert line.value() == pytest.approx(SIDE / 2, abs=1)
     for place in (100, 40, 150):
@@ -82,12 +82,12 @@ def test_split_shows_the_photo_below_a_line_that_stays_until_another_photo_comes
     line.sigDragged.emit(line)
     screen.overlay.set_placement(Placement(4.0, 0.0))
     assert line.value() == 30
-    screen.overlay.set_photo(even(100))
+    screen.overlay.set_photo(make_flat(100))
     assert line.value() == pytest.approx(SIDE / 2, abs=1)
 
 
 def test_the_difference_is_drawn_as_grey_levels_where_both_lie(screen: Screen) -> None:
-    screen.overlay.set_photo(even(75, 100, 100))
+    screen.overlay.set_photo(make_flat(75, 100, 100))
     screen.overlay.set_placement(Placement(50.0, 50.0))
     screen.overlay.set_mode("difference")
     for gain in (1, 4):
@@ -100,13 +100,13 @@ def test_the_difference_is_drawn_as_grey_levels_where_both_lie(screen: Screen) -
 
 
 def test_the_difference_follows_the_simulation_and_ends_at_white(screen: Screen) -> None:
-    screen.overlay.set_photo(even(255))
+    screen.overlay.set_photo(make_flat(255))
     screen.overlay.set_mode("difference")
     assert (screen.shown()[5:-5, 5:-5] == 195).all()
-    screen.simulate(even(250))
+    screen.simulate(make_flat(250))
     assert (screen.shown()[5:-5, 5:-5] == 5).all()
     screen.overlay.difference.set_gain(8)
-    screen.simulate(even(10))
+    screen.simulate(make_flat(10))
     assert (screen.shown()[5:-5, 5:-5] == 255).all()
 
 
@@ -130,7 +130,7 @@ def test_equal_pictures_have_no_difference_however_fine(
 
 def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) -> None:
     frame = screen.overlay.frame
-    screen.overlay.set_photo(even(200, 50, 80))
+    screen.overlay.set_photo(make_flat(200, 50, 80))
     screen.overlay.set_mode("blend")
     assert not frame.isVisible()
     screen.overlay.set_movable(True)
@@ -143,7 +143,7 @@ def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) ->
 
 def test_dragging_the_frame_reports_the_photos_new_place(screen: Screen) -> None:
     received = collect(screen.overlay.placed)
-    screen.overlay.set_photo(even(200, 50, 80))
+    screen.overlay.set_photo(make_flat(200, 50, 80))
     screen.overlay.set_mode("blend")
     screen.overlay.set_movable(True)
     assert received == []
@@ -151,7 +151,7 @@ def test_dragging_the_frame_reports_the_photos_new_place(screen: Screen) -> None
     assert received == [Placement(30.0, 40.0, 1.0)]
     screen.overlay.frame.setSize((160, 100))
     assert received[-1] == Placement(30.5, 40.5, 2.0)
-    rect = rect_of(even(200, 50, 80), received[-1])
+    rect = rect_of(make_flat(200, 50, 80), received[-1])
     assert rect == QRectF(29.5, 39.5, 160, 100)
 
 
@@ -172,7 +172,7 @@ def test_the_mouse_moves_the_photo_by_its_frame_not_the_view_and_scales_it_by_a_
 ) -> None:
     overlay, received = unhurried.overlay, list[Placement]()
     overlay.placed.connect(overlay.set_placement)
-    overlay.set_photo(even(200, 50, 80))
+    overlay.set_photo(make_flat(200, 50, 80))
     overlay.set_placement(Placement(20.0, 20.0))
     overlay.set_mode("blend")
     overlay.set_movable(True)
@@ -186,12 +186,12 @@ def test_the_mouse_moves_the_photo_by_its_frame_not_the_view_and_scales_it_by_a_
     overlay.set_placement(Placement(20.0, 20.0))
     drag(unhurried, (100, 70), (140, 95))
     assert received[-1].scale == pytest.approx(1.5, abs=0.05)
-    rect = rect_of(even(200, 50, 80), received[-1])
+    rect = rect_of(make_flat(200, 50, 80), received[-1])
     assert (rect.left(), rect.top()) == pytest.approx((19.5, 19.5), abs=1.0)
 
 
 def test_the_mouse_drags_the_line(unhurried: Screen) -> None:
-    unhurried.overlay.set_photo(even(200))
+    unhurried.overlay.set_photo(make_flat(200))
     unhurried.overlay.set_mode("split")
     line = unhurried.overlay.line
     drag(unhurried, (50, round(line.value())), (50, 160))
@@ -206,11 +206,11 @@ def test_the_scale_stays_within_its_limits(scale: float, kept: float) -> None:
     assert Placement(1.0, 2.0, scale).within_limits() == Placement(1.0, 2.0, kept)
 
 
-def noise(rows: int, columns: int) -> Grey:
+def make_noise(rows: int, columns: int) -> Grey:
     return np.random.default_rng(rows * columns).integers(0, 256, (rows, columns), dtype=np.uint8)
 
 
-def by_hand(image: Grey, grid: QRectF, shape: tuple[int, int]) -> NDArray[np.float64]:
+def average_by_hand(image: Grey, grid: QRectF, shape: tuple[int, int]) -> NDArray[np.float64]:
     """Cut every pixel into 16 x 16 parts and average those in each cell."""
     fine = image.astype(np.float64).repeat(16, axis=0).repeat(16, axis=1)
     top, left = round(16 * grid.top()), round(16 * grid.left())
@@ -228,15 +228,15 @@ def by_hand(image: Grey, grid: QRectF, shape: tuple[int, int]) -> NDArray[np.flo
 def test_a_cell_holds_the_exact_mean_of_what_lies_under_it(
     left: int, top: int, columns: int, rows: int, wide: int, high: int
 ) -> None:
-    image = noise(30, 25)
+    image = make_noise(30, 25)
     # Cells of up to 2.5 pixels, in sixteenths.
     grid = QRectF(left / 16, top / 16, columns * wide / 16, rows * high / 16)
     means = cell_means(image, QRectF(0, 0, 25, 30), grid, (rows, columns))
-    assert means == pytest.approx(by_hand(image, grid, (rows, columns)), abs=1e-6)
+    assert means == pytest.approx(average_by_hand(image, grid, (rows, columns)), abs=1e-6)
 
 
 def test_a_large_image_is_averaged_to_within_two_levels() -> None:
-    image = noise(1203, 1601)
+    image = make_noise(1203, 1601)
     means = cell_means(image, QRectF(0, 0, 1601, 1203), QRectF(1, 1, 1600, 1200), (6, 8))
     exact = image[1:1201, 1:1601].reshape(6, 200, 8, 200).mean(axis=(1, 3))
     assert np.abs(means - exact).max() < 2.0
@@ -245,7 +245,7 @@ def test_a_large_image_is_averaged_to_within_two_levels() -> None:
 @pytest.mark.parametrize("width", [1e-13, 1e-9, 0.5])
 @pytest.mark.parametrize("place", [0.0, 9.999999999999998, 10.0])
 def test_a_grid_at_the_very_edge_also_has_means(place: float, width: float) -> None:
-    image = noise(10, 10)
+    image = make_noise(10, 10)
     grid = QRectF(place, place, width, width)
     means = cell_means(image, QRectF(0, 0, 10, 10), grid, (2, 3))
     assert means.shape == (2, 3)

@@ -68,7 +68,7 @@ def difference(found: Colours, expected: Colours) -> Difference:
 _ROUNDS = 50
 
 
-def drawn(widget: QWidget) -> Colours:
+def grab(widget: QWidget) -> Colours:
     """Draw a widget with one pixel a pixel, shape (height, width, 3)."""
     image = QImage(widget.size(), QImage.Format.Format_RGB888)
     widget.render(image)
@@ -76,12 +76,12 @@ def drawn(widget: QWidget) -> Colours:
     return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).copy()
 
 
-def settled(widget: QWidget) -> Colours:
+def grab_at_rest(widget: QWidget) -> Colours:
     """Draw a widget again and again until it stays the same three times: layouts take rounds."""
-    pictures = [drawn(widget)]
+    pictures = [grab(widget)]
     for _ in range(_ROUNDS):
         QApplication.processEvents()
-        pictures.append(drawn(widget))
+        pictures.append(grab(widget))
         if len(pictures) > 3 and all(np.array_equal(p, pictures[-1]) for p in pictures[-4:-1]):
             return pictures[-1]
     raise AssertionError("the widget never comes to rest")
@@ -99,7 +99,7 @@ class Gallery:
         return widget
 
     def compare(self, widget: QWidget, name: str) -> None:
-        path, found = PICTURES / f"{name}.png", settled(widget)
+        path, found = PICTURES / f"{name}.png", grab_at_rest(widget)
         if self._is_renewed:
             # Refined by k-means: a rare colour would be lost among many greys otherwise.
             Image.fromarray(found).quantize(256, kmeans=1).save(path, optimize=True)

@@ -4,7 +4,7 @@ import numpy as np
 import pyqtgraph as pg
 import pytest
 from gui.kinds import SnapshotOf
-from gui.snapshots.gallery import Colours, Gallery, difference, settled
+from gui.snapshots.gallery import Colours, Gallery, difference, grab_at_rest
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication
 
@@ -20,24 +20,24 @@ def profile(gallery: Gallery, snapshot_of: SnapshotOf) -> ProfileView:
 
 def test_each_change_of_a_pane_is_seen(profile: ProfileView) -> None:
     a_pixel, _ = profile.plot.getViewBox().viewPixelSize()
-    before = settled(profile)
-    assert difference(settled(profile), before).colour == 0.0
+    before = grab_at_rest(profile)
+    assert difference(grab_at_rest(profile), before).colour == 0.0
     profile.simulation.setPos(a_pixel, 0)
-    aside = settled(profile)
+    aside = grab_at_rest(profile)
     assert not difference(aside, before).is_small
     profile.simulation.setPen(pg.mkPen("#009e73"))
-    coloured = settled(profile)
+    coloured = grab_at_rest(profile)
     assert not difference(coloured, aside).is_small
     profile.legend.show_line("band", False)
-    assert not difference(settled(profile), coloured).is_small
+    assert not difference(grab_at_rest(profile), coloured).is_small
 
 
 def test_other_hints_of_a_font_do_not_count(qapp: QApplication, profile: ProfileView) -> None:
-    before = settled(profile)
+    before = grab_at_rest(profile)
     font = QFont(qapp.font())
     font.setHintingPreference(QFont.HintingPreference.PreferVerticalHinting)
     qapp.setFont(font)
-    seen = difference(settled(profile), before)
+    seen = difference(grab_at_rest(profile), before)
     assert seen.is_small
     assert seen.colour > 0.0  # the text is drawn otherwise
 

@@ -32,7 +32,7 @@ from occ_model.results.photo_table import PhotoRow, PhotoTable, csv_text
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
 
 
-def found_with(readout: float, *doubts: str) -> Match:
+def match_of_readout(readout: float, *doubts: str) -> Match:
     return match_with(
         readout_time=readout, exposure_time=8e-5, correlation=0.98765, exposure_reasons=doubts,
         uncertainties={"readout_time": 2e-9, "exposure_time": 4e-7},
@@ -41,7 +41,7 @@ def found_with(readout: float, *doubts: str) -> Match:
 
 def row(path: Path, readout: float = 7e-6, verdict: str = "sure", note: str = "") -> PhotoRow:
     return PhotoRow(
-        path, verdict, note, found_with(readout), noted_exposure=7.9e-5, lines=1000,
+        path, verdict, note, match_of_readout(readout), noted_exposure=7.9e-5, lines=1000,
         size=(600, 1000), scanned_along="lines",
     )  # fmt: skip
 
@@ -142,12 +142,12 @@ def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
     assert column(view, ESTIMATE)[0] == "7.0000 ± 0.0020 µs"
     assert column(view, EXPOSURE)[4] == ""
     assert column(view, NOTE)[3:5] == [ROWS[3].note, ROWS[4].note]
-    rows = (replace(ROWS[0], match=found_with(7e-6, "Few edges.")), *ROWS[1:])
+    rows = (replace(ROWS[0], match=match_of_readout(7e-6, "Few edges.")), *ROWS[1:])
     listed.show_table(table_of(MatchSettings(occ.Scene()), rows))
     assert column(view, VERDICT)[0] == "● sure"
     assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
     listed.show_photo(replace(photo, path=PATHS[0]))
-    listed.change(outcome=MatchOutcome(None, found_with(7e-6), GIVEN))
+    listed.change(outcome=MatchOutcome(None, match_of_readout(7e-6), GIVEN))
     assert column(view, VERDICT)[:2] == ["● sure, earlier match", "● sure"]
 
 
@@ -244,7 +244,7 @@ def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(
     assert view.work.progress.text() == "1 of 6"
 
 
-def marked(view: ManyPhotosView) -> list[str]:
+def names_of_marked_photos(view: ManyPhotosView) -> list[str]:
     """Name the photos whose rows have the colours of a selection."""
     role = Qt.ItemDataRole.BackgroundRole
     chosen = view.table.selectionModel().selectedRows()
@@ -258,14 +258,14 @@ def test_a_click_on_a_row_opens_its_photo_which_is_marked_however_it_was_opened(
     view.show()
     place = view.table.visualRect(view.rows.index(2, PHOTO)).center()
     qtbot.mouseClick(view.table.viewport(), Qt.MouseButton.LeftButton, pos=place)
-    assert marked(view) == [], "it may be no photo"
+    assert names_of_marked_photos(view) == [], "it may be no photo"
     listed.show_photo(replace(photo, path=PATHS[2]))
-    assert marked(view) == [PATHS[2].name]
+    assert names_of_marked_photos(view) == [PATHS[2].name]
     listed.show_photo(replace(photo, path=PATHS[4]))
     qtbot.keyClick(view.table, Qt.Key.Key_Up)
-    assert marked(view) == [PATHS[4].name]
+    assert names_of_marked_photos(view) == [PATHS[4].name]
     listed.show_photo(replace(photo, path=Path("another.jpg")))
-    assert marked(view) == []
+    assert names_of_marked_photos(view) == []
     with qtbot.waitSignal(view.photo_chosen) as chosen:
         view.table.clicked.emit(view.rows.index(2, VERDICT))
     assert chosen.args == [PATHS[2]]
@@ -294,7 +294,7 @@ class Bench:
         try:
             if len(paths) == 1:
                 frequency = settings.scene.transmitter.switching_frequency
-                found = replace(found_with(7e-6), switching_frequency=frequency)
+                found = replace(match_of_readout(7e-6), switching_frequency=frequency)
                 yield 0, replace(row(paths[0]), match=found)
                 return
             yield 0, ROWS[0]

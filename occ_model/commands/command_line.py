@@ -34,6 +34,12 @@ def make_parser(command: str | None = None) -> Parser:
     return parser
 
 
+def commands_of(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """Return the parsers of a program's commands by name."""
+    actions = (each for each in parser._actions if isinstance(each, argparse._SubParsersAction))
+    return {name: command for action in actions for name, command in action.choices.items()}
+
+
 def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
     """Parse a command line for :func:`run_command`."""
     words = sys.argv[1:] if arguments is None else arguments

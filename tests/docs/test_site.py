@@ -14,7 +14,7 @@ from documents import FOLDER, PAGES, ROOT, blocks, text_of
 from PIL import Image
 
 import occ_model as occ
-from occ_model.commands.command_line import make_parser
+from occ_model.commands.command_line import commands_of, make_parser
 
 CONFIGURATION = ROOT / "resources" / "site" / "mkdocs.yml"
 EXAMPLES = sorted((ROOT / "resources" / "site" / "gallery").glob("*.py"))
@@ -90,14 +90,7 @@ def check_reference(site: Path) -> None:
         if not name.startswith("_"):
             assert any(each.endswith(f".{name}") for each in python), name
     commands = names_in(site / "reference" / "command-line.html")
-    assert {f"occ-model-{name}" for name in command_names()} <= commands
-
-
-def command_names() -> list[str]:
-    """Read the commands from the program's own help."""
-    found = re.findall(r"^    ([a-z][\w-]*)(?:  |$)", make_parser().format_help(), re.MULTILINE)
-    assert len(found) > 12
-    return found
+    assert {f"occ-model-{name}" for name in commands_of(make_parser())} <= commands
 
 
 def test_the_site_lists_the_pages_of_the_manual() -> None:

@@ -1,14 +1,12 @@
 """Makes the reference: the public names from their docstrings, the commands from their help."""
 
-import argparse
-from collections.abc import Iterator
 from inspect import unwrap
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
 import occ_model
-from occ_model.commands.command_line import make_parser
+from occ_model.commands.command_line import commands_of, make_parser
 
 GROUPS = {
     "scene": "Scenes and presets",
@@ -50,15 +48,9 @@ def public_places() -> dict[str, str]:
 def command_page() -> str:
     """Return the page of all commands with their help."""
     lines = ["# Command line", ""]
-    for name, parser in _commands(make_parser()):
+    for name, parser in commands_of(make_parser()).items():
         lines += [f"## occ-model {name}", "", "```text", parser.format_help().rstrip(), "```", ""]
     return "\n".join(lines)
-
-
-def _commands(parser: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.ArgumentParser]]:
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            yield from action.choices.items()
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:

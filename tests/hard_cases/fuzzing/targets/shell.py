@@ -15,6 +15,7 @@ from typing import NoReturn
 import damaged_photos
 import numpy as np
 from PIL import Image
+from program_options import all_actions
 
 import occ_model as occ
 from hard_cases.fuzzing.mutations import random_number, random_quantity, random_text
@@ -56,20 +57,18 @@ _SCENELESS = ("bench", "figures", "codes", "presets", "parameters")
 
 _SMALL = ("--scene", "{in}.toml")
 
-OPTIONS = (
-    "--preset", "--scene", "--set", "--tolerance", "--observable", "--on", "--off", "--noise",
-    "--seed",
-    "-o", "--out", "--vary", "--decoder", "--rate", "--back", "--frames", "--frame-rate",
-    "--frame-jitter", "--camera-drift", "--transmitter-drift", "--exposures", "--waypoint",
-    "--bits", "--images", "--fps", "--jobs", "--plot", "--show", "--path", "--scheme",
-    "--exposure", "--snr", "--at-exposure", "--at-snr", "--rows", "--payload-bits",
-    "--pictures", "--scan-axis", "--channel", "--follow", "--readout-tolerance",
-    "--led-frequency", "--sent", "--estimate", "--fit-gamma", "--region", "--lamps", "--chips",
-    "--photo-68us", "--photo-136us", "--board", "--markdown", "--picture", "--rows-step",
-    "--save-scene", "--help", "-h", "--version", "--pre", "--s", "--o", "--no-such", "-x", "--",
-    "-", "---", "--set=", "-oo", "--out=", "--photo", "--match", "--overlay", "--size",
-    "--screenshot", "--mode", "--dock", "--theme", "--fresh",
+_NO_OPTIONS = (
+    "--no-such", "--pre", "--s", "--o", "--set=", "--out=", "-x", "-oo", "--", "-", "---",
 )  # fmt: skip
+"""Beginnings of options, and words that look like options."""
+
+
+@cache
+def _options() -> tuple[str, ...]:
+    """Return the options of both programs, and words that look like options."""
+    known = {each for action in all_actions() for each in action.option_strings}
+    return (*sorted(known), *_NO_OPTIONS)
+
 
 _KEPT = ("--jobs", "--images")
 """Options of which valid values may start processes or hours of work."""
@@ -132,7 +131,7 @@ def _make_words(random: Random, folder: Path, command: str, usual: Sequence[str]
     for _ in range(random.choice((0, 1, 1, 1, 2, 3))):
         place, kind = random.randint(0, len(words)), random.randrange(6)
         if kind < 3:
-            option = random.choice(OPTIONS)
+            option = random.choice(_options())
             value = _random_value(random, folder)
             if option in _KEPT and random.random() < 0.8:
                 value = random.choice(("0", "1", "-1", "x", "1e9", "99999999999"))

@@ -6,50 +6,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from small_rooms import small_room
+from full_workspaces import A_FILE, full_workspace
 
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.session import LARGEST_FILE, SessionFile
 from occ_gui.files.session_record import SavedSession, make_record, read_session
-from occ_gui.values.choices import (
-    FilmChoice,
-    LoadOptions,
-    MatchChoice,
-    PhotoChoice,
-    PhotoFrame,
-    RoomChoice,
-)
-from occ_gui.values.simulated import PinnedScene, SimulationRequest
-from occ_model.results.decoding import Region
-from occ_model.scene.recording import Recording
-from occ_model.scene.scene import Scene, SimulationSettings
-
-HERE = Path(__file__)
-
-
-def everything_set() -> Workspace:
-    """Return a workspace in which no field has its first value."""
-    scene = Scene().replace(iso=321.0)
-    photo = PhotoChoice(
-        HERE, LoadOptions("lines", "green"), parts={PhotoFrame(HERE): Region(1, 20, 3, 40)},
-        form=MatchChoice("lamp", 750.0, "switching_frequency", fit_gamma=True),
-        certain={"readout_time": 8e-6},
-    )  # fmt: skip
-    recording = Recording(
-        frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
-    )
-    film = FilmChoice(HERE, "lines", recording=recording, frames=7)
-    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, seed=7)
-    pin = PinnedScene(SimulationRequest(scene, settings, more_decoders=("sequence",)), "phone-68us")
-    return Workspace(
-        scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,
-        photo=photo, film=film, room=RoomChoice("my.toml", small_room(), HERE, 0.031),
-        pins=(None, pin), preset="tablet-61us", scene_file=HERE,
-    )  # fmt: skip
+from occ_gui.values.choices import PhotoChoice, RoomChoice
+from occ_model.scene.scene import Scene
 
 
 def test_every_setting_is_restored(tmp_path: Path) -> None:
-    first, workspace = Workspace(Scene()), everything_set()
+    first, workspace = Workspace(Scene()), full_workspace()
     same = [each.name for each in fields(first)
             if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
     assert not same
@@ -87,10 +54,10 @@ DAMAGED: list[tuple[tuple[str, ...], object]] = [
 
 @pytest.mark.parametrize(("place", "value"), DAMAGED)
 def test_an_invalid_part_alone_gets_its_first_value(place: tuple[str, ...], value: object) -> None:
-    workspace = everything_set()
+    workspace = full_workspace()
     first: dict[str, Any] = {
         "room": RoomChoice(),
-        "photo": PhotoChoice(HERE, parts=workspace.photo.parts),
+        "photo": PhotoChoice(A_FILE, parts=workspace.photo.parts),
         "settings": FIRST_SETTINGS,
     }
     if place == ("room", "photo"):  # a file that is gone

@@ -15,8 +15,7 @@ import numpy as np
 from hard_cases.fuzzing.mutations import encode_text, mutate_text, random_number
 from hard_cases.fuzzing.target import FuzzTarget
 from hard_cases.fuzzing.targets.typed import check_scene
-from occ_model.results.decoding import Region
-from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:  # Qt is slow to import, and only the targets of the window need it
     from occ_gui.files.session_record import SavedSession
@@ -28,55 +27,23 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 @cache
 def session_text() -> str:
     """Return the text of a complete session file."""
+    from full_workspaces import full_workspace
+
     from occ_gui.core.store import History, StepChange
-    from occ_gui.core.workspace import UndoState, Workspace
+    from occ_gui.core.workspace import UndoState
     from occ_gui.files.session import SessionFile
     from occ_gui.files.session_record import SavedSession
-    from occ_gui.values.choices import (
-        FilmChoice,
-        LoadOptions,
-        MatchChoice,
-        PhotoChoice,
-        PhotoFrame,
-        RoomChoice,
-    )
-    from occ_gui.values.simulated import PinnedScene, SimulationRequest
-    from occ_model.room.rooms import load_room
-    from occ_model.scene.recording import Recording
 
-    settings = SimulationSettings(tolerance=0.5, force={"vignetting": False}, seed=3)
+    workspace = full_workspace()
+    room = workspace.room
+    assert room.room is not None
+    steps = (
+        StepChange("change", {"iso": 200.0}, {}),
+        StepChange("room", {}, {"jpeg": True}, room, "phone-68us"),
+        StepChange("move", {}, {"jpeg": True}, replace(room, room=room.room.replace(y=1.0))),
+    )
     with TemporaryDirectory() as folder:
         file = SessionFile(Path(folder))
-        path, form = Path(__file__), MatchChoice("lamp", 500.0, "switching_frequency")
-        room = load_room("hall").replace(x=1.0, y=-2.0)
-        chosen_room = RoomChoice("hall", room, path, 0.026)
-        moved_room = replace(chosen_room, room=room.replace(y=1.0), photo=None)
-        steps = (
-            StepChange("change", {"iso": 200.0}, {}),
-            StepChange("room", {}, {"jpeg": True}, chosen_room, "phone-68us"),
-            StepChange("move", {}, {"jpeg": True}, moved_room),
-        )
-        workspace = Workspace(
-            Scene(),
-            settings,
-            decoder="matched",
-            frame_rate=24.0,
-            scene_file=path,
-            photo=PhotoChoice(
-                path,
-                LoadOptions("lines", "red"),
-                parts={PhotoFrame(path): Region(0, 9, 0, 9)},
-                form=form,
-                certain={"readout_time": 8e-6},
-            ),
-            film=FilmChoice(path, "lines", recording=Recording(frame_rate=24.0), frames=9),
-            room=chosen_room,
-            preset="phone-68us",
-            pins=(
-                PinnedScene(SimulationRequest(Scene(), settings, more_decoders=("sequence",))),
-                None,
-            ),
-        )
         session = SavedSession(workspace, History(UndoState(Scene(), {}), steps, done=1))
         file.write(session, in_use=True)
         file.close()

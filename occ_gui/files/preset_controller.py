@@ -10,14 +10,7 @@ from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
-from occ_model.scene.presets import (
-    Preset,
-    all_presets,
-    delete_preset,
-    preset_named,
-    unreadable_presets,
-    user_presets,
-)
+from occ_model.scene.presets import delete_preset, preset_named, read_presets
 from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -32,24 +25,27 @@ class PresetController(QObject):
         super().__init__(window)
         self._window = window
         self._store = store
-        self.user_presets: tuple[str, ...] = ()
-        self._presets: list[Preset] = []
-        self._unreadable: dict[str, str] = {}
-        self._read_presets()
+        self._loaded = read_presets()
+        self._record_preset()
         store.changed.connect(self._record_preset)
 
     @property
     def titles(self) -> list[tuple[str, str]]:
         """Names and titles of the presets, the built-in ones before the user's own."""
-        return [(preset.name, preset.title) for preset in self._presets]
+        return [(preset.name, preset.title) for preset in self._loaded.every]
+
+    @property
+    def user_presets(self) -> tuple[str, ...]:
+        return tuple(preset.name for preset in self._loaded.own)
 
     @property
     def unreadable(self) -> list[tuple[str, str]]:
         """Names of the user's preset files that cannot be read, with the reasons."""
-        return list(self._unreadable.items())
+        problems = self._loaded.problems
+        return [(name, one_line(reason, LONGEST_TEXT)) for name, reason in problems.items()]
 
     def name_of(self, scene: Scene) -> str:
-        return next((p.name for p in self._presets if p.scene == scene), "")
+        return next((p.name for p in self._loaded.every if p.scene == scene), "")
 
     @property
     def shown_names(self) -> tuple[str, str]:
@@ -92,7 +88,7 @@ class PresetController(QObject):
                 self.status_message.emit(f"Saved the preset {name}")
 
     def ask_to_delete(self) -> None:
-        names = [*user_presets(), *self._unreadable]
+        names = _list_own_names()
         if not names:
             self.status_message.emit("There is no preset of your own.")
             return
@@ -110,7 +106,7 @@ class PresetController(QObject):
         self.status_message.emit(f"Deleted the preset {name}")
 
     def _may_replace(self, name: str) -> bool:
-        if name not in user_presets() and name not in self._unreadable:
+        if name not in _list_own_names():
             return True
         answer = QMessageBox.question(
             self._window, "Save as preset", f"There is a preset {name} already. Replace it?"
@@ -118,13 +114,12 @@ class PresetController(QObject):
         return answer == QMessageBox.StandardButton.Yes
 
     def update(self) -> None:
-        self._read_presets()
+        self._loaded = read_presets()
+        self._record_preset()
         self.changed.emit()
 
-    def _read_presets(self) -> None:
-        self._presets = list(all_presets())
-        self.user_presets = user_presets()
-        self._unreadable = {
-            name: one_line(reason, LONGEST_TEXT) for name, reason in unreadable_presets().items()
-        }
-        self._record_preset()
+
+def _list_own_names() -> list[str]:
+    """List the names of the user's preset files, those that cannot be read last."""
+    loaded = read_presets()
+    return [*(preset.name for preset in loaded.own), *loaded.problems]

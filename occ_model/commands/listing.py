@@ -8,7 +8,7 @@ from occ_model.errors import OccError, one_line
 from occ_model.receiver.decode import decoder_named, decoders
 from occ_model.receiver.decoder import Decoder
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
+from occ_model.scene.presets import preset_named, read_presets
 from occ_model.scene.units import HERTZ
 from occ_model.transmitter.framings.framing import Framing
 from occ_model.transmitter.line_codes.line_code import LineCode
@@ -32,9 +32,10 @@ def add_to(commands: Commands) -> None:
 
 def _print_presets(options: argparse.Namespace) -> int:
     if options.name is None:
-        for preset in all_presets():
+        loaded = read_presets()
+        for preset in loaded.every:
             print(f"{preset.name:20}{one_line(preset.title)}")
-        for name, reason in unreadable_presets().items():
+        for name, reason in loaded.problems.items():
             print(f"{name:20}cannot be used: {reason}")
         return 0
     preset = preset_named(options.name)

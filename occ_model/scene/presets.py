@@ -46,6 +46,17 @@ class Preset:
     assumed: Mapping[str, str]  # The reason for a value without a source, by the parameter's name
 
 
+@dataclass(frozen=True, slots=True)
+class LoadedPresets:
+    package: tuple[Preset, ...]
+    own: tuple[Preset, ...]  # The user's
+    problems: Mapping[str, str]  # Why other files of the user cannot be used, by printable name
+
+    @property
+    def every(self) -> tuple[Preset, ...]:
+        return (*self.package, *self.own)
+
+
 def preset_from(name: str, text: str) -> Preset:
     """Parse a preset; a text without a title gets the name as its title."""
     preset = _combine_layers(name, _parse_layers(text))
@@ -141,24 +152,29 @@ _WINDOWS_DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
 def presets() -> tuple[str, ...]:
     """List the names of the presets: those of the package, then the user's own.
 
-    A file of the user that cannot be read as a preset is left out; :func:`unreadable_presets` says
-    why.
+    A file of the user that cannot be read as a preset is left out; :func:`read_presets` says why.
     """
     return (*_package_names(), *user_presets())
 
 
 def user_presets() -> tuple[str, ...]:
-    return tuple(_read_own()[0])
+    return tuple(preset.name for preset in read_presets().own)
 
 
-def all_presets() -> tuple[Preset, ...]:
-    """Load all presets that can be read: those of the package, then the user's own."""
-    return (*(package_preset(name) for name in _package_names()), *_read_own()[0].values())
-
-
-def unreadable_presets() -> dict[str, str]:
-    """Return why preset files of the user cannot be used, as printable texts by name."""
-    return _read_own()[1]
+def read_presets() -> LoadedPresets:
+    """Load all presets that can be read."""
+    own: list[Preset] = []
+    problems: dict[str, str] = {}
+    for path in resources.files_in(user_folder(), ENDING):
+        name = path.stem
+        try:
+            problem = _name_problem(name)
+            if problem is not None:
+                raise SceneFileError(f"The preset file {one_line(str(path))}: {problem}")
+            own.append(_load_own(name))
+        except OccError as error:
+            problems[one_line(name)] = str(error)
+    return LoadedPresets(tuple(map(package_preset, _package_names())), tuple(own), problems)
 
 
 def load_preset(name: str) -> Scene:
@@ -262,22 +278,6 @@ def _own_names() -> tuple[str, ...]:
     return tuple(
         p.stem for p in resources.files_in(user_folder(), ENDING) if _name_problem(p.stem) is None
     )
-
-
-def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
-    """Load the user's own presets by name, and the reasons for files that are not presets."""
-    loaded: dict[str, Preset] = {}
-    failures: dict[str, str] = {}
-    for path in resources.files_in(user_folder(), ENDING):
-        name = path.stem
-        try:
-            problem = _name_problem(name)
-            if problem is not None:
-                raise SceneFileError(f"The preset file {one_line(str(path))}: {problem}")
-            loaded[name] = _load_own(name)
-        except OccError as error:
-            failures[one_line(name)] = str(error)
-    return loaded, failures
 
 
 def _own_file(name: str) -> Path:

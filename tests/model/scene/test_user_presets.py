@@ -8,13 +8,12 @@ from occ_model.cli import main
 from occ_model.errors import OutputError, ParameterError, PresetError, SceneFileError
 from occ_model.scene.presets import (
     USER_FOLDER,
-    all_presets,
     delete_preset,
     load_preset,
     preset_named,
     presets,
+    read_presets,
     save_preset,
-    unreadable_presets,
     user_folder,
     user_presets,
 )
@@ -127,8 +126,8 @@ def test_a_hostile_preset_gets_a_short_reason_and_stops_nothing(
     whole = content if isinstance(content, bytes) else f"format = 1\n{content}\n".encode()
     path = own / f"{name}.toml"
     path.write_bytes(whole)
-    assert [preset.name for preset in all_presets()] == [*before, "good"] == [*presets()]
-    ((file, reason),) = unreadable_presets().items()
+    assert [preset.name for preset in read_presets().every] == [*before, "good"] == [*presets()]
+    ((file, reason),) = read_presets().problems.items()
     assert file == name
     with pytest.raises((SceneFileError, ParameterError)) as refused:
         load_preset(name)
@@ -171,7 +170,7 @@ def test_a_file_whose_name_no_preset_can_have_is_listed_as_such(
     save_preset("good", MINE)
     (own / "good.toml").with_name(f"{name}.toml").write_bytes((own / "good.toml").read_bytes())
     assert presets() == (*before, "good")
-    ((file, reason),) = unreadable_presets().items()
+    ((file, reason),) = read_presets().problems.items()
     assert file == ODD_NAMES[name]
     assert reason.endswith(".")
     assert reason.isprintable()
@@ -186,7 +185,7 @@ def test_hidden_files_of_editors_and_systems_are_not_listed(own: Path) -> None:
     (own / "._good.toml").write_bytes(b"\0\5\26\7")
     (own / ".#good.toml").symlink_to("somebody@somewhere.1")
     assert user_presets() == ("good",)
-    assert unreadable_presets() == {}
+    assert read_presets().problems == {}
 
 
 def test_a_folder_and_a_link_to_nothing_are_listed_as_unreadable(own: Path) -> None:
@@ -194,7 +193,7 @@ def test_a_folder_and_a_link_to_nothing_are_listed_as_unreadable(own: Path) -> N
     (own / "a folder.toml").mkdir()
     (own / "link.toml").symlink_to("nowhere")
     assert user_presets() == ()
-    reasons = unreadable_presets()
+    reasons = read_presets().problems
     assert reasons["a folder"] == f"{own / 'a folder.toml'} cannot be read: it is a folder."
     assert reasons["link"].endswith("cannot be read: No such file or directory.")
 

@@ -16,7 +16,7 @@ from hard_cases.fuzzing.target import FuzzTarget
 from hard_cases.fuzzing.targets.typed import check_scene
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.scene.from_text import read_scene_file
-from occ_model.scene.presets import USER_FOLDER as PRESETS, preset_from, presets, unreadable_presets
+from occ_model.scene.presets import USER_FOLDER as PRESETS, preset_from, presets, read_presets
 from occ_model.scene.provenance import Provenance, first_scene_in
 from occ_model.scene.recording import Recording, Waypoint
 from occ_model.teaching.lessons import USER_FOLDER as LESSONS, lessons, read_lesson
@@ -67,7 +67,7 @@ def _list_own_files(random: Random, folder: Path) -> list[str]:
         patch.setenv(LESSONS, str(folder))
         for name in presets():
             check_scene(occ.load_preset(name))
-        problems = {**unreadable_presets(), **lessons().problems}
+        problems = {**read_presets().problems, **lessons().problems}
     for name in problems:
         assert name.isprintable()
     return list(problems.values())

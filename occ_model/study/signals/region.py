@@ -180,13 +180,13 @@ class _RowsOfCells:
             is_sure |= fraction > _SURELY_ENOUGH
         enough = (fraction > least).astype(np.float32)
         is_open = np.nonzero(~is_sure)
-        enough[is_open] = _more_than(least, fraction[is_open].astype(np.float64), pixels)
+        enough[is_open] = chance_of_more_than(least, fraction[is_open].astype(np.float64), pixels)
         log_none = _log_dark(enough)
         in_row = -np.expm1(log_none.sum(axis=2))[:, self._kind]
         return in_row, -np.expm1((self._rows * log_none).sum(axis=1))
 
 
-def _more_than(least: float, fraction: FloatArray, pixels: int) -> FloatArray:
+def chance_of_more_than(least: float, fraction: FloatArray, pixels: int) -> FloatArray:
     """Return the probability that a cell has more than a fraction of bright pixels."""
     most = math.floor(least * pixels)
     if pixels > _MOST_SUMMED:

@@ -1,5 +1,6 @@
 """The benchmark measures what it states, and agrees with closed forms."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -87,15 +88,13 @@ def test_the_bench_and_the_bit_error_rate_count_the_same_errors() -> None:
 
 
 def test_rejected_bits_count_in_the_rate_but_not_as_payload_per_second(
-    monkeypatch: pytest.MonkeyPatch,
+    offer_decoders: Callable[..., None],
 ) -> None:
-    from occ_model.study.bench import bench as module
+    def doubt(signal: FloatArray, scene: Scene) -> DecodeResult:
+        return replace(decode(signal, scene), failure="The chips are not certain enough.")
 
-    def doubting(signal: FloatArray, scene: Scene, name: str) -> DecodeResult:
-        return replace(decode(signal, scene, name), failure="The chips are not certain enough.")
-
-    monkeypatch.setattr(module, "decode", doubting)
-    one = BenchRequest(decoders=("threshold",), exposures=(0.5,), decibels=(30.0,),
+    offer_decoders(doubting=doubt)
+    one = BenchRequest(decoders=("doubting",), exposures=(0.5,), decibels=(30.0,),
                        payload_bits=64, bits=128)  # fmt: skip
     found = bench(one)[0].errors
     assert found.errors == 0

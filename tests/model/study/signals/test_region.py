@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from occ_model.receiver.signal import locate
 from occ_model.results.decoding import Region
-from occ_model.study.signals.region import BrightPixels, _more_than
+from occ_model.study.signals.region import BrightPixels, chance_of_more_than
 
 ROWS, COLUMNS = 400, 1100
 SPAN = Region(60, 320, 303, 800)
@@ -53,6 +53,6 @@ def test_the_drawn_rectangle_has_the_distribution_of_the_one_found_in_pixels(
 @pytest.mark.parametrize("pixels", [1, 9, 400, 170_000])
 def test_bright_pixels_in_a_cell_of_any_size_follow_the_binomial_law(pixels: int) -> None:
     fraction = np.array([0.0, 0.1, 0.3, 1.0])
-    found = _more_than(0.2, fraction, pixels)
+    found = chance_of_more_than(0.2, fraction, pixels)
     drawn = np.random.default_rng(1).binomial(pixels, fraction, (20_000, 4)) > 0.2 * pixels
     assert found == pytest.approx(drawn.mean(axis=0), abs=0.015)

@@ -18,7 +18,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray, Pixels
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
@@ -27,7 +27,7 @@ from occ_model.effects.plan import plan
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import Light, light_of
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
-from occ_model.results.frame import Plan
+from occ_model.results.frame import Frame, Plan
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
@@ -143,7 +143,7 @@ def _measure_effects(
     current: bool = False,
 ) -> AccuracyPoint:
     error = complete.error_of(effects)
-    seconds, _ = time_moves(partial(_render, effects=frozenset(effects), settings=settings), scene)
+    seconds, _ = time_moves(_rendering(effects, settings), scene)
     return AccuracyPoint("effects", name, seconds, error, current, tuple(effects))
 
 
@@ -151,31 +151,32 @@ def _label(chosen: Plan, effect: str) -> str:
     return next(d.label for d in chosen.decisions if d.effect == effect)
 
 
-def _render(scene: Scene, effects: frozenset[str], settings: SimulationSettings) -> object:
+def _rendering(
+    effects: Sequence[str], settings: SimulationSettings, rows_step: int = 1
+) -> Callable[[Scene], Frame]:
+    """Return a function that renders a scene with exactly these effects."""
     force = dict.fromkeys(sorted(effects), True)
-    return render(scene, tolerance=np.inf, seed=settings.seed, force=force)
+    return partial(render, tolerance=np.inf, seed=settings.seed, force=force, rows_step=rows_step)
 
 
-def _observe(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixels:
-    return observe(scene, chosen, seed=settings.seed)
+def _panel_columns(scene: Scene) -> slice:
+    region = paper_view_of(scene).region
+    return slice(region.first_column, region.last_column)
 
 
 def _measure_paths(
     scene: Scene, settings: SimulationSettings, chosen: Plan
 ) -> Iterator[AccuracyPoint]:
     """Compare the profile path and the image path with the profile that has all effects."""
-    region = paper_view_of(scene).region
-    seen = slice(region.first_column, region.last_column)
-    truth = _observe(scene, plan(scene, 0.0, "profile"), settings)
+    seed, seen = settings.seed, _panel_columns(scene)
+    truth = observe(scene, plan(scene, 0.0, "profile"), seed=seed)
     seconds, columns = time_moves(lambda moved: expose_columns(paper_view_of(moved), chosen), scene)
     error = rms(columns.profile[seen] - truth) * chosen.stretch
     if panel_span(scene) is not None:
         yield AccuracyPoint("path", "profile path", seconds, error)
     by_image = plan_of_effects(scene, "profile", chosen.included)
-    difference = _observe(scene, by_image, settings) - truth
-    seconds, _ = time_moves(
-        partial(_render, effects=frozenset(chosen.included), settings=settings), scene
-    )
+    difference = observe(scene, by_image, seed=seed) - truth
+    seconds, _ = time_moves(_rendering(chosen.included, settings), scene)
     yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch)
 
 
@@ -186,14 +187,10 @@ def _measure_drafts(
     steps = draft_steps(scene)
     if not steps:
         return
-    seed = settings.seed
-    region = paper_view_of(scene).region
-    seen = slice(region.first_column, region.last_column)
-    truth = render(scene, tolerance=0.0, seed=seed).profile[seen]
-    force = dict.fromkeys(chosen.included, True)
+    seen = _panel_columns(scene)
+    truth = render(scene, tolerance=0.0, seed=settings.seed).profile[seen]
     for step in steps:
-        work = partial(render, tolerance=np.inf, seed=seed, force=force, rows_step=step)
-        seconds, frame = time_moves(work, scene)
+        seconds, frame = time_moves(_rendering(chosen.included, settings, step), scene)
         error = rms(frame.profile[seen] - truth) * chosen.stretch
         yield AccuracyPoint("draft", f"draft 1/{step}", seconds, error)
 

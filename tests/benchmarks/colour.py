@@ -133,11 +133,7 @@ def study() -> None:
     for name in ("0 %", "30 %"):
         for frequency in (10.4e3, 10.8e3, 11.2e3, 11.6e3):
             scene = colour_scene(136e-6, frequency, demosaicing="none", **MIXINGS[name])
-            pictures = np.zeros(3)
-            for sent, seed in random_scenes(scene, CODES, 91):
-                reading = occ.decode_colours(occ.render_colour(sent, seed=seed).image, sent)
-                pairs = zip(reading.results, sent_codes(sent), strict=True)
-                pictures += [result.code == code for result, code in pairs]
+            (pictures,) = right_codes(scene, ("threshold",), CODES, 91)
             studied = np.zeros(3)
             for place, colour in enumerate(("red", "green", "blue")):
                 for sent, seed in random_scenes(scene, CODES, 92):
@@ -177,16 +173,21 @@ def csk() -> None:
                 print(kind, f"{exposure * 1e6:.0f} us", crosstalk, clean / 1e3, failed / 1e3)
 
 
+def white_lamp(frequency: float, exposure: float, **changes: float) -> Scene:
+    """Return a scene of which a white lamp that blinks fills the picture."""
+    return occ.load_preset("phone-68us-colour").replace(
+        colour_light="white", light="lamp", lamp_frequency=frequency, crosstalk=0.0, rows=64,
+        exposure_time=exposure, panel_width=20.0, panel_height=20.0, **changes,
+    )  # fmt: skip
+
+
 def stripes() -> None:
     print("stripes: columns a period, and of the false stripe; its amplitude in red and blue, as a")
     print("  fraction of white light, and its closed form; swing of red, green, blue in levels")
     for frequency in (40e3, 55e3, 62e3):
         for exposure in (10e-6, 68e-6, 136e-6):
-            scene = occ.load_preset("phone-68us-colour").replace(
-                colour_light="white", light="lamp", lamp_frequency=frequency, crosstalk=0.0,
-                exposure_time=exposure, rows=64, panel_width=20.0, panel_height=20.0,
-                iso=100.0 * 68e-6 / exposure, start_time=1.234e-3,
-            )  # fmt: skip
+            iso = 100.0 * 68e-6 / exposure
+            scene = white_lamp(frequency, exposure, iso=iso, start_time=1.234e-3)
             frame = occ.render_colour(scene, force=QUIET)
             light = light_of_greys(scene.camera.gamma)
             seen = light[frame.image[32:34]].mean(axis=0)[8:-8].T
@@ -215,10 +216,7 @@ def figure(file: str = "false-stripes.png") -> None:
 
     drawn, axes = pyplot.subplots(3, 1, figsize=(9, 2.8), sharex=True, layout="constrained")
     for axis, frequency in zip(axes, (40e3, 55e3, 62e3), strict=True):
-        scene = occ.load_preset("phone-68us-colour").replace(
-            colour_light="white", light="lamp", lamp_frequency=frequency, crosstalk=0.0,
-            exposure_time=10e-6, rows=64, panel_width=20.0, panel_height=20.0, iso=4000.0,
-        )  # fmt: skip
+        scene = white_lamp(frequency, 10e-6, iso=4000.0)
         image = occ.render_colour(scene, force=QUIET).image
         seen = image[30:32, 1000:1300].mean(axis=0, keepdims=True) / 255.0
         axis.imshow(seen, aspect="auto", extent=(0, 300, 0, 1))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import cv2
 import numpy as np
@@ -122,6 +123,25 @@ class PixelExposure:
             timer.end_stage(limit.name)
         return np.minimum(values, np.float32(WHITE))
 
+    def _expose_band(
+        self, camera_image: ByteArray, noise: PictureNoise | None, band: _Band
+    ) -> tuple[tuple[slice, PanelPart], ColumnMeans, StageTimer]:
+        """Expose and store a band of the camera's picture; return where it shows the panel."""
+        timer = StageTimer()
+        camera, means = camera_image[band.place], ColumnMeans(self._shape[1])
+        mean = self._mean.of(band.rows, timer.end_stage)
+        values = self._expose(mean, noise, timer, camera)
+        if values is not camera:
+            cv2.convertScaleAbs(values, dst=camera)
+        timer.end_stage("image")
+        stored = self._stored_columns(mean)
+        for file in self._files if stored else ():
+            camera[:, stored] = file.apply(self._scene, camera[:, stored])
+            timer.end_stage(file.name)
+        means.add(mean.panel, camera if self._files else values)
+        timer.end_stage("image")
+        return (band.place, mean.panel), means, timer
+
     def pictures(
         self,
         enhancement: Enhancement,
@@ -135,24 +155,7 @@ class PixelExposure:
         picture, where they are so few that it is worth while to make them first.
         """
         camera_image = np.empty(self._shape, dtype=np.uint8)
-        noise = self._prepare_noise(numbers)
-
-        def expose(band: _Band) -> tuple[tuple[slice, PanelPart], ColumnMeans, StageTimer]:
-            timer = StageTimer()
-            camera, means = camera_image[band.place], ColumnMeans(self._shape[1])
-            mean = self._mean.of(band.rows, timer.end_stage)
-            values = self._expose(mean, noise, timer, camera)
-            if values is not camera:
-                cv2.convertScaleAbs(values, dst=camera)
-            timer.end_stage("image")
-            stored = self._stored_columns(mean)
-            for file in self._files if stored else ():
-                camera[:, stored] = file.apply(self._scene, camera[:, stored])
-                timer.end_stage(file.name)
-            means.add(mean.panel, camera if self._files else values)
-            timer.end_stage("image")
-            return (band.place, mean.panel), means, timer
-
+        expose = partial(self._expose_band, camera_image, self._prepare_noise(numbers))
         means = ColumnMeans(self._shape[1])
         panels: list[tuple[slice, PanelPart]] = []
 

@@ -280,27 +280,24 @@ def results_of(
         while not listener.is_ended:
             heartbeat()
             scheduler.step(_BEAT)
-            yield from listener.take()
+            while listener.results:
+                yield listener.results.popleft()
     finally:
         scheduler.end_workers()
     if listener.error is not None:
         raise listener.error
 
 
+@dataclass(eq=False, slots=True)
 class _ResultListener:
     """Receives the results of one run."""
 
-    def __init__(self) -> None:
-        self._results: list[Any] = []
-        self.is_ended = False
-        self.error: Exception | None = None
-
-    def take(self) -> list[Any]:
-        results, self._results = self._results, []
-        return results
+    results: deque[Any] = field(default_factory=deque)
+    is_ended: bool = False
+    error: Exception | None = None
 
     def take_results(self, _run: int, results: list[Any]) -> None:
-        self._results += results
+        self.results += results
 
     def take_end(self, _run: int, error: Exception | None) -> None:
         self.is_ended, self.error = True, error

@@ -17,11 +17,7 @@ def bench() -> Bench:
     return Bench()
 
 
-BUSY = (
-    STRIPS,
-    1,
-    jobs(9, "busy", "busy too"),
-)  # all that the worker takes
+BUSY = (STRIPS, 1, jobs(9, "busy", "busy too"))  # all that the worker takes
 
 # For each law: the requests as channel, number and jobs; the jobs sent; the runs that end.
 ORDERS: dict[str, tuple[list[Any], str, list[tuple[int, int]]]] = {

@@ -6,7 +6,7 @@ field. Qt's own fields would read ``1,5`` as 15, and ignore characters that they
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QValidator
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QSpinBox
 
@@ -32,7 +32,7 @@ class CountEdit(QSpinBox):
         super().__init__()
         self._declared = declared
         self.setRange(declared.low, declared.high)
-        _set_up(self)
+        _set_up(self, self.accepted)
 
     def limit(self, high: int) -> None:
         self._declared = replace(self._declared, high=high)
@@ -55,18 +55,18 @@ class DecimalEdit(QDoubleSpinBox):
         self.setRange(declared.low, declared.high)
         if declared.unit.symbol:
             self.setSuffix(f" {declared.unit.symbol}")
-        _set_up(self)
+        _set_up(self, self.accepted)
 
     def valueFromText(self, text: str) -> float:  # noqa: N802 - Qt's name
         # Qt appends the suffix even to a unit that was typed.
         return _parse(self, self._declared, text.removesuffix(self.suffix()))
 
 
-def _set_up(field: CountEdit | DecimalEdit) -> None:
+def _set_up(field: "CountEdit | DecimalEdit | QuantityEdit", accepted: SignalInstance) -> None:
     field.setKeyboardTracking(False)
     field.notice = RefusalNotice(field)
     field.refused.connect(field.notice.show_refusal)
-    field.accepted.connect(field.notice.end)
+    accepted.connect(field.notice.end)
     leave_undo_to_window(field)
     select_number_on_double_click(field)
 
@@ -94,6 +94,7 @@ class QuantityEdit(QAbstractSpinBox):
     """
 
     validate = _validate
+    notice: RefusalNotice
 
     edited = Signal(float)  # the value that the user entered, in SI units
 
@@ -104,16 +105,11 @@ class QuantityEdit(QAbstractSpinBox):
         super().__init__()
         self._quantity = quantity
         self._value = quantity.default
-        self.setKeyboardTracking(False)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.lineEdit().textEdited.connect(self._mark_edited)
         self.editingFinished.connect(self.accept_text)
         self._is_edited = False
-        self.notice = RefusalNotice(self)
-        self.refused.connect(self.notice.show_refusal)
-        self.edited.connect(self.notice.end)
-        leave_undo_to_window(self)
-        select_number_on_double_click(self)
+        _set_up(self, self.edited)
         self._show()
 
     def value(self) -> float:

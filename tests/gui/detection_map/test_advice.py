@@ -240,10 +240,11 @@ def test_a_running_search_that_the_user_asks_for_keeps_what_it_has_found(
     view.cards.search_requested.emit()
     qtbot.waitUntil(lambda: bool(workers.jobs))
     scene = map_bench.scenes.scene
-    for decoder in [*DECODERS][:2]:
-        rough = advice_worker.RoughAnswer(decoder, find_limits(scene).frequency)
-        advisor._show_answer(rough)
-    advisor._show_answer(advice_on(scene))
+    rough = [
+        advice_worker.RoughAnswer(decoder, find_limits(scene).frequency)
+        for decoder in [*DECODERS][:2]
+    ]
+    advisor.channel.results_ready.emit(None, [*rough, advice_on(scene)])
     first, *others = (
         text for text in list_texts(view.advice) if text.startswith("The ") and "rough" in text
     )

@@ -143,11 +143,14 @@ def test_other_lights_leave_no_gap_between_the_rows(panel: ControlPanel, qtbot: 
             assert label.top() - row.bottom() < 20
 
 
-def test_a_running_slider_stops_where_another_light_has_none(panel: ControlPanel) -> None:
-    panel.connect_editor(SceneEditor(store_of()))
-    panel.player.play("switching_frequency")
-    panel.player._advance()
-    panel.show_scene(Scene().replace(light="lamp"))
+def test_a_running_slider_stops_where_another_light_has_none(
+    panel: ControlPanel, qtbot: QtBot
+) -> None:
+    store = store_of()
+    panel.connect_editor(SceneEditor(store))
+    with qtbot.waitSignal(panel.main_rows()["switching_frequency"].edited):
+        panel.player.play("switching_frequency")
+    panel.show_scene(store.scene.replace(light="lamp"))
     assert panel.player.parameter == ""
 
 

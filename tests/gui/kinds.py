@@ -1,4 +1,4 @@
-"""Kinds of what many tests of the window are given, and widgets that close with their test."""
+"""Types of common fixtures, and functions for widgets, results and signals in tests."""
 
 import pickle
 from collections.abc import Callable
@@ -26,7 +26,7 @@ Widget = TypeVar("Widget", bound=QWidget)
 
 
 def with_result(snapshot: Snapshot, result: DecodeResult) -> Snapshot:
-    """Put a result in place of that of its decoder."""
+    """Replace the result of a decoder."""
     return replace(snapshot, results={**snapshot.results, result.decoder: result})
 
 
@@ -59,7 +59,7 @@ def simulate_once(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -
 
 
 def collect(signal: Any) -> list[Any]:
-    """Return the list in which a signal's values will stand, one after the other."""
+    """Return a list to which all values of a signal will be appended."""
     values: list[Any] = []
     signal.connect(values.append)
     return values

@@ -1,4 +1,4 @@
-"""What of a window is cut off, squeezed or covered, found by geometry and font metrics alone."""
+"""Parts of a window that are cut off, squeezed or covered, by geometry and font metrics."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator

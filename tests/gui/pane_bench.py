@@ -87,7 +87,7 @@ class Present:
 
 
 class PaneBench:
-    """Stores and shell for the features that a test adds; it simulates when it is told."""
+    """Stores and a shell for the features that a test adds; simulates on request only."""
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         self.scenes, self.results_store, self.window = (
@@ -99,8 +99,8 @@ class PaneBench:
         self.simulation: Any = SimpleNamespace(
             task=Task(lambda *_: None, "no simulation"), moves=MoveLog()
         )
-        self.hear_first: list[Callable[[Snapshot], object]] = []
-        """Who hears of exact results before the panes."""
+        self.called_first: list[Callable[[Snapshot], object]] = []
+        """Functions that are called with exact results before the panes."""
         self.shell, self.said = Shell(self.store, self.results_store), list[str]()
         for said in (self.shell.status_message, self.shell.file_failed):
             said.connect(self.said.append)
@@ -109,7 +109,7 @@ class PaneBench:
         self._qtbot, self._before = qtbot, QApplication.topLevelWidgets()
 
     def add(self, feature: Feature[Any], *, seen: bool = True) -> Any:
-        """Add a pane or a service, and give what is made of it."""
+        """Add a pane or a service, and return it."""
         self.shell.add(feature, self.window)
         if feature.title and seen:
             self.see(feature.name)
@@ -126,8 +126,8 @@ class PaneBench:
             self.scenes.change(**changes)
         workspace = self.store.workspace
         snapshot = simulate_once(workspace.scene, workspace.settings)
-        for hear in self.hear_first:
-            hear(snapshot)
+        for function in self.called_first:
+            function(snapshot)
         self.results_store.show_picture(Picture(snapshot.frame, snapshot.request))
         self.results_store.show_reading(snapshot)
         self.results_store.show_snapshot(snapshot)

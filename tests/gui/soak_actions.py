@@ -77,7 +77,7 @@ def short_film() -> list[VideoFrame]:
 
 
 class FileDialogs:
-    """Answers every dialog that asks for a path with the one laid ready."""
+    """Answers every dialog that asks for a path with the path that was set last."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.path = Path()
@@ -86,7 +86,7 @@ class FileDialogs:
         monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([str(self.path)], ""))
         monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(self.path))
 
-    def lay_ready(self, path: Path) -> None:
+    def answer_with(self, path: Path) -> None:
         self.path = path
 
 
@@ -103,8 +103,8 @@ class Monkey:
         self._gesture = new_gesture()
         self._scene = smaller(occ.load_preset("phone-68us"))
         at, chance = application, self._random
-        # In an order in which each finds at the first time what it needs.
-        self._deeds: dict[Callable[[], object], int] = {
+        # In an order in which each action finds what it needs the first time.
+        self._actions: dict[Callable[[], object], int] = {
             self.move_a_slider: 1200,
             self.choose_a_word: 80,
             lambda: at.store.change(code=chance.randrange(1024), bits=10): 80,
@@ -161,28 +161,28 @@ class Monkey:
             self.write_a_report: 2,
             self.write_for_a_board: 3,
         }
-        self._never_done = list(self._deeds)
+        self._never_done = list(self._actions)
 
     def check_message(self, text: str) -> None:
-        """See that what the status line shows is one printable line of a bounded length."""
+        """Check that the status line shows one printable line of bounded length."""
         assert text.isprintable(), f"not one printable line: {text!r}"
         assert len(text) <= LONGEST_SENTENCE, f"{len(text)} characters"
 
     def act(self) -> None:
-        """Do something: at first each of all things once, then whatever comes."""
+        """Do one of the actions: first each of them once, then random ones."""
         if self._never_done:
             self._never_done.pop(0)()
             return
-        (deed,) = self._random.choices(list(self._deeds), list(self._deeds.values()))
-        deed()
+        (action,) = self._random.choices(list(self._actions), list(self._actions.values()))
+        action()
 
     def wait(self) -> None:
         """Wait until all that was asked for is shown and written."""
         self._qtbot.wait(1)  # also where nothing has to be simulated: events wait, too
         self._qtbot.waitUntil(lambda: self._application.is_idle, timeout=_PATIENCE_MS)
 
-    def come_home(self, scene: Scene) -> None:
-        """Leave what is open, so that the memory of two times can be compared."""
+    def close_everything(self, scene: Scene) -> None:
+        """Close everything, so that the memory can be compared with that of another time."""
         self.wait()  # what is still being copied would be there again
         settings = self._application.settings
         settings.set_tolerance(FIRST_SETTINGS.tolerance)
@@ -273,7 +273,7 @@ class Monkey:
         if not path.exists():
             pictures = [Image.fromarray(frame.image) for frame in short_film()]
             pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=40)
-        self._dialogs.lay_ready(path)
+        self._dialogs.answer_with(path)
         self._trigger("open_film")
 
     def close_the_film(self) -> None:
@@ -362,7 +362,7 @@ class Monkey:
         name = self._random.choice([*self._application.controls.main_rows()])
         # Not opened: the platform that draws no window warns that it cannot grab the keyboard.
         for menu in (story_menu(self._application), player.menu_of(name)):
-            self._dialogs.lay_ready(self._folder / "from-a-menu.png")
+            self._dialogs.answer_with(self._folder / "from-a-menu.png")
             entries = [entry for entry in menu.actions() if entry.isEnabled() and entry.text()]
             self._random.choice(entries[:-1]).trigger()
             menu.deleteLater()
@@ -395,16 +395,16 @@ class Monkey:
         self._guide().step.all_lessons.click()
 
     def save_the_scene(self) -> None:
-        self._dialogs.lay_ready(self._folder / "scene.toml")
+        self._dialogs.answer_with(self._folder / "scene.toml")
         self._trigger(self._random.choice(["save_scene", "save_scene_as"]))
 
     def open_the_saved_scene(self) -> None:
-        self._dialogs.lay_ready(self._folder / "scene.toml")
+        self._dialogs.answer_with(self._folder / "scene.toml")
         self._trigger("open_scene")
 
     def export_a_figure(self) -> None:
         name = self._random.choice(list(self._application.shell.figures))
-        self._dialogs.lay_ready(self._folder / f"{name}{self._random.choice(ENDINGS)}")
+        self._dialogs.answer_with(self._folder / f"{name}{self._random.choice(ENDINGS)}")
         self._trigger(f"export_{name}")
 
     def copy_a_figure(self) -> None:
@@ -415,14 +415,14 @@ class Monkey:
             self._application.shell.pane("export").copy(self._random.choice(list(titles)))
 
     def export_all(self) -> None:
-        self._dialogs.lay_ready(self._folder / "all")
+        self._dialogs.answer_with(self._folder / "all")
         self._trigger("export_all")
 
     def open_an_exported_figure(self) -> None:
         self.wait()
         path = self._random.choice(sorted((self._folder / "all").iterdir()))
         if self._random.random() < 0.5:
-            self._dialogs.lay_ready(path)
+            self._dialogs.answer_with(path)
             self._trigger("open_scene")
         else:
             self._application.window.dropped.emit([path])
@@ -484,14 +484,14 @@ class Monkey:
             view.work.cancel.click()
             return
         self.wait()
-        self._dialogs.lay_ready(self._folder / "photos.csv")
+        self._dialogs.answer_with(self._folder / "photos.csv")
         self._random.choice([view.save, view.copy]).click()
         view.table.clicked.emit(view.rows.index(self._random.randrange(_PHOTOS), 0))
 
     def keep_the_film(self) -> None:
         form = self._application.video.wiring.view.form
         form.count.setValue(3)
-        self._dialogs.lay_ready(self._folder / "kept.mkv")
+        self._dialogs.answer_with(self._folder / "kept.mkv")
         form.save.click()
         if self._random.random() < 0.3:
             form.saving.cancel.click()
@@ -502,7 +502,7 @@ class Monkey:
         for _ in range(_MOST_STEPS):
             if guide.step.isVisibleTo(guide):
                 guide.step.next.click()
-        self._dialogs.lay_ready(
+        self._dialogs.answer_with(
             self._folder / f"report.{self._random.choice(['pdf', 'md', 'png'])}"
         )
         guide.end.report.click()
@@ -516,7 +516,7 @@ class Monkey:
         dialog.board.chosen.emit(dialog.board.key())
         boards = self._folder / "boards" / str(self._random.random())
         boards.mkdir(parents=True)
-        self._dialogs.lay_ready(boards)
+        self._dialogs.answer_with(boards)
         dialog.save.click()
         self.wait()
         self._close_the_board()

@@ -1,7 +1,7 @@
 """Starts of the window's program, each in a process of its own, which share their imports.
 
-To import takes longer than to start. One process has imported all, without an application or a
-thread; each start is a copy of it, and goes on as a new process would.
+Importing takes longer than the rest of a start. One process imports everything, without an
+application or a thread; each start is a fork of it, which goes on as a new process would.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Stores for tests of what stands between them and a pane."""
+"""Stores for tests of controllers and panes."""
 
 from dataclasses import replace
 from typing import Any

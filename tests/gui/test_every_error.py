@@ -66,7 +66,7 @@ class Stage:
         self.user.wait_until_idle()
 
     def choose_file(self, entry: str, path: Path) -> None:
-        self.dialogs.lay_ready(path)
+        self.dialogs.answer_with(path)
         self.application.window.actions_by_name[entry].trigger()
         self.user.wait_until_idle()
 
@@ -186,13 +186,13 @@ class DyingWorkers(LazyWorkers):
 
 @pytest.fixture(autouse=True)
 def lazy_workers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the worker processes end when a case wants it."""
+    """Use workers that end when a case needs it."""
     monkeypatch.setattr(wiring, "new_workers", DyingWorkers)
 
 
 @pytest.fixture(autouse=True)
 def own_preset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, small_scene: Scene) -> None:
-    """Let the user have a preset when the window opens."""
+    """Save a preset of the user before the window opens."""
     monkeypatch.setenv(USER_FOLDER, str(tmp_path / "presets"))
     save_preset("mine", small_scene.replace(iso=321.0))
 

@@ -92,7 +92,7 @@ fails = occ.Decoder("fails", "Fails", fail)
 
 @pytest.fixture
 def some_plugins(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Let there be a decoder of another package that works, and one that fails."""
+    """Install a decoder of another package that works, and one that fails."""
     folder = tmp_path_factory.mktemp("plug-ins")
     offered = {name: f"soaked:{name}" for name in ("reads", "fails")}
     with importable(folder, "soaked", {plugins.DECODERS: offered}, PLUGINS):
@@ -104,7 +104,7 @@ def monkey(
     some_plugins: None, application: Application, qtbot: QtBot,
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
 ) -> Iterator[Monkey]:  # fmt: skip
-    """Let a monkey at the application, and leave the other tests their theme and clipboard."""
+    """Act at random on the application; restore theme and clipboard for the other tests."""
     monkeypatch.setattr(lessons_room, "lessons", smaller_lessons)
     GarbageCollector(application.window)  # as a program that runs has one: figures are in cycles
     monkey = Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, seed=SEED)
@@ -128,12 +128,12 @@ def test_random_actions_cause_no_exception_warning_or_leak(
         if number % 5 == 0:
             monkey.wait()
         if number % _WINDOW == 0:
-            monkey.come_home(home)
+            monkey.close_everything(home)
             # pytest-qt keeps messages of Qt that it does not look at.
             qtlog._records[:] = [each for each in qtlog._records if not each.ignored]
             used.append(used_memory())
             print(number, "actions, bytes in use and blocks of Python:", used[-1])  # noqa: T201
-    monkey.come_home(home)
+    monkey.close_everything(home)
     assert application.simulation.task.is_idle
     # A mistake of ours on another thread becomes a sentence on the screen, and a line here.
     assert [each.message for each in caplog.records if each.levelno >= logging.WARNING] == []

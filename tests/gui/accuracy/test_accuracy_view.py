@@ -24,7 +24,7 @@ class Bench(PaneBench):
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
         self.plan_changes = PlanChanges()
-        self.hear_first.append(self.plan_changes.show_snapshot)
+        self.called_first.append(self.plan_changes.show_snapshot)
         self.plan_changes.changed.connect(self.results_store.show_switched)
         self.pane: AccuracyPane = self.add(accuracy(self.scenes, self.simulation))
         self.view = self.pane.view

@@ -51,10 +51,10 @@ class Bench(PhotoBench):
         self._qtbot = qtbot
 
     def _note(self) -> None:
-        """Note when the pane shows that a match is at work, and when not any more."""
-        was, self._was_running = self._was_running, self.shown.is_matching
-        if was != self._was_running:
-            self.events.append("ended" if was else "begun")
+        """Record when a match begins and ends."""
+        was_running, self._was_running = self._was_running, self.shown.is_matching
+        if was_running != self._was_running:
+            self.events.append("ended" if was_running else "begun")
 
     def _match(self, photo: Photo, scene: Scene, *, progress: Any, **asked: Any) -> Match:
         self.asked.append({"photo": photo, "scene": scene, **asked})

@@ -56,13 +56,13 @@ class Bench(PhotoBench):
         self.go_on.set()
         self.stripes: Callable[[Photo], Stripes] = stripes_of
         monkeypatch.setattr(photo_work, "find_stripes", self._find)
-        self.work: Any = photo_work.make_stripe_updater(self.store, self.results_store)
+        self.updater: Any = photo_work.make_stripe_updater(self.store, self.results_store)
         self._qtbot = qtbot
 
-    def do(self, work: object) -> None:
-        """Do other work of the photo than to search for stripes."""
-        self.work.task.stop()
-        self.work = work
+    def run(self, updater: object) -> None:
+        """Run another updater in place of the search for stripes."""
+        self.updater.task.stop()
+        self.updater = updater
 
     def _find(self, photo: Photo, region: object = None) -> Stripes:
         assert self.go_on.wait(PATIENCE_S)
@@ -76,7 +76,7 @@ class Bench(PhotoBench):
 
     def wait(self) -> None:
         self.go_on.set()
-        self._qtbot.waitUntil(lambda: self.work.task.is_idle)
+        self._qtbot.waitUntil(lambda: self.updater.task.is_idle)
 
     def move(self, placement: Placement | None) -> None:
         document = self.results_store.results.document
@@ -105,7 +105,7 @@ def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     bench = Bench(qtbot, monkeypatch)
     yield bench
     bench.go_on.set()
-    bench.work.task.stop()
+    bench.updater.task.stop()
 
 
 def refuse(_photo: Photo) -> Stripes:
@@ -261,7 +261,7 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
 
 
 def chips_shown(bench: Bench) -> list[ChipReading | None]:
-    bench.do(photo_work.make_chip_updater(bench.store, bench.results_store))
+    bench.run(photo_work.make_chip_updater(bench.store, bench.results_store))
     chips, shown = (
         bench.results_store.select(lambda results: results.chips),
         list[ChipReading | None](),
@@ -302,7 +302,7 @@ def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
 
     monkeypatch.setattr(occ, "find_lamps", find)
     search = LampSearch(bench.photos, bench.results_store)
-    bench.do(search)
+    bench.run(search)
     bench.show_photo(photo)
     assert searched == []
     search.find()

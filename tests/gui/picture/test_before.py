@@ -185,7 +185,7 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     image = bench.add(picture_pane(bench.store, str)).view
     curves = bench.add(profile(bench.store, bench.results_store, str)).view
     before = BeforeController(bench.store, bench.results_store.show_before)
-    bench.hear_first.append(before.show_snapshot)
+    bench.called_first.append(before.show_snapshot)
     bench.simulate()
     image.before.checkbox.setChecked(True)
     _, start = curves.simulation.getOriginalDataset()

@@ -192,7 +192,7 @@ class Bench(PaneBench):
         super().__init__(qtbot, scene)
         self.pins = PinController(self.scenes, lambda shown: shown.scene == self.scenes.scene)
         self.pins.status_message.connect(self.said.append)
-        self.hear_first.append(self.pins.show_snapshot)
+        self.called_first.append(self.pins.show_snapshot)
         self.view: CompareView = self.add(compare(self.pins)).view
         self.simulate()
 

@@ -40,14 +40,14 @@ def bytes_of(
     pixels = check_pixels(pixels, name)
     if pixels.dtype == np.uint8:
         return np.ascontiguousarray(pixels)
-    white = _white_of(pixels, name, white)
+    white = white_of(pixels, name, white)
     return np.ascontiguousarray(to_bytes(pixels.astype(np.float64) * (WHITE / white)))
 
 
 def samples_of(pixels: NDArray[Any], name: str = "The image") -> Samples:
     """Round floating-point pixels to 16 bits; arguments and errors as :func:`bytes_of`."""
     pixels = check_pixels(pixels, name)
-    return pixels if pixels.dtype.kind == "u" else round_to_16_bits(pixels, _white_of(pixels, name))
+    return pixels if pixels.dtype.kind == "u" else round_to_16_bits(pixels, white_of(pixels, name))
 
 
 def round_to_16_bits(pixels: NDArray[Any], white: float) -> Samples:
@@ -56,12 +56,9 @@ def round_to_16_bits(pixels: NDArray[Any], white: float) -> Samples:
     return np.asarray(np.rint(clipped * (_WHITE_OF_16_BITS / white)), np.uint16)
 
 
-def white_of(pixels: NDArray[Any], name: str = "The image") -> float:
+def white_of(pixels: NDArray[Any], name: str = "The image", white: float | None = None) -> float:
     """Return the value that is white in pixels; arguments and errors as :func:`bytes_of`."""
-    return _white_of(check_pixels(pixels, name), name)
-
-
-def _white_of(pixels: NDArray[Any], name: str, white: float | None = None) -> float:
+    pixels = check_pixels(pixels, name)
     if pixels.dtype.kind == "u":
         return WHITE if pixels.dtype == np.uint8 else _WHITE_OF_16_BITS
     return find_white(float(pixels.min()), float(pixels.max()), name, white)

@@ -21,6 +21,7 @@ from occ_model.files.writing import (
     write_atomically,
     write_whole,
 )
+from occ_model.results.sweep_csv import switches_text
 from occ_model.scene.provenance import ENDINGS, Provenance
 from occ_model.scene.scene import SimulationSettings, unit_of
 
@@ -126,11 +127,10 @@ def write_all(
 
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
     """Format a simulation's settings, without the seed, as lines of a provenance."""
-    forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     observable = settings.observable
     return (
         f"tolerance {settings.tolerance:g} {unit_of(observable)} of the {observable}",
-        f"effects switched: {forced or 'none'}",
+        switches_text(settings.force),
     )
 
 

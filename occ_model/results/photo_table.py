@@ -6,7 +6,7 @@ from pathlib import Path
 
 from occ_model.errors import inflect, one_line, printable
 from occ_model.results.match import Match, known_parameter
-from occ_model.results.sweep_csv import csv_row
+from occ_model.results.sweep_csv import csv_row, scene_comments
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -179,9 +179,7 @@ def csv_text(table: PhotoTable, extra_notes: Sequence[str] = (), condition: str 
         *_mean_lines(table.estimate, table.estimated, condition),
         *_mean_lines("exposure_time", table.exposure_time, condition),
         *(f"# {printable(note)}" for note in (*table.notes, *extra_notes)),
-        "#",
-        "# scene of this file:",
-        *(f"# {line}".rstrip() for line in table.scene.to_toml().splitlines()),
+        *scene_comments(table.scene),
     ]
     return "\n".join(lines) + "\n" + csv_row(_COLUMNS) + "".join(_photo_rows(table, condition))
 

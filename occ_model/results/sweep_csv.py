@@ -14,6 +14,7 @@ from occ_model.errors import ParameterError, quote
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 from occ_model.version import __version__
 
 
@@ -41,7 +42,6 @@ TITLE = "# Success rate over "  # at the start of every sweep's table
 def header_text(request: SweepRequest) -> str:
     """Write everything that determines a table's numbers, and the titles of its columns."""
     settings = request.settings
-    forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     lines = [
         f"{TITLE}{', '.join(request.axes)}",
         f"# occ_model {__version__}",
@@ -52,13 +52,24 @@ def header_text(request: SweepRequest) -> str:
         f"# path {settings.path}",
         f"# images a second {settings.frames_a_second!r}",
         f"# tolerance {settings.tolerance!r} levels of the profile",
-        f"# effects switched: {forced or 'none'}",
+        f"# {switches_text(settings.force)}",
     ]
     for name, values in request.axes.items():
         lines.append(f"# axis {column_title(name)}: {', '.join(map(format_value, values))}")
-    lines += ["#", "# scene of this file:"]
-    lines += [f"# {line}".rstrip() for line in request.scene.to_toml().splitlines()]
+    lines += scene_comments(request.scene)
     return "\n".join(lines) + "\n" + csv_row(_columns(request))
+
+
+def switches_text(force: Mapping[str, bool]) -> str:
+    """Name the effects that the user has switched on or off."""
+    forced = ", ".join(f"{name} {'on' if is_on else 'off'}" for name, is_on in force.items())
+    return f"effects switched: {forced or 'none'}"
+
+
+def scene_comments(scene: Scene) -> list[str]:
+    """Return the comment lines from which a table's scene is read again."""
+    lines = ["", "scene of this file:", *scene.to_toml().splitlines()]
+    return [f"# {line}".rstrip() for line in lines]
 
 
 def _columns(request: SweepRequest) -> list[str]:

@@ -5,6 +5,7 @@ import io
 import cv2
 import numpy as np
 import pytest
+from physics.effect_world import rms
 from PIL import Image
 
 import occ_model as occ
@@ -14,10 +15,6 @@ from occ_model.scene.scene import Scene
 
 def scene_at_quality(quality: int) -> Scene:
     return Scene().replace(jpeg_quality=quality)
-
-
-def root_mean_square(change: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(change**2)))
 
 
 def steps_in_file(quality: int) -> np.ndarray:
@@ -37,7 +34,7 @@ def test_the_steps_are_those_in_the_file() -> None:
 def test_a_better_quality_changes_less() -> None:
     picture = np.random.default_rng(2).integers(0, 256, (160, 160), dtype=np.uint8)
     changes = [
-        root_mean_square(Jpeg().apply(scene_at_quality(quality), picture) - picture.astype(float))
+        rms(Jpeg().apply(scene_at_quality(quality), picture) - picture.astype(float))
         for quality in (5, 20, 50, 80, 95, 100)
     ]
     assert (np.diff(changes) < 0).all()

@@ -30,9 +30,9 @@ def __getattr__(name: str) -> object:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(importlib.import_module(_MODULES[name]), name)
     if type(value) is type(__getattr__):  # a function
-        from occ_model.argument_kinds import checked
+        from occ_model.argument_kinds import check_arguments
 
-        value = checked(value)
+        value = check_arguments(value)
     globals()[name] = value
     return value
 

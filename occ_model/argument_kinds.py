@@ -37,7 +37,7 @@ _WORDS: dict[Any, str] = {  # names of kinds that are not those of classes
 }  # fmt: skip
 
 
-def checked(function: _Function) -> _Function:
+def check_arguments(function: _Function) -> _Function:
     """Let a public function refuse arguments of another kind than it is annotated with.
 
     Objects are checked before the call. Numbers, texts and arrays are left to the function, which

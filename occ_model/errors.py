@@ -161,7 +161,7 @@ def quote(value: object) -> str:
     return one_line(" ".join(line.strip() for line in lines), _LONGEST_VALUE)
 
 
-def printable(text: str) -> str:
+def make_printable(text: str) -> str:
     """Format a text of any length in one line, with control characters escaped."""
     return one_line(" ".join(text.split()), _LONGEST_TEXT)
 

@@ -15,7 +15,7 @@ class Gain:
     at: Callable[[FloatArray, slice], Pixels]
 
     @classmethod
-    def cached(
+    def with_cache(
         cls, stage: str, depends_on: tuple[Hashable, ...], at: Callable[[FloatArray, slice], Pixels]
     ) -> Self:
         def recall_factors(rows: FloatArray, columns: slice) -> Pixels:

@@ -74,12 +74,12 @@ def lit_fraction_with_edges(scene: Scene) -> FloatArray:
 
 def _lit_from(scene: Scene, light: PiecewiseLight, starts: PhasesAt) -> FloatArray:
     exposure = Fraction(scene.camera.exposure_time) * light.rate
-    waveform = _edged(light, Fraction(scene.transmitter.edge_time) * light.rate)
+    waveform = _waveform_with_edges(light, Fraction(scene.transmitter.edge_time) * light.rate)
     return np.clip(waveform.light_in(starts, exposure) / float(exposure), 0.0, 1.0)
 
 
 @lru_cache(maxsize=4)
-def _edged(light: PiecewiseLight, edge: Fraction) -> EdgedWaveform:
+def _waveform_with_edges(light: PiecewiseLight, edge: Fraction) -> EdgedWaveform:
     return EdgedWaveform(light.waveform, edge)
 
 

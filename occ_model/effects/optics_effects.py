@@ -40,7 +40,9 @@ class Emission(OpticsEffect):
             cosines = np.abs(_cosine(normal, across[:, columns], y)).astype(np.float32)
             return np.asarray(cv2.pow(np.minimum(cosines, np.float32(1.0)), power))
 
-        factor = Gain.cached(self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain)
+        factor = Gain.with_cache(
+            self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain
+        )
         return replace(optics, emission=(*optics.emission, factor))
 
 
@@ -75,7 +77,7 @@ class Vignetting(OpticsEffect):
             _, y = pixel_rays(scene.camera, rows)
             return np.asarray(cv2.pow(across[:, columns] + y * y, power), dtype=np.float32)
 
-        factor = Gain.cached(self.name, (power, *geometry_of(scene.camera)), gain)
+        factor = Gain.with_cache(self.name, (power, *geometry_of(scene.camera)), gain)
         return replace(optics, transmission=(*optics.transmission, factor))
 
 

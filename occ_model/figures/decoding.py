@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from occ_model import colours
 from occ_model.arrays import FloatArray
-from occ_model.errors import capitalize, one_line, printable
+from occ_model.errors import capitalize, make_printable, one_line
 from occ_model.figures.caption import caption, write_caption
 from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.results.decoding import Cause, DecodeResult, symptom
@@ -34,7 +34,7 @@ def decode_drawing(scene: Scene, result: DecodeResult, cause: Cause | None = Non
     message = result.failure or f"{_describe_read(result)} read by the {result.decoder} decoder"
     if cause is not None:
         message = f"{capitalize(cause.what)}: {in_sentence(symptom(message))}"
-    message = printable(message)
+    message = make_printable(message)
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))

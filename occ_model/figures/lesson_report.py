@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 
 from occ_model.camera.photometry import column_profile
-from occ_model.errors import OutputError, one_line, printable
+from occ_model.errors import OutputError, make_printable, one_line
 from occ_model.figures.caption import caption
 from occ_model.figures.drawing import (
     FIGURE_ENDINGS,
@@ -147,7 +147,7 @@ def _write_lines(
 ) -> int:
     """Write a text below a height of the page, in up to ``most`` lines; return their number."""
     # Do not break lines between a value and its error.
-    unbroken = printable(text).replace(" ± ", "\xa0±\xa0")
+    unbroken = make_printable(text).replace(" ± ", "\xa0±\xa0")
     text, font = replace_missing_letters(unbroken, font)
     lines = break_lines(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
     figure.text(

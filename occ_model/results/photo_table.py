@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from occ_model.errors import inflect, one_line, printable
+from occ_model.errors import inflect, make_printable, one_line
 from occ_model.results.match import Match, known_parameter
 from occ_model.results.sweep_csv import csv_row, scene_comments
 from occ_model.scene.parameter_kinds import Quantity
@@ -178,7 +178,7 @@ def csv_text(table: PhotoTable, extra_notes: Sequence[str] = (), condition: str 
         f"# measured: {table.estimate}",
         *_mean_lines(table.estimate, table.estimated, condition),
         *_mean_lines("exposure_time", table.exposure_time, condition),
-        *(f"# {printable(note)}" for note in (*table.notes, *extra_notes)),
+        *(f"# {make_printable(note)}" for note in (*table.notes, *extra_notes)),
         *scene_comments(table.scene),
     ]
     return "\n".join(lines) + "\n" + csv_row(_COLUMNS) + "".join(_photo_rows(table, condition))

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 
-from occ_model.errors import SceneFileError, one_line, printable
+from occ_model.errors import SceneFileError, make_printable, one_line
 from occ_model.files.reading import read_bytes, read_start
 from occ_model.scene.scene import Scene
 from occ_model.version import __version__
@@ -43,9 +43,9 @@ class Provenance:
 
     def __post_init__(self) -> None:
         # Line breaks are removed, so that none of these can look like another line or a scene.
-        object.__setattr__(self, "title", printable(self.title))
-        object.__setattr__(self, "notes", tuple(map(printable, self.notes)))
-        object.__setattr__(self, "date", printable(self.date))
+        object.__setattr__(self, "title", make_printable(self.title))
+        object.__setattr__(self, "notes", tuple(map(make_printable, self.notes)))
+        object.__setattr__(self, "date", make_printable(self.date))
 
     def lines(self) -> list[str]:
         lines = [self.title, f"occ_model {__version__}"]

@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from occ_model.errors import OccError, SceneFileError, one_line, printable, quote
+from occ_model.errors import OccError, SceneFileError, make_printable, one_line, quote
 from occ_model.files.reading import read_text
 from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
@@ -215,7 +215,7 @@ def _get_text(content: Mapping[str, Any], key: str, default: str | None = None) 
 
 
 def _get_paragraph(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
-    return printable(_get_text(content, key, default))
+    return make_printable(_get_text(content, key, default))
 
 
 def _get_choice(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:

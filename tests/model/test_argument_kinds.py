@@ -15,7 +15,7 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model import argument_kinds
-from occ_model.argument_kinds import checked
+from occ_model.argument_kinds import check_arguments
 
 SCENE = occ.load_preset("phone-68us").replace(
     rows=20, columns=300, panel_width=3.0, panel_height=0.5
@@ -141,8 +141,8 @@ def test_an_alias_of_arrays_is_known_as_one() -> None:
 
     columns.__annotations__["profile"] = hint
     with pytest.raises(occ.ParameterError, match="profile is None; allowed: an array of numbers"):
-        checked(columns)(None)
-    assert checked(columns)(np.arange(3.0)) == 3
+        check_arguments(columns)(None)
+    assert check_arguments(columns)(np.arange(3.0)) == 3
 
 
 def test_a_right_argument_keeps_the_error_of_a_fault_of_ours() -> None:
@@ -150,9 +150,9 @@ def test_a_right_argument_keeps_the_error_of_a_fault_of_ours() -> None:
         return [7][count]
 
     with pytest.raises(IndexError):
-        checked(faulty)(3)
+        check_arguments(faulty)(3)
     with pytest.raises(occ.ParameterError, match=r"^count is 'three'; allowed: a whole number.$"):
-        checked(faulty)("three")  # type: ignore[arg-type]
+        check_arguments(faulty)("three")  # type: ignore[arg-type]
 
 
 def test_a_checked_function_is_found_again_in_another_process() -> None:

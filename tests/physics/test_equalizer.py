@@ -49,7 +49,7 @@ def chips_in_columns(count: int, chip: int) -> FloatArray:
     return np.repeat(random.integers(0, 2, count), chip).astype(np.float64)
 
 
-def exposed(light: FloatArray, columns: float) -> FloatArray:
+def expose(light: FloatArray, columns: float) -> FloatArray:
     return np.convolve(light, box(columns), "same")
 
 
@@ -61,7 +61,7 @@ def error(light: FloatArray, found: FloatArray) -> float:
 @pytest.mark.parametrize("exposure", [9.0, 40.0])
 def test_an_exposure_without_noise_is_undone(exposure: float) -> None:
     light = chips_in_columns(200, 12)
-    seen = exposed(light, exposure)
+    seen = expose(light, exposure)
     assert error(light, undo_exposure(seen, exposure, 12.0)) < 0.5 * error(light, seen)
 
 
@@ -69,7 +69,7 @@ def test_mmse_errs_less_than_zero_forcing_in_noise() -> None:
     light = chips_in_columns(300, 12)
     for noise in (0.003, 0.01, 0.05):
         random = np.random.default_rng(1)
-        seen = exposed(light, 17.0) + noise * random.standard_normal(len(light))
+        seen = expose(light, 17.0) + noise * random.standard_normal(len(light))
         mmse = error(light, undo_exposure(seen, 17.0, 12.0, "mmse"))
         forced = error(light, undo_exposure(seen, 17.0, 12.0, "zero-forcing"))
         assert mmse < forced
@@ -79,7 +79,7 @@ def test_mmse_errs_less_than_zero_forcing_in_noise() -> None:
 
 def test_more_noise_never_makes_the_filter_amplify_more() -> None:
     light = chips_in_columns(300, 12)
-    seen = exposed(light, 17.0)
+    seen = expose(light, 17.0)
     swings = []
     for noise in (0.0, 0.01, 0.1, 1.0):
         random = np.random.default_rng(1)

@@ -167,7 +167,7 @@ def numbers_of(figure: Figure) -> FloatArray:
     return np.unique(numbers[np.isfinite(numbers)])
 
 
-def listed(cells: Iterable[object]) -> FloatArray:
+def find_numbers(cells: Iterable[object]) -> FloatArray:
     """Return the finite numbers among the cells of a column."""
     numbers = np.array([cell for cell in cells if isinstance(cell, int | float)], dtype=float)
     numbers = numbers[np.isfinite(numbers)]
@@ -182,7 +182,7 @@ def test_a_figure_draws_the_numbers_of_its_table(name: str) -> None:
         drawn = numbers_of(drawing.draw())
     rows = list(drawing.rows())
     for column, factor in columns.items():
-        values = factor * listed(row[list(drawing.header).index(column)] for row in rows)
+        values = factor * find_numbers(row[list(drawing.header).index(column)] for row in rows)
         assert len(values) > 3, column
         above = np.clip(np.searchsorted(drawn, values), 1, len(drawn) - 1)
         off = np.minimum(np.abs(drawn[above] - values), np.abs(drawn[above - 1] - values))

@@ -46,6 +46,18 @@ def test_a_deep_tiff_is_turned_once(
     assert turned[0, 0] == corners[first]
 
 
+def test_deep_colours_of_other_formats_are_turned_by_their_notes(tmp_path: Path) -> None:
+    """OpenCV turns none but TIFF."""
+    deep, notes = deep_stripes(), Image.Exif()
+    notes[274] = 6
+    content = cv2.imencode(".png", deep)[1].tobytes()
+    place = content.index(b"IDAT") - 4
+    noted = png_chunk(b"eXIf", notes.tobytes().removeprefix(b"Exif\0\0"))
+    (tmp_path / "x.png").write_bytes(content[:place] + noted + content[place:])
+    samples = load_photo(tmp_path / "x.png", "columns", channel="red").samples
+    np.testing.assert_array_equal(samples, np.rot90(deep[..., 2], -1))
+
+
 @pytest.mark.parametrize("byte_order", ["<", ">"])
 @pytest.mark.parametrize("how", [{}, {"tile": (16, 16)}, {"compression": "zlib"}], ids=str)
 @pytest.mark.parametrize("alpha", [False, True])

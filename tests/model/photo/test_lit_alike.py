@@ -1,4 +1,4 @@
-"""Pixels that are lit alike are fitted together, and may contradict the exposure."""
+"""Groups of pixels that are lit alike are ordered by how much they tell."""
 
 import numpy as np
 

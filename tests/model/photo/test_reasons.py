@@ -38,7 +38,7 @@ def reasons_of(image: ByteArray) -> tuple[str, ...]:
 
 
 def common_percent(image: ByteArray) -> float:
-    """Return how much of the squares of all changes along the rows a common row explains."""
+    """Return the percentage of the squares of all changes along rows that a common row explains."""
     values = np.linalg.svd(np.diff(image.astype(np.float64), axis=1), compute_uv=False) ** 2
     return float(100.0 * values[0] / values.sum())
 

@@ -1,4 +1,4 @@
-"""The chips in view are read without a period, up to their number and their order."""
+"""The chips in view are read without a period."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ def test_the_first_chip_starts_where_its_edge_is() -> None:
 def test_a_panel_cut_within_a_chip_has_no_chip_of_its_own_there(
     sliver: float, is_last: bool
 ) -> None:
-    # Next to the whole chips stands what the panel's rim leaves of a bright one.
+    # Beside the whole chips is the part of a bright one that the panel's rim leaves.
     edges = edges_at([10.0 - sliver, *range(30, 400, 40)], np.arange(10.0, 400, 40))
     inner = edges.where(slice(1, None))
     if is_last:

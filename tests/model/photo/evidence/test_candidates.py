@@ -26,7 +26,7 @@ NEAR = occ.load_preset("phone-68us").replace(
 
 
 class Case:
-    """What a photo's stripes may be, and how often the search for it came to its check."""
+    """The hypotheses about a photo's stripes, and how often fitting them called its check."""
 
     def __init__(self, scene: Scene, columns: int = 1200, told: Scene | None = None) -> None:
         self.checks = 0

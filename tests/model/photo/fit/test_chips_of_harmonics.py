@@ -57,7 +57,7 @@ def test_chips_come_back_turned_about_at_most(exposure: float) -> None:
     assert found.exposure == pytest.approx(exposure)
 
 
-def test_nothing_comes_of_no_stripes() -> None:
+def test_harmonics_of_zero_give_no_chips() -> None:
     assert best_chips(np.zeros(30, dtype=complex), len(CHIPS)) is None
 
 
@@ -121,7 +121,7 @@ def test_chips_of_a_long_exposure_come_back_by_descent_from_noisy_harmonics(
 def test_a_descent_ends_where_so_few_harmonics_leave_chips_without_any(
     harmonics: int, count: int
 ) -> None:
-    """Rounding makes next to no energy look like any, again and again."""
+    """Rounding would raise the likeness of next to no energy again and again."""
     random = np.random.default_rng(harmonics)
     lines = random.normal(size=harmonics) + 1j * random.normal(size=harmonics)
     assert all(one.explained < 1.0 + 1e-9 for one in chips_by_descent(lines, count))

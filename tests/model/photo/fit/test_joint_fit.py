@@ -22,14 +22,14 @@ INVERSE = np.linalg.inv(SLOPES.T @ SLOPES)
 
 
 def test_mere_noise_leaves_the_inverse_of_the_information() -> None:
-    """The step's is that of columns that all count: the others' noise was taken as larger."""
+    """That of the step is smaller, as all columns count for it and not one in four."""
     found = covariance_of(SLOPES, 0.1 * NOISE, BLOCK)
     assert found[1:, 1:] == pytest.approx(INVERSE[1:, 1:], rel=1e-6)
     assert found[0, 0] == pytest.approx(INVERSE[0, 0] / CORRELATED_COLUMNS, rel=1e-6)
 
 
 def test_what_is_alike_in_a_block_counts_once() -> None:
-    """Scores whose sum over a block grows with its length have a variance as many times larger."""
+    """Of equal scores the variance of the sum is as many times larger as a block has columns."""
     alike = np.repeat(RANDOM.normal(size=DATA // 16), 16)
     slopes = SLOPES.copy()
     slopes[:DATA, 2] = np.repeat(RANDOM.normal(size=DATA // 16), 16)
@@ -59,8 +59,8 @@ def fit(exposure: float, misfit: float, prior: float = 0.0, deviation: float = 0
     return JointFit(values, covariance, misfit, prior)
 
 
-def test_two_models_that_are_as_likely_are_told_by_what_holds_both() -> None:
-    """Half of the weight is off by their difference: its variance is half of its square."""
+def test_the_deviation_of_two_models_that_are_as_likely_includes_both() -> None:
+    """Half of the weight is off by their difference, whose square counts by half."""
     mean = average_fits([fit(1.0, 10.0), fit(1.4, 10.0)])
     assert mean.deviation == pytest.approx(math.hypot(0.01, 0.4 / math.sqrt(2.0)), rel=1e-6)
 
@@ -75,13 +75,13 @@ def test_what_a_model_leaves_unexplained_makes_the_data_tell_less() -> None:
 
 
 def test_an_unusual_camera_is_no_more_likely_where_the_data_tell_little() -> None:
-    """What is usual is known before any photo: what the model lacks does not change it."""
+    """Effects outside the model change the misfit of the data, but not that of the priors."""
     unusual = average_fits([fit(1.0, 2000.0), fit(1.4, 2040.0, prior=40.0)])
     assert unusual.deviation == pytest.approx(0.01, rel=1e-3)
 
 
 def test_a_fit_that_hardly_tells_the_step_is_no_fit() -> None:
-    """A blur that is held too large leaves no exposure to fit, and a slope of nothing."""
+    """If the blur is too large, there is no exposure left to fit, and no slope over the step."""
     told, untold = fit(1.0, 10.0), fit(1.1, 10.0)
     told.covariance[0, 0], untold.covariance[0, 0] = 1e-6, 49.0
     assert average_fits([told, untold]).covariance[0, 0] == pytest.approx(1e-6)

@@ -22,7 +22,7 @@ NOISE = 0.3 * np.random.default_rng(3).normal(size=COLUMNS)
 
 
 def values_of(true: np.ndarray = TRUE, brightest: float = 0.6) -> np.ndarray:
-    """Return grey levels: a gamma of 2.2 as far off as is said."""
+    """Return the grey levels of parameters, those of the camera relative to a gamma of 2.2."""
     step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = true.tolist()
     lit = blurred_light(CHIPS, COLUMNS, Timing(step, exposure, middle, 2.2), blur, longer)
     table = ToneCurve(2.2 * math.exp(gamma), offset, shoulder, contrast).table()

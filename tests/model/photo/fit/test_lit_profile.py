@@ -50,7 +50,7 @@ def test_levels_are_those_of_weighted_least_squares(every: int) -> None:
 
 
 def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
-    """Their levels are corrected by one step; as if light were blurred some are off."""
+    """Levels that are found as if light were blurred are off, and are corrected."""
     kernel = blur_kernel(1.5)
     dark, swing = (np.pad(levels, BLUR_REACH, mode="edge") for levels in (DARK, SWING))
     values = blur_rows(TABLE.value_of(dark + swing * SHARP), kernel)
@@ -63,7 +63,7 @@ def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
 
 
 def test_dark_columns_beside_bright_ones_are_followed_where_grey_levels_are_blurred() -> None:
-    """Their light cannot be told from blurred grey levels; its curve is steep near black."""
+    """Blur hides their light, as the tone curve is steep near black: it takes several steps."""
     kernel = blur_kernel(1.5)
     dark, swing = np.full(COLUMNS + 2 * BLUR_REACH, 0.001), np.pad(SWING, BLUR_REACH, mode="edge")
     table = ToneCurve(2.2).table()

@@ -75,7 +75,7 @@ def test_an_exposure_of_several_chips_is_undone(exposure: float) -> None:
 
 
 def test_long_exposures_by_a_bent_tone_curve_are_read_otherwise() -> None:
-    """A wrong reading of as many chips, such as one of a single chip's exposure, leads to them."""
+    """They are found from a wrong reading of as many chips."""
     chips = np.array([int(chip) for chip in "111010101010011010010110"], dtype=np.uint8)
     stripes = (stripes_of(chips, 2.75, 5.24, 0.4) + 0.05) ** 0.45
     stripes += 0.005 * np.random.default_rng(1).standard_normal(len(stripes))

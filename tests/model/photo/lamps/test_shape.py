@@ -1,4 +1,4 @@
-"""The shape of a lamp: put together of the parts that blink in time."""
+"""Parts of a lamp that blink in time are joined, and other lamps are not."""
 
 from dataclasses import replace
 

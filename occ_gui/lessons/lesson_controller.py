@@ -20,10 +20,7 @@ from occ_model.errors import OccError, one_line
 from occ_model.light.sent import light_period
 from occ_model.results.match import known_parameter
 from occ_model.results.teaching import Lesson, LessonStep, LoadedLessons
-from occ_model.scene.parameter_kinds import format_distinctly
-from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import GROUPS, Scene
-from occ_model.teaching.answers import explanation
+from occ_model.teaching.answers import describe_changes, explanation
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.light_over_columns import rolling_shutter
 
@@ -288,30 +285,3 @@ class LessonController(QObject):
 
 def is_own(photo: PhotoChoice) -> bool:
     return photo.path not in {None, *sample_photos()}
-
-
-_MOST_STATED_CHANGES = 2
-
-
-def describe_changes(step: LessonStep, scene: Scene) -> str:
-    """State how the scene differs from the step's, and to which of both each text refers.
-
-    Empty where the scene is that of the step or of its check; also where the step is about a photo,
-    whose match changes the scene.
-    """
-    if step.own_photo or step.photo or scene in {step.scene, step.question_scene}:
-        return ""
-    changes = []
-    for name in (name for names in GROUPS.values() for name in names):
-        value, step_value = scene.value(name), step.scene.value(name)
-        if value != step_value:
-            pair = format_distinctly(PARAMETERS[name], value, step_value)
-            texts = (text or "empty" for text in pair)
-            changes.append(f"{PARAMETERS[name].label} is {next(texts)} instead of {next(texts)}")
-    stated = changes[:_MOST_STATED_CHANGES]
-    if len(changes) > _MOST_STATED_CHANGES:
-        stated.append(f"{len(changes) - _MOST_STATED_CHANGES} more")
-    return (
-        f"You have changed the scene: {' and '.join(stated)}. Picture, formula, check and report "
-        "are of your scene; the numbers in the text are the lesson's."
-    )

@@ -5,6 +5,7 @@ import math
 from occ_model.errors import OccError, one_line
 from occ_model.results.match import Match
 from occ_model.results.teaching import Check, CheckedAnswer, LessonStep
+from occ_model.scene.parameter_kinds import format_distinctly
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 from occ_model.teaching.quantities import QUANTITIES, result_text
@@ -80,7 +81,7 @@ def _name_unset_values(check: Check, scene: Scene) -> str:
     return f"First set {' and '.join(settings)}, as in the question."
 
 
-_MAX_NAMED = 2
+_MAX_NAMED = 2  # parameters whose values are stated; others are only counted
 
 
 def explanation(step: LessonStep, scene: Scene) -> str:
@@ -88,11 +89,39 @@ def explanation(step: LessonStep, scene: Scene) -> str:
     question = step.question_scene
     if step.own_photo or scene == question:
         return step.answer
-    names = (name for group in GROUPS.values() for name in group)
-    differing = [name for name in names if scene.value(name) != question.value(name)]
+    differing = _list_differing(scene, question)
     values = ", ".join(
         f"{PARAMETERS[name].label}: {PARAMETERS[name].format(question.value(name)) or 'empty'}"  # type: ignore[arg-type]
         for name in differing[:_MAX_NAMED]
     )
     more = ", …" if len(differing) > _MAX_NAMED else ""
     return f"For the lesson's own scene ({values}{more}): {step.answer}"
+
+
+def describe_changes(step: LessonStep, scene: Scene) -> str:
+    """State how the scene differs from the step's, and to which of both each text refers.
+
+    Empty for the scene of the step or of its check, and for a step about a photo, whose match
+    changes the scene.
+    """
+    if step.own_photo or step.photo or scene in {step.scene, step.question_scene}:
+        return ""
+    differing = _list_differing(scene, step.scene)
+    stated = []
+    for name in differing[:_MAX_NAMED]:
+        declared = PARAMETERS[name]
+        texts = format_distinctly(declared, scene.value(name), step.scene.value(name))
+        value, step_value = (text or "empty" for text in texts)
+        stated.append(f"{declared.label} is {value} instead of {step_value}")
+    if len(differing) > _MAX_NAMED:
+        stated.append(f"{len(differing) - _MAX_NAMED} more")
+    return (
+        f"You have changed the scene: {' and '.join(stated)}. Picture, formula, check and report "
+        "are of your scene; the numbers in the text are the lesson's."
+    )
+
+
+def _list_differing(scene: Scene, other: Scene) -> list[str]:
+    """List the parameters in which two scenes differ."""
+    names = (name for group in GROUPS.values() for name in group)
+    return [name for name in names if scene.value(name) != other.value(name)]

@@ -14,7 +14,7 @@ from occ_model.files.resources import resource_path
 from occ_model.results.teaching import LessonStep
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.teaching.answers import check_answer, explanation
+from occ_model.teaching.answers import check_answer, describe_changes, explanation
 from occ_model.teaching.equations import equations
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
@@ -275,6 +275,13 @@ def test_an_explanation_names_its_scene_if_another_is_shown() -> None:
     other = step(1, 2)
     assert "Readout time: 20 µs" in explanation(other, other.scene)
     assert explanation(other, other.question_scene) == other.answer
+
+
+def test_a_step_about_a_photo_reports_no_change_when_its_match_is_applied() -> None:
+    for asked, start in ((step(6, 1), ""), (step(1, 1), "You have changed the scene: ISO")):
+        said = describe_changes(asked, asked.scene.replace(iso=400.0))
+        assert said.startswith(start)
+        assert bool(said) is bool(start)
 
 
 @pytest.mark.parametrize(

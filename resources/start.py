@@ -244,7 +244,7 @@ def make_venv() -> None:
     UNFINISHED.unlink()
 
 
-def uncompiled(extras: Collection[str]) -> list[str]:
+def compile_options(extras: Collection[str]) -> list[str]:
     """Return pip's option to compile no modules, if they are compiled when they are imported.
 
     Few of them ever are, and compiling all takes two fifths of pip's time. The checks always keep
@@ -263,7 +263,7 @@ def install_project(python: str, extras: Iterable[str]) -> None:
     target = f".[{','.join(sorted(extras))}]"
     # If there is no wheel of PyAV, pip reports it: a build would need all of FFmpeg.
     wheels = ["--only-binary", "av"]
-    pip = [str(PYTHON), "-m", "pip", "install", *uncompiled(extras), *wheels, "-e", target]
+    pip = [str(PYTHON), "-m", "pip", "install", *compile_options(extras), *wheels, "-e", target]
     if not run_visibly(pip, PIP_DISABLE_PIP_VERSION_CHECK="1"):
         raise SetUpError(
             "pip could not install the project; its messages are above. "

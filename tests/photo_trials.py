@@ -1,4 +1,4 @@
-"""Simulated photos, matched: how far off what is found is, and what is said of them."""
+"""Matches of simulated photos: their errors and their verdicts."""
 
 from dataclasses import dataclass
 
@@ -11,12 +11,12 @@ from occ_model.photo.fit.chip_runs import canonical
 from occ_model.scene.scene import Scene
 
 SHORTEST_VIEW, LONGEST_VIEW = 1.5, 20.0
-"""Periods in view of the photos whose chips are to be read."""
+"""Fewest and most periods in view in photos whose chips are read."""
 
 
 @dataclass(frozen=True)
-class Found:
-    """How far off one photo's match is."""
+class MatchErrors:
+    """The errors of the match of one photo."""
 
     seed: int
     exposure_in_chips: float
@@ -32,8 +32,8 @@ class Found:
         return not self.failure and not self.doubts
 
 
-def round_trip(seed: int) -> Found:
-    """Simulate a photo and match it, told what was sent and how fast, and nothing else."""
+def match_seed(seed: int) -> MatchErrors:
+    """Simulate a photo and match it; only what was sent, and how fast, is known."""
     scene = random_scene(seed)
     camera, frequency = scene.camera, scene.transmitter.switching_frequency
     in_chips = camera.exposure_time * frequency
@@ -41,7 +41,7 @@ def round_trip(seed: int) -> Found:
     try:
         match = occ.match_photo(take(scene, seed), told)
     except occ.MatchError as why:
-        return Found(seed, in_chips, str(why))
+        return MatchErrors(seed, in_chips, str(why))
     period = len(match.pattern) / frequency
     late = (match.start_time - scene.model.start_time + period / 2) % period - period / 2
     off = {
@@ -49,7 +49,7 @@ def round_trip(seed: int) -> Found:
         "exposure_time": match.exposure_time - camera.exposure_time,
         "start_time": late,
     }
-    return Found(
+    return MatchErrors(
         seed,
         in_chips,
         readout=abs(off["readout_time"]) / camera.readout_time,
@@ -60,34 +60,34 @@ def round_trip(seed: int) -> Found:
 
 
 @dataclass(frozen=True)
-class Said:
-    """What a match says of one picture."""
+class Judgement:
+    """The verdict of the match of one picture."""
 
     seed: int
     what: str
     verdict: str  # ``"sure"``, ``"doubtful"`` or ``"refused"``
     why: str
-    scene_s: bool  # whether the scene's chips are said to be sent
-    right: bool  # whether the chips are those sent, up to rotation
+    is_scene_pattern: bool  # whether the found chips are those of the scene
+    is_right: bool  # whether the found chips are those sent, up to rotation
 
 
-def said_of_negative(seed: int) -> Said:
+def judge_negative(seed: int) -> Judgement:
     """Match a picture without the stripes of an LED to a preset."""
     kind, photo = negative(seed)
-    return _said(seed, kind, photo, occ.load_preset("phone-136us"), "")
+    return _judge(seed, kind, photo, occ.load_preset("phone-136us"), "")
 
 
-def said_of_other_code(seed: int) -> Said:
+def judge_other_code(seed: int) -> Judgement:
     """Match a photo of one code to a scene with another."""
     scene = random_scene(seed)
     apart = 1 + seed % (2**scene.transmitter.bits - 1)
     other = (scene.transmitter.code + apart) % 2**scene.transmitter.bits
-    return _said(
-        seed, "other code", take(scene, seed), _told(scene.replace(code=other)), _sent(scene)
+    return _judge(
+        seed, "other code", take(scene, seed), _hide(scene.replace(code=other)), _pattern_of(scene)
     )
 
 
-def said_of_unknown_chips(seed: int) -> Said:
+def judge_unknown_chips(seed: int) -> Judgement:
     """Match a photo of 1.5 to 20 periods, of which half are saturated, without its chips."""
     random = np.random.default_rng((417, seed))
     scene = random_scene(seed)
@@ -105,29 +105,29 @@ def said_of_unknown_chips(seed: int) -> Said:
         scene = scene.replace(luminance=float(scene.value("luminance")) * brighter)
     photo = take(scene, seed)
     what = "saturated" if seed % 2 else "not saturated"
-    return _said(seed, what, photo, _told(scene), _sent(scene), sent="read")
+    return _judge(seed, what, photo, _hide(scene), _pattern_of(scene), sent="read")
 
 
-def _told(scene: Scene) -> Scene:
-    """Take away what is to be found."""
+def _hide(scene: Scene) -> Scene:
+    """Replace the values that a match has to find."""
     return scene.replace(readout_time=1e-6, exposure_time=1e-3, start_time=0.0)
 
 
-def _sent(scene: Scene) -> str:
-    return _turned("".join(map(str, occ.packet(scene).tolist())))
+def _pattern_of(scene: Scene) -> str:
+    return _rotate("".join(map(str, occ.packet(scene).tolist())))
 
 
-def _turned(pattern: str) -> str:
+def _rotate(pattern: str) -> str:
     return "".join(map(str, canonical(np.array(list(pattern), dtype=np.uint8)).tolist()))
 
 
-def _said(
+def _judge(
     seed: int, what: str, photo: occ.Photo, scene: Scene, truth: str, sent: str = "auto"
-) -> Said:
+) -> Judgement:
     try:
         match = occ.match_photo(photo, scene, sent=sent)
     except occ.MatchError as error:
-        return Said(seed, what, "refused", str(error), scene_s=False, right=False)
-    found = _turned(match.pattern)
+        return Judgement(seed, what, "refused", str(error), is_scene_pattern=False, is_right=False)
+    found = _rotate(match.pattern)
     why = " ".join(match.reasons)
-    return Said(seed, what, match.verdict, why, found == _sent(scene), found == truth)
+    return Judgement(seed, what, match.verdict, why, found == _pattern_of(scene), found == truth)

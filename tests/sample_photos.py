@@ -1,4 +1,4 @@
-"""The sample photos: simulated, and said to be. Run it to write them anew."""
+"""Make the sample photos, which are simulated and say so; run this file to write them again."""
 
 import math
 from io import BytesIO
@@ -17,8 +17,8 @@ QUALITY = 85
 KNOWN = "Simulated by occ_model with every effect; no real photograph."
 
 
-def _photographed(preset: str, brightest: float, **changes: str | float) -> Scene:
-    """Let a phone take a picture that is not enhanced, of a panel that does not saturate it."""
+def _scene_of_photo(preset: str, brightest: float, **changes: str | float) -> Scene:
+    """Return the scene of a photo, not enhanced, whose panel has the pixel value ``brightest``."""
     scene = occ.load_preset(preset).replace(
         rows=1200, columns=1600, averaging="light", enhancement="none", distance=0.8,
         jpeg_quality=QUALITY, point_spread=1.2, start_time=0.003, **changes,
@@ -32,24 +32,24 @@ def _photographed(preset: str, brightest: float, **changes: str | float) -> Scen
 
 
 SCENES = {
-    "led-1khz": _photographed(
+    "led-1khz": _scene_of_photo(
         "phone-68us-real", 205.0, light="lamp", lamp_frequency=1e3, readout_time=12.8e-6
     ),
-    "packets-6khz": _photographed(
+    "packets-6khz": _scene_of_photo(
         "phone-136us-real", 215.0, code=345, switching_frequency=6e3, readout_time=8.9e-6
     ),
 }
-"""By the file's name: a lamp to measure a readout time with, and a code to read."""
+"""A lamp by which the readout time is measured, and a code to read, by the names of the files."""
 
 
-def taken(scene: Scene) -> np.ndarray:
-    """Simulate the picture before it is kept in a file."""
+def take_photo(scene: Scene) -> np.ndarray:
+    """Simulate the picture, without the losses of its file."""
     return occ.render(scene.replace(jpeg_quality=0), tolerance=0.0).image
 
 
-def as_jpeg(scene: Scene) -> bytes:
-    """Write it as a camera would, with what it notes of its settings."""
-    picture = Image.fromarray(taken(scene))
+def encode_as_jpeg(scene: Scene) -> bytes:
+    """Encode the picture as a camera does, with its settings as EXIF data."""
+    picture = Image.fromarray(take_photo(scene))
     exif = picture.getexif()
     exif.update({Base.ImageDescription: KNOWN, Base.Make: "Simulated", Base.Model: "phone"})
     exif.get_ifd(IFD.Exif).update({
@@ -65,5 +65,5 @@ def as_jpeg(scene: Scene) -> bytes:
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
     for name, scene in SCENES.items():
-        (FOLDER / f"{name}.jpg").write_bytes(as_jpeg(scene))
+        (FOLDER / f"{name}.jpg").write_bytes(encode_as_jpeg(scene))
         (FOLDER / f"{name}.toml").write_text(scene.to_toml(), encoding="utf-8")

@@ -30,12 +30,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from both_cores import on_both_cores
 from photo_trials import (
-    Found,
-    Said,
-    round_trip,
-    said_of_negative,
-    said_of_other_code,
-    said_of_unknown_chips,
+    Judgement,
+    MatchErrors,
+    judge_negative,
+    judge_other_code,
+    judge_unknown_chips,
+    match_seed,
 )
 from photo_world.hot_lamps import hot_lamp_scene
 from photo_world.lamp_scenes import LampScene, lamp_scene
@@ -157,7 +157,7 @@ def line(what: str, errors: list[float], allowed: float) -> str:
     )
 
 
-def report(found: list[Found]) -> list[str]:
+def report(found: list[MatchErrors]) -> list[str]:
     """Say how exactly the photos were explained."""
     long = [one for one in found if one.exposure_in_chips > 0.5]
     short = [one for one in found if one.exposure_in_chips <= 0.5]
@@ -179,21 +179,21 @@ def report(found: list[Found]) -> list[str]:
     return lines
 
 
-def tally(said: list[Said]) -> list[str]:
+def tally(said: list[Judgement]) -> list[str]:
     """Count the verdicts, and quote those that are not a refusal or not right."""
     count = len(said)
     lines = []
     for verdict in ("sure", "doubtful", "refused"):
         these = [one for one in said if one.verdict == verdict]
-        right = sum(one.right for one in these)
-        scene_s = sum(one.scene_s for one in these)
+        right = sum(one.is_right for one in these)
+        is_scene_pattern = sum(one.is_scene_pattern for one in these)
         lines.append(
             f"{verdict}: {len(these)} of {count} ({100.0 * len(these) / count:.1f} %), {right} of "
-            f"them with the chips sent, {scene_s} with the scene's"
+            f"them with the chips sent, {is_scene_pattern} with the scene's"
         )
-    wrong = [one for one in said if not one.right and one.verdict != "refused"]
+    wrong = [one for one in said if not one.is_right and one.verdict != "refused"]
     missed = [one for one in said if one.what != "other code" and one.verdict == "refused"]
-    quoted = wrong + (missed if any(one.right for one in said) else [])
+    quoted = wrong + (missed if any(one.is_right for one in said) else [])
     return lines + [f"  {one.what} {one.seed}: {one.verdict}. {one.why}" for one in quoted]
 
 
@@ -203,10 +203,10 @@ def lamps_of(draw: Callable[[int], LampScene], seeds: Sequence[int]) -> list[str
 
 WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterable[Any]], Callable[..., list[str]]]] = {
     "coverage": (600, WORLDS["wide"], told),
-    "negatives": (400, partial(on_both_cores, said_of_negative), tally),
-    "others": (200, partial(on_both_cores, said_of_other_code), tally),
-    "unknown": (300, partial(on_both_cores, said_of_unknown_chips), tally),
-    "known": (500, partial(on_both_cores, round_trip), report),
+    "negatives": (400, partial(on_both_cores, judge_negative), tally),
+    "others": (200, partial(on_both_cores, judge_other_code), tally),
+    "unknown": (300, partial(on_both_cores, judge_unknown_chips), tally),
+    "known": (500, partial(on_both_cores, match_seed), report),
     "lamps": (200, partial(lamps_of, lamp_scene), list),
     "hot-lamps": (200, partial(lamps_of, hot_lamp_scene), list),
     "rooms": (200, partial(lamps_of, room_scene), list),

@@ -125,7 +125,7 @@ def _film() -> occ.Video:
     return occ.render_video(base(), 2)
 
 
-def _command(name: str, scene: Scene) -> None:
+def _run_command(name: str, scene: Scene) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.toml")
         path.write_text(scene.to_toml(), encoding="utf-8")
@@ -136,7 +136,7 @@ def _command(name: str, scene: Scene) -> None:
     assert written.getvalue()
 
 
-def _theory(scene: Scene) -> None:
+def _ask_theory(scene: Scene) -> None:
     theory.gaussian_rate_bound(scene, 100.0, 30.0)
     for of_scene in (
         theory.panel_readout_time, theory.row_rate_frequency, theory.saturation_exposure,
@@ -146,7 +146,7 @@ def _theory(scene: Scene) -> None:
         of_scene(scene)
 
 
-def _teaching(scene: Scene) -> None:
+def _ask_teaching(scene: Scene) -> None:
     equations(scene)
     packet_fields(scene)
     light_over_columns(scene, 0.0, float(scene.camera.columns), 2000)
@@ -175,7 +175,7 @@ def questions() -> dict[str, Callable[[Scene], object]]:
         **{f"success {each}": partial(_success, decoder=each) for each in DECODERS},
         **{f"decode colours {each}": partial(_decode_colours, decoder=each) for each in DECODERS},
         "bit errors": lambda scene: occ.bit_error_rate(scene, "threshold", bits=20),
-        "bands": partial(_command, "bands"),
+        "bands": partial(_run_command, "bands"),
         "map of bars": depth_map,
         "no bars": lambda scene: cure_of(scene, 1e-6),
         "figure of bars": lambda scene: list(bands_drawing(scene).rows()),
@@ -183,8 +183,8 @@ def questions() -> dict[str, Callable[[Scene], object]]:
         "band model": occ.band_profile,
         "spectrum": lambda scene: profile_spectrum(occ.column_profile(scene), scene),
         "on time": occ.on_time,
-        "theory": _theory,
-        "teaching": _teaching,
+        "theory": _ask_theory,
+        "teaching": _ask_teaching,
         **quantities,
         "film": lambda scene: list(islice(occ.render_video(scene, 3), 3)),
         "read a film": lambda scene: occ.decode_video(_film(), scene),

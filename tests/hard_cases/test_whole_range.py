@@ -20,7 +20,7 @@ from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import OBSERVABLES, Observable, Scene
 
-Made = TypeVar("Made")
+Result = TypeVar("Result")
 
 
 def quantities(name: str) -> st.SearchStrategy[float | int | str]:
@@ -56,7 +56,7 @@ CHANGES = st.fixed_dictionaries(
 """Any parameters of small pictures; the others have their defaults."""
 
 
-def given_or_refused(make: Callable[[], Made]) -> Made | str:
+def make_or_explain(make: Callable[[], Result]) -> Result | str:
     """Return what is made of a scene, or the sentence why it cannot be made."""
     try:
         return make()
@@ -69,7 +69,7 @@ def test_every_bound_of_any_scene_is_a_number_and_not_negative(
     changes: dict[str, float | int | str], observable: Observable, tolerance: float
 ) -> None:
     scene = Scene().replace(**changes)
-    plan = given_or_refused(lambda: occ.plan(scene, tolerance, observable))
+    plan = make_or_explain(lambda: occ.plan(scene, tolerance, observable))
     if isinstance(plan, str):
         assert plan.endswith(".")
         return
@@ -79,7 +79,7 @@ def test_every_bound_of_any_scene_is_a_number_and_not_negative(
         folds = decision.effect == "distortion" and decision.estimate == math.inf
         wrong += not (folds or (math.isfinite(decision.estimate) and decision.estimate >= 0.0))
         if folds:
-            assert isinstance(given_or_refused(lambda: occ.render(scene, tolerance=0)), str)
+            assert isinstance(make_or_explain(lambda: occ.render(scene, tolerance=0)), str)
     law = "bounds that are no number or negative"
     record(law, "all parameters, all allowed", float(wrong), 0.0)
 
@@ -93,7 +93,7 @@ def test_any_scenes_picture_has_pixels_and_a_finite_profile(
 ) -> None:
     scene = Scene().replace(**changes)
     by_hand = dict.fromkeys(NAMES, force) if force else None
-    frame = given_or_refused(lambda: occ.render(scene, tolerance=tolerance, force=by_hand))
+    frame = make_or_explain(lambda: occ.render(scene, tolerance=tolerance, force=by_hand))
     if isinstance(frame, str):
         assert frame.endswith(".")
         return

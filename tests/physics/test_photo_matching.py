@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from photo_trials import Found, round_trip
+from photo_trials import MatchErrors, match_seed
 
 pytestmark = pytest.mark.first
 
@@ -11,27 +11,27 @@ SAMPLE, WHOLE = range(1, 3), range(1, 11)
 
 
 @pytest.fixture(scope="module")
-def sample() -> list[Found]:
+def sample() -> list[MatchErrors]:
     """Match the photos that are tested every day."""
-    return [round_trip(seed) for seed in SAMPLE]
+    return [match_seed(seed) for seed in SAMPLE]
 
 
 @pytest.fixture(scope="module", params=["sample", pytest.param("whole", marks=pytest.mark.whole)])
-def found(request: pytest.FixtureRequest, sample: list[Found]) -> list[Found]:
+def found(request: pytest.FixtureRequest, sample: list[MatchErrors]) -> list[MatchErrors]:
     """Match the sample, or all photos."""
     return (
-        sample if request.param == "sample" else [*sample, *map(round_trip, WHOLE[len(SAMPLE) :])]
+        sample if request.param == "sample" else [*sample, *map(match_seed, WHOLE[len(SAMPLE) :])]
     )
 
 
-def test_the_readout_time_comes_back_within_two_thousandths(found: list[Found]) -> None:
+def test_the_readout_time_comes_back_within_two_thousandths(found: list[MatchErrors]) -> None:
     errors = np.array([one.readout for one in found])
     assert np.median(errors) < 0.002
     # Nearly all of them are within that.
     assert np.mean(errors < 0.002) > 0.985
 
 
-def test_long_exposures_are_found_within_a_twentieth(found: list[Found]) -> None:
+def test_long_exposures_are_found_within_a_twentieth(found: list[MatchErrors]) -> None:
     errors = np.array([one.exposure for one in found if one.exposure_in_chips > 0.5])
     # Half of them are expected; of ten there may be as few as three.
     assert len(errors) > len(found) // 4
@@ -39,7 +39,7 @@ def test_long_exposures_are_found_within_a_twentieth(found: list[Found]) -> None
     assert np.mean(errors < 0.05) > 0.97
 
 
-def test_photos_that_cannot_be_explained_are_few_and_say_why(found: list[Found]) -> None:
+def test_photos_that_cannot_be_explained_are_few_and_say_why(found: list[MatchErrors]) -> None:
     failures = [one.failure for one in found if one.failure]
     assert len(failures) <= 0.01 * len(found)
     assert all(failure.endswith(".") and len(failure) > 40 for failure in failures)
@@ -47,7 +47,7 @@ def test_photos_that_cannot_be_explained_are_few_and_say_why(found: list[Found])
 
 @pytest.mark.parametrize("index", range(3), ids=["readout_time", "exposure_time", "start_time"])
 def test_the_uncertainties_are_neither_too_small_nor_too_large(
-    found: list[Found], index: int
+    found: list[MatchErrors], index: int
 ) -> None:
     deviations = np.array([one.deviations[index] for one in found if one.deviations])
     assert np.mean(deviations < 3.0) > 0.85

@@ -9,7 +9,7 @@ from photo_world.foreign import foreign
 from photo_world.hot_lamps import hot_lamps
 from photo_world.trials import foreign_trial_of, hot_trial_of
 from PIL import Image
-from sample_photos import FOLDER, KNOWN, QUALITY, SCENES, as_jpeg, taken
+from sample_photos import FOLDER, KNOWN, QUALITY, SCENES, encode_as_jpeg, take_photo
 
 import occ_model as occ
 
@@ -22,10 +22,10 @@ def test_the_scene_beside_a_sample_is_the_one_it_shows(name: str) -> None:
     assert beside == SCENES[name]
     with Image.open(FOLDER / f"{name}.jpg") as opened:
         kept = np.asarray(opened).astype(float)
-    simulated = taken(SCENES[name]).astype(float)
+    simulated = take_photo(SCENES[name]).astype(float)
     assert kept.shape == simulated.shape
     # They differ by compression, and no more.
-    again = np.asarray(Image.open(BytesIO(as_jpeg(SCENES[name])))).astype(float)
+    again = np.asarray(Image.open(BytesIO(encode_as_jpeg(SCENES[name])))).astype(float)
     loss = np.sqrt(np.mean((again - simulated) ** 2))
     assert np.sqrt(np.mean((kept - simulated) ** 2)) < 1.2 * loss + 0.2
     assert SCENES[name].camera.jpeg_quality == QUALITY

@@ -14,12 +14,14 @@ from occ_gui.app import system_libraries
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
 
 
-def on_path(monkeypatch: pytest.MonkeyPatch, *programs: str) -> None:
+def provide_programs(monkeypatch: pytest.MonkeyPatch, *programs: str) -> None:
     """Let just these programs be found."""
     monkeypatch.setattr(shutil, "which", lambda name: name if name in programs else None)
 
 
-def lacking(start: ModuleType, monkeypatch: pytest.MonkeyPatch, *answers: dict[str, str]) -> None:
+def set_missing(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, *answers: dict[str, str]
+) -> None:
     """Let the system lack these parts, one answer for each time it is asked."""
     queue = list(answers)
     monkeypatch.setattr(start, "missing_parts", lambda platform, making_venv: queue.pop(0))
@@ -79,7 +81,7 @@ def test_sudo_is_used_without_a_question_or_with_a_terminal(
     terminal: bool,
     prefix: list[str] | None,
 ) -> None:
-    on_path(monkeypatch, *programs)
+    provide_programs(monkeypatch, *programs)
     monkeypatch.setattr(os, "geteuid", lambda: user)
     monkeypatch.setattr(os, "isatty", lambda descriptor: terminal)
     answer = SimpleNamespace(returncode=sudo_code)
@@ -90,7 +92,7 @@ def test_sudo_is_used_without_a_question_or_with_a_terminal(
 def test_a_complete_system_is_left_alone(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, visible: list[str]
 ) -> None:
-    lacking(start, monkeypatch, {})
+    set_missing(start, monkeypatch, {})
     start.provide_system_parts("xcb", making_venv=True)
     assert visible == []
 
@@ -99,9 +101,9 @@ def test_a_complete_system_is_left_alone(
 def test_only_missing_packages_are_installed_after_a_fresh_list(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, visible: list[str], user: int, prefix: str
 ) -> None:
-    on_path(monkeypatch, "apt-get", "sudo")
+    provide_programs(monkeypatch, "apt-get", "sudo")
     monkeypatch.setattr(start, "root_prefix", prefix.split)
-    lacking(start, monkeypatch, {"libEGL.so.1": "libegl1", "a font": "fonts-dejavu-core"}, {})
+    set_missing(start, monkeypatch, {"libEGL.so.1": "libegl1", "a font": "fonts-dejavu-core"}, {})
     start.provide_system_parts("offscreen", making_venv=False)
     apt = f"{prefix}env DEBIAN_FRONTEND=noninteractive apt-get"
     install = "install -y --no-install-recommends libegl1 fonts-dejavu-core"
@@ -116,9 +118,9 @@ def test_without_rights_the_line_to_run_by_hand_is_named(
     programs: list[str],
     sudo: str,
 ) -> None:
-    on_path(monkeypatch, *programs)
+    provide_programs(monkeypatch, *programs)
     monkeypatch.setattr(start, "root_prefix", lambda: None)
-    lacking(start, monkeypatch, {"libEGL.so.1": "libegl1"})
+    set_missing(start, monkeypatch, {"libEGL.so.1": "libegl1"})
     with pytest.raises(start.SetUpError) as problem:
         start.provide_system_parts("offscreen", making_venv=False)
     assert "This system lacks libEGL.so.1." in str(problem.value)
@@ -130,8 +132,8 @@ def test_without_rights_the_line_to_run_by_hand_is_named(
 def test_without_apt_get_the_missing_libraries_are_named(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, visible: list[str]
 ) -> None:
-    on_path(monkeypatch, "sudo")
-    lacking(start, monkeypatch, {"libEGL.so.1": "libegl1", "libGL.so.1": "libgl1"})
+    provide_programs(monkeypatch, "sudo")
+    set_missing(start, monkeypatch, {"libEGL.so.1": "libegl1", "libGL.so.1": "libgl1"})
     with pytest.raises(start.SetUpError, match=r"lacks libEGL\.so\.1, libGL\.so\.1\."):
         start.provide_system_parts("offscreen", making_venv=False)
     assert visible == []
@@ -143,9 +145,9 @@ def test_without_apt_get_the_missing_libraries_are_named(
 def test_an_installation_that_brings_nothing_is_an_error(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, installs: bool, words: str
 ) -> None:
-    on_path(monkeypatch, "apt-get")
+    provide_programs(monkeypatch, "apt-get")
     monkeypatch.setattr(start, "root_prefix", list)
     monkeypatch.setattr(start, "run_visibly", lambda command: installs)
-    lacking(start, monkeypatch, *[{"libEGL.so.1": "libegl1"}] * 2)
+    set_missing(start, monkeypatch, *[{"libEGL.so.1": "libegl1"}] * 2)
     with pytest.raises(start.SetUpError, match=words):
         start.provide_system_parts("offscreen", making_venv=False)

@@ -92,11 +92,11 @@ def test_no_sure_photo_is_a_failure(folder: Path, command: Command) -> None:
 def test_an_interrupt_is_one_line_and_leaves_no_table(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
 ) -> None:
-    def stopped(*_: object, progress: Callable[[int, int], None], **__: object) -> NoReturn:
+    def stop(*_: object, progress: Callable[[int, int], None], **__: object) -> NoReturn:
         progress(2, 3)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(match_many, "match_photos", stopped)
+    monkeypatch.setattr(match_many, "match_photos", stop)
     out = tmp_path / "readout.csv"
     assert command(*words(folder, "--out", str(out))) == (
         130, "", "occ-model: stopped after 2 of 3 photos; nothing was written.\n"

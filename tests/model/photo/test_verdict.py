@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 from lit_fractions import light_of
-from photo_trials import said_of_negative
+from photo_trials import judge_negative
 from simulated_photos import photo_of
 
 import occ_model as occ
@@ -21,7 +21,7 @@ from occ_model.results.match import PLAIN_STRIPES
 # tests/benchmarks/matching.py tries 400: these two were once said to be explained.
 @pytest.mark.parametrize("seed", [pytest.param(41, marks=pytest.mark.whole), 103])
 def test_pictures_without_an_led_are_refused(seed: int) -> None:
-    assert said_of_negative(seed).verdict == "refused"
+    assert judge_negative(seed).verdict == "refused"
 
 
 @pytest.mark.whole

@@ -94,9 +94,11 @@ class PhotoPane(Pane[ShownPhoto]):
         view = self.view
         self.sentences = (view.verdict.sentence, view.verdict.wrapped)
         self.matching.failed.connect(self._remark_on_match)
-        for sentence in (view.refused, view.many.copied, view.result.paste.copied):
+        for sentence in (view.many.copied, view.result.paste.copied):
             sentence.connect(self.status_message)
-        view.accepted.connect(self.accepted)
+        for form in (view.form, view.placement):
+            form.refused.connect(self.status_message)
+            form.accepted.connect(self.accepted)
         view.open_asked.connect(window.ask_for_photo)
         view.show_samples(window.samples())
         view.sample_chosen.connect(window.open_sample)

@@ -102,8 +102,6 @@ class PhotoView(QWidget):
 
     open_asked = Signal()
     sample_chosen = Signal(Path)  # the user opens one of the sample photos
-    refused = Signal(str)  # why a value that was entered in a form is refused
-    accepted = Signal()  # an allowed value was entered in a form
 
     def __init__(self) -> None:
         super().__init__()
@@ -124,9 +122,6 @@ class PhotoView(QWidget):
         self._shown = ShownPhoto(Scene())
         fill(QVBoxLayout(self), self.steps, self._pages, margins=(4, 0, 4, 0))
         self.result.hide()
-        for form in (self.form, self.placement):
-            form.refused.connect(self.refused)
-            form.accepted.connect(self.accepted)
 
     def _make_invitation(self) -> QWidget:
         text = paragraph(

@@ -144,7 +144,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
     view.form.edited.connect(
         lambda name, value, _: view.change(scene=occ.Scene().replace(**{name: value}))
     )
-    refused = collect(view.refused)
+    refused = collect(view.form.refused)
     fields = {"auto": view.form.known["switching_frequency"], "lamp": view.form.lamp}
     for sent, field in fields.items():
         choose(qtbot, view.form.sent, sent)
@@ -156,7 +156,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
             assert notice.isVisible()
             assert sentence in notice.text()
             assert field.text() == shown
-        with qtbot.waitSignal(view.accepted):
+        with qtbot.waitSignal(view.form.accepted):
             field.selectAll()
             qtbot.keyClicks(field, "1,5 kHz")
             qtbot.keyClick(field, Qt.Key.Key_Return)

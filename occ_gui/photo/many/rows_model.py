@@ -80,11 +80,7 @@ class PhotoRowsModel(QAbstractTableModel):
             self.endResetModel()
             return
         self._shown = shown
-        changed = [
-            (each.listed, each.photo, each.match, each.choice.certain, each.choice.form)
-            for each in (shown, last)
-        ]
-        if self.paths and changed[0] != changed[1]:
+        if self.paths and _values_of_rows(shown) != _values_of_rows(last):
             self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
             self.headerDataChanged.emit(Qt.Orientation.Horizontal, KNOWN, ESTIMATE)
 
@@ -217,6 +213,12 @@ class PhotoRowsModel(QAbstractTableModel):
         if table is not None and table.is_outlier(place):
             text += ", outlier"
         return f"{text}, earlier match" if self._is_earlier(place) else text
+
+
+def _values_of_rows(shown: ShownPhoto) -> tuple[object, ...]:
+    """Return what the rows and their header depend on."""
+    choice, light = shown.choice, shown.scene.transmitter.light
+    return shown.listed, shown.photo, shown.match, choice.certain, choice.form, light
 
 
 def condition_of_table(shown: ShownPhoto) -> str:

@@ -28,6 +28,7 @@ from occ_model.photo.many.table import table_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import PhotoRow, PhotoTable, csv_text
+from occ_model.scene.parameters import quantity
 
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
 
@@ -126,6 +127,19 @@ def test_without_files_nothing_can_be_matched_and_what_to_do_is_said(
     listed.photos.list_files(())
     assert not view.start.isEnabled()
     assert view.title.text().startswith("Open several photos together")
+
+
+def test_before_the_match_the_header_says_what_must_be_known(
+    view: ManyPhotosView, listed: Listed, qtbot: QtBot
+) -> None:
+    for change, known in (
+        (lambda: listed.scenes.change(light="lamp"), "lamp_frequency"),
+        (lambda: listed.choose(form=MatchChoice(estimate="switching_frequency")), "readout_time"),
+    ):
+        with qtbot.waitSignal(view.rows.headerDataChanged):
+            change()
+        title = view.rows.headerData(KNOWN, Qt.Orientation.Horizontal)
+        assert title == f"given {quantity(known).symbol}"
 
 
 def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(

@@ -157,16 +157,6 @@ def test_a_drag_is_a_gesture_and_keys_until_a_pause_are_another(qtbot: QtBot) ->
     assert len(trial.edits) == len(trial.gestures) == 2
 
 
-def test_steps_of_the_field_are_one_gesture_until_a_pause(qtbot: QtBot) -> None:
-    trial = RowTrial("iso", qtbot)
-    for gestures in (1, 2):
-        for key in (Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
-            qtbot.keyClick(trial.row.field, key)
-        assert len(trial.gestures) == gestures
-        trial.row.gestures.end()  # as after a pause
-    assert len(trial.edits) == 6
-
-
 def test_every_number_typed_is_a_gesture_of_its_own(qtbot: QtBot) -> None:
     trial = RowTrial("iso", qtbot)
     field = trial.row.field

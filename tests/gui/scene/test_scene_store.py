@@ -73,15 +73,6 @@ def test_an_impossible_value_is_refused_and_changes_nothing(
     assert store.undo_stack.count() == 0
 
 
-def test_an_equal_scene_is_no_step_and_not_emitted(
-    store: SceneStore, scenes: list[Scene], small_scene: Scene
-) -> None:
-    store.change(iso=small_scene.camera.iso)
-    store.put(small_scene.replace(), "nothing")
-    assert scenes == []
-    assert store.undo_stack.count() == 0
-
-
 def test_a_gesture_back_at_its_start_leaves_no_step_and_may_continue(
     store: SceneStore, small_scene: Scene
 ) -> None:
@@ -114,21 +105,6 @@ def test_effects_forced_by_hand_are_undone_and_redone(
     assert store.settings.settings.force == {"jpeg": False}
     assert "JPEG switched off" in store.undo_stack.undoText()
     assert (scenes, store.scene) == ([], small_scene)
-
-
-def test_one_step_changes_scene_and_forced_effects_together(
-    store: SceneStore, small_scene: Scene
-) -> None:
-    store.force("jpeg", False)
-    states: list[tuple[Scene, dict[str, bool]]] = []
-    for source in (store, store.settings):
-        source.changed.connect(
-            lambda _: states.append((store.scene, dict(store.settings.settings.force)))
-        )
-    other = small_scene.replace(iso=200.0)
-    store.put(other, "another scene", force={})
-    store.undo_stack.undo()
-    assert states == [(other, {})] * 2 + [(small_scene, {"jpeg": False})] * 2
 
 
 def test_a_change_of_the_scene_keeps_the_forced_effects_and_releasing_all_is_one_step(

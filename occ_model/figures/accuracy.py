@@ -60,8 +60,7 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
     for part in ACCURACY_PARTS:
         names += _draw_part(ax, part, [point for point in points if point.part == part])
     ax.plot([], [], "o", markersize=8, fillstyle="none", color="black", label="current setting")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
+    ax.set(xscale="log", yscale="log")
     ax.margins(0.08)
     ax.set_ylim(bottom=LEAST_ERROR / 1.6)
     ax.axhline(LEAST_ERROR, color="grey", linewidth=0.5, linestyle="--")

@@ -137,9 +137,7 @@ class AnimatedFigure:
         self._lower: Axes = lower
         (self._simulation,) = lower.plot([], [], linewidth=1.4, label="simulation", **SIMULATION)
         (self._band,) = lower.plot([], [], linewidth=1.0, label=_BAND_MODEL, **BAND)
-        lower.set_ylim(0.0, highest)
-        lower.set_xlabel("column")
-        lower.set_ylabel("grey level")
+        lower.set(ylim=(0.0, highest), xlabel="column", ylabel="grey level")
         legend = lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
         _, self.band_name = legend.get_texts()
 

@@ -76,10 +76,7 @@ def _draw_map(scene: Scene, depths: DepthMap) -> Figure:
         markerfacecolor="white", markeredgecolor="black", label="the scene", linestyle="",
         clip_on=True,
     )  # fmt: skip
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlim(*ends.tolist())
-    ax.set_ylim(*depths.exposures[[0, -1]].tolist())
+    ax.set(xscale="log", yscale="log", xlim=ends, ylim=depths.exposures[[0, -1]])
     for axis, label, unit in (
         (ax.xaxis, depths.axis.label, HERTZ),
         (ax.yaxis, quantity("exposure_time").label, SECOND),
@@ -114,12 +111,9 @@ def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
         [eye.frequency], [eye.percent_flicker], "o", markerfacecolor="none", color="black",
         linestyle="", label="the lamp as a whole",
     )  # fmt: skip
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlim(1.0, max(1e4, 2.0 * eye.frequency))
-    ax.set_ylim(_MIN_MODULATION, 200.0)
-    ax.set_xlabel("frequency of the flicker (Hz)")
-    ax.set_ylabel("modulation (%)")
+    ax.set(xscale="log", yscale="log")
+    ax.set(xlim=(1.0, max(1e4, 2.0 * eye.frequency)), ylim=(_MIN_MODULATION, 200.0))
+    ax.set(xlabel="frequency of the flicker (Hz)", ylabel="modulation (%)")
     ax.legend(loc="lower right", fontsize=7)
     ax.grid(linewidth=0.3)
     source_note = "lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked"

@@ -110,8 +110,7 @@ def _draw(
 def _name_axes(figure: Figure, panels: Sequence[Sequence[Axes]], request: BenchRequest) -> None:
     (rates, rates_by_noise), (bits, bits_by_noise) = panels
     rates.set_ylabel("bit error rate")
-    bits.set_ylabel("bits a second")
-    bits.set_xlabel("exposure (symbols)")
+    bits.set(xlabel="exposure (symbols)", ylabel="bits a second")
     bits_by_noise.set_xlabel("signal-to-noise ratio (dB)")
     rates.set_title(f"{request.at_decibels:g} dB", fontsize=9)
     rates_by_noise.set_title(f"exposure of {inflect(request.at_exposure, 'symbol')}", fontsize=9)

@@ -78,8 +78,7 @@ def _describe_read(result: DecodeResult) -> str:
 
 
 def _draw_signal(ax: Axes, result: DecodeResult) -> None:
-    ax.set_xlabel("column of the region")
-    ax.set_ylabel("grey level")
+    ax.set(xlabel="column of the region", ylabel="grey level")
     if result.signal is None:
         return
     ax.plot(result.signal, linewidth=0.8, label="signal", **_SIGNAL)
@@ -105,14 +104,12 @@ def _draw_folded(ax: Axes, folded: FloatArray, model: FloatArray) -> None:
     ax.plot(folded, linewidth=1.0, label="signal, folded over one packet", **_SIGNAL)
     # The model's dots are wider than the signal's line, which covers them if the code is right.
     ax.plot(model, linewidth=2.5, label="the code's forward model", **_MODEL)
-    ax.set_xlabel("eighth of a chip")
-    ax.set_ylabel("lit fraction")
+    ax.set(xlabel="eighth of a chip", ylabel="lit fraction")
     _add_legend(ax, 2)
 
 
 def _draw_runs(ax: Axes, result: DecodeResult) -> None:
-    ax.set_xlabel("length of a run (columns)")
-    ax.set_ylabel("runs")
+    ax.set(xlabel="length of a run (columns)", ylabel="runs")
     if result.histograms is None:
         return
     hatches = ("", "////")

@@ -77,13 +77,9 @@ def _write(
 
 
 def _show_picture(ax: Axes, picture: np.ndarray | None, rows: int, columns: int) -> None:
-    ax.set_xlim(0, columns)
-    ax.set_ylim(rows, 0)
-    ax.set_aspect("equal")
-    ax.set_xlabel("column")
+    ax.set(xlim=(0, columns), ylim=(rows, 0), aspect="equal", xlabel="column")
     ax.tick_params(labelsize=7)
-    ax.set_xticks([0, columns])
-    ax.set_yticks([0, rows])
+    ax.set(xticks=[0, columns], yticks=[0, rows])
     if picture is not None:
         step = _PICTURE_STEP
         cropped = picture[: rows // step * step, : columns // step * step]
@@ -116,9 +112,7 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     for (name, values), style in zip(profiles.items(), styles, strict=True):
         if values is not None:
             ax.plot(column, values, label=name, linewidth=1.2, **style)  # type: ignore[arg-type]
-    ax.set_xlabel("column")
-    ax.set_ylabel("grey level")
-    ax.set_ylim(0, 262)
+    ax.set(xlabel="column", ylabel="grey level", ylim=(0, 262))
     figure.legend(loc="outside upper center", ncols=4, frameon=False)
     if undefined_reason:
         ax.set_title(undefined_reason, fontsize=8)

@@ -121,5 +121,4 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
         )  # fmt: skip
     # A corridor's plan becomes wider than its lamps, as the axis's numbers need the space.
     ax.set_aspect("equal", adjustable="datalim")
-    ax.set_xlabel("x (m)")
-    ax.set_ylabel("y (m)")
+    ax.set(xlabel="x (m)", ylabel="y (m)")

@@ -151,11 +151,9 @@ def _draw_curves(table: SweepTable, quantity: ShownQuantity) -> Figure:
         ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
         ax.xaxis.set_minor_formatter(NullFormatter())
     highest = _highest_value(table, quantity)
-    ax.set_ylim(-0.03 * highest, 1.03 * highest)
-    ax.set_yticks(np.linspace(0.0, highest, 6))
+    ax.set(ylim=(-0.03 * highest, 1.03 * highest), yticks=np.linspace(0.0, highest, 6))
     ax.grid(linewidth=0.3)
-    ax.set_xlabel(_axis_label(name, unit))
-    ax.set_ylabel(_LABELS[quantity])
+    ax.set(xlabel=_axis_label(name, unit), ylabel=_LABELS[quantity])
     title = _FAILED if table.faults else None
     figure.legend(loc="outside upper center", ncols=len(table.decoders), frameon=False, title=title)
     return figure

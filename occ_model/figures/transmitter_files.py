@@ -83,8 +83,7 @@ def wiring_figure(transmission: Transmission) -> Figure:
     _draw_panel(places["A"], transmission.board)
     places["B"].set_title("B: a single LED")
     _draw_led(places["B"], transmission.board)
-    text_axes.set_xlim(0, 1)
-    text_axes.set_ylim(0, 1)
+    text_axes.set(xlim=(0, 1), ylim=(0, 1))
     text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in circuit_notes(transmission))
     text_axes.text(0, 1, text, va="top", ha="left", linespacing=1.35)
     return figure

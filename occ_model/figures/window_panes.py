@@ -82,14 +82,13 @@ class Difference:
 
 def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:
     """Draw the cells of a part of a photo over the drawn picture, inside its limits."""
-    limits = ax.get_xlim(), ax.get_ylim()
+    limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()}
     rows, columns = shape
     extent = layer.extent(rows, columns, layer.first_row(rows))
     ax.imshow(cells, cmap="gray", vmin=0, vmax=255, alpha=layer.opacity, extent=extent)
     if layer.from_row is not None:
         ax.axhline(layer.from_row, color=colours.REGION, linewidth=1.0)
-    ax.set_xlim(limits[0])
-    ax.set_ylim(limits[1])
+    ax.set(**limits)
 
 
 MOST_CELLS = 900  # most cells on each side of a printed picture; print resolves no more
@@ -186,8 +185,7 @@ def show_picture(ax: Axes, picture: ByteArray) -> None:
 
 
 def _label_axes(ax: Axes) -> None:
-    ax.set_xlabel("column")
-    ax.set_ylabel("row")
+    ax.set(xlabel="column", ylabel="row")
     ax.tick_params(labelsize=7)
 
 
@@ -260,8 +258,7 @@ def _profile_figure(
             axes[0].plot(column, lines[name][part], label=name, linewidth=1.1, **style)
     if threshold is not None:
         axes[0].axhline(threshold, label="threshold", **THRESHOLD)
-    axes[0].set_ylabel("enhanced level" if enhanced else "grey level")
-    axes[0].set_ylim(bottom=0)
+    axes[0].set(ylabel="enhanced level" if enhanced else "grey level", ylim=(0, None))
     if undefined:
         axes[0].set_title(undefined, fontsize=7, parse_math=False)
     if comparison is not None:

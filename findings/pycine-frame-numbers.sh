@@ -9,7 +9,7 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python3 -m venv "$folder/venv"
-"$folder/venv/bin/pip" install --quiet pycine==0.3.2 numpy==2.4.6 opencv-python-headless==4.13.0.92
+"$folder/venv/bin/pip" install --quiet pycine==0.3.2 numpy==2.4.6 opencv-python==5.0.0.93
 cd "$folder"
 "$folder/venv/bin/python" - <<'PYTHON'
 import ctypes

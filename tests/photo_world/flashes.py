@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from photo_world.photograph import compressed
+from photo_world.photograph import compress
 from photo_world.tone_curves import unknown_curve
 
 
@@ -53,6 +53,6 @@ def flash_picture(seed: int) -> FlashPicture:
     seen = np.clip(random.poisson(np.clip(light, 0.0, 2.0) * well) / well, 0.0, 1.0)
     image = np.rint(255.0 * unknown_curve(random)(seen)).astype(np.uint8)
     return FlashPicture(
-        compressed(image, int(random.integers(75, 96))), readout, flash * readout,
+        compress(image, int(random.integers(75, 96))), readout, flash * readout,
         exposure * readout, first,
     )  # fmt: skip

@@ -36,10 +36,10 @@ def foreign(seed: int) -> Foreign:
     chips = _code(random, most=int(columns / (2.2 * chip)))
     exposure = chip * math.exp(random.uniform(math.log(0.1), math.log(3.0)))
     lines = int(columns * shrink) + 8
-    light = _gathered(random, chips, chip * shrink, exposure * shrink, lines)
-    picture = _scattered(random, np.outer(_shape(random, int(rows * shrink)), light))
+    light = _gather(random, chips, chip * shrink, exposure * shrink, lines)
+    picture = _scatter(random, np.outer(_shape(random, int(rows * shrink)), light))
     picture = picture * _falloff(random, picture.shape) + 10.0 ** random.uniform(-3.0, -1.0)
-    values = _developed(random, picture / np.quantile(picture, random.uniform(0.75, 0.9999)))
+    values = _develop(random, picture / np.quantile(picture, random.uniform(0.75, 0.9999)))
     size = (round(lines / shrink), round(len(values) / shrink))
     way = cv2.INTER_AREA if random.random() < 0.5 else cv2.INTER_LINEAR
     values = cv2.resize(values, size, interpolation=way)
@@ -64,7 +64,7 @@ def _code(random: np.random.Generator, most: int) -> str:
     return "10"
 
 
-def _gathered(
+def _gather(
     random: np.random.Generator, chips: str, chip: float, exposure: float, lines: int
 ) -> np.ndarray:
     """Return the light that each line of the sensor gathers, by adding up fine samples."""
@@ -88,7 +88,7 @@ def _shape(random: np.random.Generator, rows: int) -> np.ndarray:
     return np.asarray(np.exp(-random.uniform(0.0, 2.0) * np.abs(place) ** 3))
 
 
-def _scattered(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
+def _scatter(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
     off = np.arange(-15, 16)
     width, power = random.uniform(0.3, 1.2), random.uniform(1.5, 3.5)
     kernel = (1.0 + (off[:, None] ** 2 + off[None, :] ** 2) / width**2) ** -power
@@ -102,7 +102,7 @@ def _falloff(random: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
     return hot * (1.0 + 0.03 * np.sin(random.uniform(2.0, 9.0) * place + random.uniform(0.0, 6.0)))
 
 
-def _developed(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
+def _develop(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
     """Add noise, compress, sharpen."""
     full_well = math.exp(random.uniform(math.log(400.0), math.log(10_000.0)))
     noisy = random.poisson(np.minimum(light, 4.0) * full_well) / full_well

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 
 from photo_world.lamp_scenes import LampScene, Thing, apart
-from photo_world.photograph import blurred, compressed
+from photo_world.photograph import blurred, compress
 from photo_world.tone_curves import unknown_curve
 
 _PLACES = 60
@@ -74,8 +74,8 @@ def hot_lamps(seed: int, most: int = 1) -> HotLamps:
     things: list[Thing] = []
     sent: list[Sent] = []
     for _ in range(int(random.integers(1, most + 1))):
-        wave = _sent(random, shape[1])
-        thing = _placed(random, wave, shape, things, alone=most == 1)
+        wave = _draw_sent(random, shape[1])
+        thing = _place(random, wave, shape, things, alone=most == 1)
         if thing is not None:
             things.append(thing)
             sent.append(wave)
@@ -87,9 +87,9 @@ def hot_lamps(seed: int, most: int = 1) -> HotLamps:
         lit = wave.lit_fraction(shape[1], exposure)
         light += thing.radiance * _surface(random, thing, shape) * lit
         if random.random() < 0.3:
-            mirrored = _mirrored(random, thing, shape)
+            mirrored = _mirror(random, thing, shape)
             light += mirrored.radiance * _surface(random, mirrored, shape) * lit
-    return HotLamps(_photographed(random, light), tuple(things), tuple(sent), exposure)
+    return HotLamps(_photograph(random, light), tuple(things), tuple(sent), exposure)
 
 
 def hot_lamp_scene(seed: int) -> LampScene:
@@ -101,7 +101,7 @@ def _over_decades(random: np.random.Generator, low: float, high: float) -> float
     return math.exp(random.uniform(math.log(low), math.log(high)))
 
 
-def _sent(random: np.random.Generator, columns: int) -> Sent:
+def _draw_sent(random: np.random.Generator, columns: int) -> Sent:
     """Draw a square wave (six of ten), a pulse of another duty, or a packet behind a header."""
     kind, chip = random.random(), _over_decades(random, 3.0, 30.0)
     if kind < 0.6:
@@ -127,7 +127,7 @@ def _sent(random: np.random.Generator, columns: int) -> Sent:
     return Sent(chips, chip, on + move[0], off + move[1], pauses)
 
 
-def _placed(
+def _place(
     random: np.random.Generator,
     wave: Sent,
     shape: tuple[int, int],
@@ -161,7 +161,7 @@ def _placed(
     return None
 
 
-def _mirrored(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) -> Thing:
+def _mirror(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) -> Thing:
     """Mirror a lamp in what lies below it: fainter, and as wide."""
     fraction = random.uniform(0.02, 0.15)
     row = min(thing.row + thing.height * random.uniform(1.2, 2.0), shape[0] - 1.0)
@@ -181,11 +181,11 @@ def _surface(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) 
     direct = np.clip((1.0 - rim) * edge + 0.5, 0.0, 1.0)
     direct *= 10.0 ** (-random.uniform(0.0, 1.5) * np.minimum(far, 1.2) ** 2)
     halo, size = random.uniform(0.0, 0.15), random.uniform(0.1, 0.5) * thing.height
-    scattered = _scattered(direct, size)
+    scattered = _scatter(direct, size)
     return np.asarray((1.0 - halo) * direct + halo * scattered)
 
 
-def _scattered(light: np.ndarray, size: float) -> np.ndarray:
+def _scatter(light: np.ndarray, size: float) -> np.ndarray:
     """Blur by a standard deviation in pixels; a wide blur needs no fine pixels."""
     coarse = max(1, int(size / 6.0))
     rows, columns = light.shape
@@ -196,11 +196,11 @@ def _scattered(light: np.ndarray, size: float) -> np.ndarray:
     return cv2.resize(small, (columns, rows), interpolation=cv2.INTER_LINEAR)
 
 
-def _photographed(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
+def _photograph(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
     """Add noise, clip at white, and apply a blur, a tone curve that nobody knows, and JPEG."""
     full_well = _over_decades(random, 500.0, 8000.0)
     electrons = random.poisson(np.minimum(light, 3.0) * full_well)
     seen = np.clip(electrons / full_well, 0.0, 1.0)
     seen = np.clip(blurred(seen, random.uniform(0.0, 1.5), "normal"), 0.0, 1.0)
     values = np.rint(255.0 * unknown_curve(random)(seen)).astype(np.uint8)
-    return compressed(values, int(random.integers(60, 96)))
+    return compress(values, int(random.integers(60, 96)))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from photo_world.exposures import mean_light
-from photo_world.photograph import compressed
+from photo_world.photograph import compress
 
 Floats: TypeAlias = NDArray[np.float64]
 Shape = Literal["round", "rectangular"]
@@ -77,7 +77,7 @@ def lamp_scene(seed: int) -> LampScene:
     light = _background(random, rows, columns)
     for thing in (*lamps, *constant, *panes, *reflections):
         _add_light(light, random, thing, exposure)
-    return LampScene(_photographed(random, light), lamps, constant)
+    return LampScene(_photograph(random, light), lamps, constant)
 
 
 def _lamps(
@@ -274,7 +274,7 @@ def _shutter(thing: Thing, columns: int, exposure: float) -> Floats:
     return mean_light(thing.wave, begin, exposure / thing.chip)
 
 
-def _photographed(random: np.random.Generator, light: Floats) -> NDArray[np.uint8]:
+def _photograph(random: np.random.Generator, light: Floats) -> NDArray[np.uint8]:
     """Add shot and read noise, clip at white, apply a tone curve, and store as JPEG."""
     electrons = float(random.uniform(500.0, 5000.0))
     noisy = random.poisson(np.clip(light, 0.0, 3.0) * electrons) / electrons
@@ -284,4 +284,4 @@ def _photographed(random: np.random.Generator, light: Floats) -> NDArray[np.uint
     toned = (1.0 - bend) * toned + bend * (3.0 - 2.0 * toned) * toned**2
     grey = np.rint(255.0 * toned).astype(np.uint8)
     quality = int(random.integers(60, 96))
-    return compressed(grey, quality)
+    return compress(grey, quality)

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from photo_world.exposures import mean_light
-from photo_world.photograph import compressed
+from photo_world.photograph import compress
 from photo_world.tone_curves import Curve, unknown_curve
 
 _PHASES = 3
@@ -80,12 +80,12 @@ def photograph_room(room: Room) -> list[np.ndarray]:
     for index, (exposure, start) in enumerate(zip(room.exposures, room.starts, strict=True)):
         light = ambient.copy()
         for place, lamp, phase in zip(places, lamps, phases, strict=True):
-            light += place * _exposed(room, lamp, phase, start, exposure)[:, None]
-        seen = light * (_moved(albedo, room.shift) if index else albedo)
+            light += place * _expose(room, lamp, phase, start, exposure)[:, None]
+        seen = light * (_move(albedo, room.shift) if index else albedo)
         brightness = float(np.quantile(seen, 0.8)) / random.uniform(0.8, 1.25)
         same = index and room.exposures[0] == exposure
         scale = scale if same else room.gain / brightness
-        pictures.append(_sensed(room, seen * scale, random))
+        pictures.append(_sense(room, seen * scale, random))
     return pictures
 
 
@@ -140,7 +140,7 @@ def _cycle(random: np.random.Generator) -> np.ndarray:
     return np.asarray(1.0 + depth * (light - 1.0))
 
 
-def _exposed(
+def _expose(
     room: Room, lamp: np.ndarray, phase: float, start: float, exposure: float
 ) -> np.ndarray:
     """Return the mean light of a lamp in each line's exposure, shape (lines,)."""
@@ -150,14 +150,14 @@ def _exposed(
     return mean_light(lamp, (begin * frequency + phase) * _STEPS, exposure * frequency * _STEPS)
 
 
-def _moved(picture: np.ndarray, shift: tuple[float, float]) -> np.ndarray:
+def _move(picture: np.ndarray, shift: tuple[float, float]) -> np.ndarray:
     matrix = np.array([[1.0, 0.0, shift[0]], [0.0, 1.0, shift[1]]])
     return cv2.warpAffine(
         picture, matrix, picture.shape[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT
     )
 
 
-def _sensed(room: Room, light: np.ndarray, random: np.random.Generator) -> np.ndarray:
+def _sense(room: Room, light: np.ndarray, random: np.random.Generator) -> np.ndarray:
     electrons = random.poisson(light * room.full_well) + 3.0 * random.standard_normal(room.size)
     values = room.curve(np.clip(electrons / room.full_well, 0.0, 1.0))
-    return compressed(np.rint(255.0 * values).astype(np.uint8), room.quality)
+    return compress(np.rint(255.0 * values).astype(np.uint8), room.quality)

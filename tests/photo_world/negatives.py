@@ -15,7 +15,7 @@ from simulated_photos import photo_of
 import occ_model as occ
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.load import stripes_are_lines
-from photo_world.photograph import compressed
+from photo_world.photograph import compress
 
 Random = np.random.Generator
 
@@ -261,4 +261,4 @@ def photographed(light: FloatArray, random: Random) -> ByteArray:
     values += random.uniform(0.0, 6.0) * random.standard_normal(values.shape)
     image = np.clip(np.rint(values), 0, 255).astype(np.uint8)
     quality = int(random.integers(50, 96))
-    return compressed(image, quality)
+    return compress(image, quality)

@@ -170,7 +170,7 @@ def photograph(world: World) -> np.ndarray:
     values = 255.0 * world.curve(light)
     if world.blur_of_values:
         values = blurred(values, world.blur, world.blur_shape)
-    return compressed(np.rint(values).astype(np.uint8), world.quality)
+    return compress(np.rint(values).astype(np.uint8), world.quality)
 
 
 def blurred(values: np.ndarray, deviation: float, shape: str) -> np.ndarray:
@@ -188,7 +188,7 @@ def blurred(values: np.ndarray, deviation: float, shape: str) -> np.ndarray:
     return cv2.sepFilter2D(values, -1, kernel, kernel)
 
 
-def compressed(image: np.ndarray, quality: int) -> np.ndarray:
+def compress(image: np.ndarray, quality: int) -> np.ndarray:
     """Keep a picture as a JPEG and read it again."""
     _, data = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, quality])
     return np.asarray(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE))

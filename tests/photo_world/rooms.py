@@ -13,7 +13,7 @@ import numpy as np
 
 from photo_world.exposures import mean_light
 from photo_world.lamp_scenes import LampScene, Thing, apart
-from photo_world.photograph import compressed
+from photo_world.photograph import compress
 from photo_world.tone_curves import unknown_curve
 
 _GAP = 90.0  # fewest pixels between lamps, whose light is scattered around them
@@ -39,7 +39,7 @@ def room_scene(seed: int) -> LampScene:
                 _add(light, placed, surface, exposure)
                 lamps.append(placed)
                 break
-    return LampScene(_photographed(random, light), tuple(lamps), ())
+    return LampScene(_photograph(random, light), tuple(lamps), ())
 
 
 def _room(random: np.random.Generator, rows: int, columns: int) -> np.ndarray:
@@ -93,10 +93,10 @@ def _add(light: np.ndarray, lamp: Thing, surface: np.ndarray, exposure: float) -
     part += lamp.radiance * surface * mean_light(lamp.wave, begin, exposure / lamp.chip)
 
 
-def _photographed(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
+def _photograph(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
     scattered = 0.004 * cv2.GaussianBlur(light, (0, 0), 30.0)
     seen = cv2.GaussianBlur(light + scattered, (0, 0), random.uniform(0.4, 1.2))
     well = math.exp(random.uniform(math.log(800.0), math.log(6000.0)))
     seen = np.clip(random.poisson(np.clip(seen, 0.0, 3.0) * well) / well, 0.0, 1.0)
     grey = np.rint(255.0 * unknown_curve(random)(seen)).astype(np.uint8)
-    return compressed(grey, int(random.integers(70, 96)))
+    return compress(grey, int(random.integers(70, 96)))

@@ -102,7 +102,7 @@ class _BarsSearch:
         """Fit the scales, and weight the lines by what a number of bars does not explain."""
         model, lines = self.model(bars, shape), self.lines
         scales = _fit_scales(model, _first_scales(lines))
-        residual = lines.values - model.fitted(scales)
+        residual = lines.values - model.fit(scales)
         spread = 1.4826 * float(np.median(np.abs(residual[np.isfinite(lines.deviations)])))
         weights = lines.weights(max(_LEAST_DEVIATION, spread))
         factors, inflation = _weight_factors(residual, weights)
@@ -144,7 +144,7 @@ def fit_bars(lines: LineValues) -> BarsFit:
     search = replace(search, bars=bars)
     bend, bend_gap = _bend(search)
     model = search.model(bars, FINE)
-    fitted, weights = model.fitted(search.scales), search.weights
+    fitted, weights = model.fit(search.scales), search.weights
     square = float((weights * (lines.values - fitted) ** 2).sum() / weights.sum())
     return BarsFit(
         bars, deviation, evidence - next_best, evidence - none, other, bend, bend_gap,

@@ -104,7 +104,7 @@ class BarsModel:
         )
         return np.array([float((each**2).sum()) for each in found])
 
-    def fitted(self, scales: Scales) -> FloatArray:
+    def fit(self, scales: Scales) -> FloatArray:
         """Return the fitted values, shape (tiles, lines)."""
         return self._values(self.coefficients(scales))
 

@@ -70,13 +70,13 @@ class TimingSearch:
         slow = self._harmonics[: self._period]
         for first in range(0, len(steps), together):
             part = slice(first, first + together)
-            seen = self._sampled(steps[part], slow)
+            seen = self._sample(steps[part], slow)
             for exposure in _ROUGH_EXPOSURES:
                 check()
                 scores = self._scores(seen, exposure, _ROUGH_PHASES_A_CHIP)[0]
                 rough[part] = np.maximum(rough[part], scores)
         best = steps[np.argsort(rough)[-_BEST_STEPS:]]
-        seen = self._sampled(best, self._harmonics)
+        seen = self._sample(best, self._harmonics)
         found = []
         for exposure in _EXPOSURES:
             check()
@@ -108,7 +108,7 @@ class TimingSearch:
         # A chip's own box is centred half a chip after its start.
         return scores, best / phases_a_chip + 0.5
 
-    def _sampled(self, steps: FloatArray, harmonics: IndexArray) -> NDArray[np.complex64]:
+    def _sample(self, steps: FloatArray, harmonics: IndexArray) -> NDArray[np.complex64]:
         """Sample the spectrum at chip harmonics about the middle, shape (steps, harmonics)."""
         rounds = len(self._turned)
         nearest = np.rint(np.outer(steps, harmonics * (rounds / 2 / self._period)))

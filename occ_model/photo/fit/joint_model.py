@@ -158,7 +158,7 @@ class JointModel:
         # Where pixel values are blurred, the model itself blurs the product.
         if not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
-            shift[index] = scale * _explained(slopes, by_middle * self._displacement(values, shape))
+            shift[index] = scale * _explain(slopes, by_middle * self._displacement(values, shape))
         return JointFit(values, covariance, dot(residual, residual), float(prior @ prior), shift)
 
     def _minimize(
@@ -271,7 +271,7 @@ class JointModel:
         return found
 
 
-def _explained(slopes: FloatArray, change: FloatArray) -> FloatArray:
+def _explain(slopes: FloatArray, change: FloatArray) -> FloatArray:
     """Return the changes of the parameters that best explain a change of the residual."""
     information = row_products(slopes.T, slopes.T)
     information[np.diag_indices_from(information)] += 1e-9

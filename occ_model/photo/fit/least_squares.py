@@ -101,14 +101,14 @@ class StripeModel:
         lit = self._light.expose(timing).lit
         values = self._response(lit, timing.gamma)
         low, swing = combine(
-            self._explained(values, self._kept_profile).reshape(2, -1), self._shapes.all
+            self._fit_levels(values, self._kept_profile).reshape(2, -1), self._shapes.all
         )
         return lit, values, low, swing
 
-    def _explained(self, values: FloatArray, data: FloatArray) -> FloatArray:
+    def _fit_levels(self, values: FloatArray, data: FloatArray) -> FloatArray:
         """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
         lit = values[self._kept]
-        return self._shapes.explaining(lit, np.ones_like(lit), data)
+        return self._shapes.fit(lit, np.ones_like(lit), data)
 
     def slopes(self, timing: Timing) -> FloatArray:
         """Return the residual's slopes over the timing's fields, shape (columns, 4).
@@ -118,7 +118,7 @@ class StripeModel:
         lit, values, low, swing = self._at(timing)
         by_timing = self._light.expose(timing).slopes()
         changes = swing * self._response.slopes(lit, timing.gamma, by_timing)
-        levels = self._explained(values, changes[:, self._kept])
+        levels = self._fit_levels(values, changes[:, self._kept])
         slopes = LitColumns(self._shapes.all, values).light(levels) - changes
         slopes[:, low + swing * values > WHITE] = 0.0
         return np.asarray(slopes.T)

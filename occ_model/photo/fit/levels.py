@@ -49,7 +49,7 @@ class LevelShapes:
         place = np.arange(freedom)
         self._up, self._down = place[:, None] + place, np.abs(place[:, None] - place)
 
-    def explaining(self, lit: FloatArray, weight: FloatArray, change: FloatArray) -> FloatArray:
+    def fit(self, lit: FloatArray, weight: FloatArray, change: FloatArray) -> FloatArray:
         """Return the levels that explain a change of the kept columns best.
 
         ``weight``: shape (kept,), by which light is multiplied before. ``change``: shape (kept,) or

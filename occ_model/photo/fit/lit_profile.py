@@ -86,7 +86,7 @@ class LitProfile:
             slopes[BLUR] -= blur_rows(values, rates.kernel)
             slopes = slopes[:, self.kept]
             steep, columns = self._steep(seen, seen.sharp, light)
-        return slopes - steep * columns.light(self._shapes.explaining(columns.lit, steep, slopes))
+        return slopes - steep * columns.light(self._shapes.fit(columns.lit, steep, slopes))
 
     def relative_slope(self, seen: Seen) -> FloatArray:
         """Return the slope of the swing's logarithm over columns, shape (kept,)."""
@@ -105,7 +105,7 @@ class LitProfile:
     def _fit_levels(self, seen: Seen) -> _Fitted:
         kept = LitColumns(self._shapes.kept, seen.lit[self.kept])
         light, slope = seen.table.light_of(self.data), seen.table.slope_at(self.data)
-        levels = self._shapes.explaining(kept.lit, slope, slope * light)
+        levels = self._shapes.fit(kept.lit, slope, slope * light)
         shown = levels if seen.sharp is None else self._correct_levels(seen, seen.sharp, levels)
         return _Fitted(kept, levels, shown)
 
@@ -118,9 +118,7 @@ class LitProfile:
         for _ in range(_MOST_CORRECTIONS):
             light = LitColumns(self._wide_shapes, sharp).light(levels)
             steep, columns = self._steep(seen, sharp, light)
-            change = self._shapes.explaining(
-                columns.lit, steep, self._residual_of_blurred(seen, light)
-            )
+            change = self._shapes.fit(columns.lit, steep, self._residual_of_blurred(seen, light))
             levels = levels + change
             if np.abs(change).max() < _LEAST_CORRECTION:
                 break

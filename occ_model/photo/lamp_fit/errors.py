@@ -35,7 +35,7 @@ class ReadingErrors:
     width: float
     ramp: float
 
-    def of_shape(self, one: StripeReading) -> tuple[float, float]:
+    def shape_errors(self, one: StripeReading) -> tuple[float, float]:
         """Return the errors of a reading's duty and exposure."""
         return (self.width, self.ramp) if one.is_width_of_pulses else (self.ramp, self.width)
 

@@ -58,7 +58,7 @@ class LampEstimates:
     def uncertainties(self) -> dict[str, float]:
         """Standard deviations by the names of the scene's parameters, in SI units."""
         errors, period = self.reading.errors, 1.0 / self.frequency
-        of_duty, of_exposure = errors.of_shape(self.chosen)
+        of_duty, of_exposure = errors.shape_errors(self.chosen)
         of_place = errors.place * self.reading.step * self.readout
         value = self.readout if self.estimate == "readout_time" else self.frequency
         found = {
@@ -92,7 +92,7 @@ def estimate_lamp(
     def distance(one: StripeReading) -> float:
         known = 0.0
         if known_duty is not None:
-            error = math.hypot(reading.errors.of_shape(one)[0], DUTY_ERROR)
+            error = math.hypot(reading.errors.shape_errors(one)[0], DUTY_ERROR)
             known = (one.duty - known_duty) / (_SAME * error)
         elif noted is not None:
             known = math.log(one.exposure / (noted * frequency)) / _NOTE_ERROR
@@ -101,7 +101,7 @@ def estimate_lamp(
     first, *rest = sorted(
         readings_of(reading.fit.wave.width, reading.fit.wave.ramp_part), key=distance
     )
-    apart = _SAME * max(reading.errors.of_shape(first))
+    apart = _SAME * max(reading.errors.shape_errors(first))
     others = tuple(
         one
         for one in rest

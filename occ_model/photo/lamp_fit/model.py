@@ -81,7 +81,7 @@ class LampModel:
 
     def levels(self, values: FloatArray) -> FloatArray:
         light = self._light(values, self.wave(values).values(self.profile.columns))[0]
-        return self._processed(values, self.tone(values).levels(light))
+        return self._process(values, self.tone(values).levels(light))
 
     def ends(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the levels where the wave is 0 and where it is 1."""
@@ -111,10 +111,10 @@ class LampModel:
             by_envelope * self.envelope.T,
         ])  # fmt: skip
         before = [*range(NEAR), *range(COUNT, len(slopes))]
-        slopes[before] = self._processed(values, slopes[before])
-        return self._processed(values, levels), slopes.T
+        slopes[before] = self._process(values, slopes[before])
+        return self._process(values, levels), slopes.T
 
-    def _processed(self, values: FloatArray, levels: FloatArray) -> FloatArray:
+    def _process(self, values: FloatArray, levels: FloatArray) -> FloatArray:
         near, far = values[NEAR], values[FAR]
         return _mix(levels, 1.0 - 2.0 * (near + far), near, far)
 

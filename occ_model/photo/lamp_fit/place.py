@@ -58,7 +58,7 @@ def find_place(photo: Photo, region: Region) -> LampPlace | None:
             mask = cv2.resize(
                 mask.astype(np.uint8), part.shape[::-1], interpolation=cv2.INTER_NEAREST
             ).astype(bool)
-        return _inside(part, mask, region, photo.white)
+        return _crop_lamp(part, mask, region, photo.white)
 
 
 def _bounds(mask: BoolArray, margin: float) -> tuple[int, int, int, int]:
@@ -72,7 +72,7 @@ def _bounds(mask: BoolArray, margin: float) -> tuple[int, int, int, int]:
     return found[0], found[1], found[2], found[3]
 
 
-def _inside(part: FloatArray, mask: BoolArray, region: Region, white: int) -> LampPlace | None:
+def _crop_lamp(part: FloatArray, mask: BoolArray, region: Region, white: int) -> LampPlace | None:
     """Return the pixels of a mask without its rim; a picture's border is no rim."""
     kernel = np.ones((2 * _RIM_PIXELS + 1,) * 2, dtype=np.uint8)
     inner = cv2.erode(_hull(mask), kernel).astype(bool)

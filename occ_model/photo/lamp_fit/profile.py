@@ -98,7 +98,7 @@ class LampProfile:
             if others.max() < _MOST_STEP_RATIO**2 * means[largest]:
                 yield count, (largest + 1) % count, has_ramps
 
-    def averaged(self, count: int, first: int) -> "LampProfile":
+    def average(self, count: int, first: int) -> "LampProfile":
         """Average every ``count`` columns from the column ``first`` on."""
         if count == 1:
             return self

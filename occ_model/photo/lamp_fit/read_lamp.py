@@ -45,9 +45,9 @@ class LampReading:
     @property
     def column(self) -> float:
         """Column of the place's region at which the middle of a stripe is."""
-        return float(self._of_photo(np.array(self.fit.wave.place)))
+        return float(self._to_region(np.array(self.fit.wave.place)))
 
-    def _of_photo(self, column: FloatArray) -> FloatArray:
+    def _to_region(self, column: FloatArray) -> FloatArray:
         """Return where columns of the fit are in the place's region."""
         return np.asarray(self.first + self.step * (column + 0.5) - 0.5)
 
@@ -63,7 +63,7 @@ class LampReading:
         return self._spread(dark), self._spread(lit)
 
     def _spread(self, values: FloatArray) -> FloatArray:
-        places = self._of_photo(self.fit.profile.columns)
+        places = self._to_region(self.fit.profile.columns)
         return np.asarray(np.interp(np.arange(self.place.region.columns), places, values))
 
 
@@ -79,12 +79,12 @@ def read_lamp(
     """
     whole = LampProfile.of(place.pixels, place.shown)
     together, first = whole.lines_at_once()
-    profile = whole.averaged(together, first)
+    profile = whole.average(together, first)
     periods = likely_periods(profile.values, _PERIODS)
     if len(profile.values) < _LEAST_COLUMNS or not periods:
         raise MatchError("No period of stripes is found in it.")
     more = profile.reduction(0.5 * min(periods))
-    profile, step = profile.averaged(more, 0), together * more
+    profile, step = profile.average(more, 0), together * more
     bands = _bands(place, step, first)
     starts = [each / more for each in periods]
     ranked = fit_lamp(profile, starts, is_linear=is_linear, check=check)

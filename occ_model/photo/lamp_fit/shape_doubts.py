@@ -16,7 +16,7 @@ _MOST_WHITE = 0.15  # largest fraction of the columns with which duty and exposu
 def doubts_by_duty(found: LampEstimates) -> list[str]:
     """Doubt a known duty that is not that of the stripes."""
     known, duty = found.known_duty, found.chosen.duty
-    error, _ = found.reading.errors.of_shape(found.chosen)
+    error, _ = found.reading.errors.shape_errors(found.chosen)
     if known is None or abs(duty - known) <= _MOST_DEVIATIONS * math.hypot(error, DUTY_ERROR):
         return []
     return [

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from photo_world.photograph import compressed
+from photo_world.photograph import compress
 from photo_world.tone_curves import srgb
 from simulated_photos import photo_of
 
@@ -50,7 +50,7 @@ def draw_lamp(
 def photo_of_light(light: FloatArray, quality: int | None = None) -> occ.Photo:
     """Return sRGB's levels of light, 1 being white, as a photo; as a JPEG of a quality, if any."""
     image = np.rint(255.0 * srgb(np.clip(light, 0.0, 1.0))).astype(np.uint8)
-    return photo_of(image if quality is None else compressed(image, quality))
+    return photo_of(image if quality is None else compress(image, quality))
 
 
 FREQUENCY = 1000.0

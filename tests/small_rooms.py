@@ -24,8 +24,8 @@ def small_room(
         RoomLamp(
             name=f"L{n}", x=apart * (n % across), y=1.2 * (n // across), z=2.6, start_time=3e-4 * n,
             roll=turned * n,
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
+            transmitter=scene.transmitter.replace(
+                panel_width=0.8, panel_height=0.7, code=61 * n + 5
             ),
         )
         for n in range(panels)

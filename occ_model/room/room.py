@@ -231,7 +231,7 @@ class Room:
             name: value for name, value in changes.items() if name in GROUPS["transmitter"]
         }
         lamps = tuple(
-            dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced(parameters))
+            dataclasses.replace(lamp, transmitter=lamp.transmitter.replace(**parameters))
             for lamp in self.lamps
         )
         return self.replace(lamps=lamps, **changes)
@@ -292,7 +292,7 @@ def _read_lamp(row: Mapping[str, Any], shared: Transmitter, number: int) -> Room
         raise SceneFileError(f"{label} has no name; each lamp needs one of its own.")
     parameters = {name: value for name, value in row.items() if name not in _LAMP_KEYS}
     try:
-        return RoomLamp(**fields, transmitter=shared.replaced(parameters))
+        return RoomLamp(**fields, transmitter=shared.replace(**parameters))
     except ParameterError as error:
         if str(error).startswith("Lamp "):
             raise

@@ -78,8 +78,8 @@ def scene_with_lamp(room: Room, lamp: RoomLamp) -> Scene:
     return dataclasses.replace(
         scene,
         surroundings=surroundings,
-        transmitter=lamp.transmitter.replaced({"panel_width": width, "panel_height": height}),
-        model=scene.model.replaced({"start_time": scene.model.start_time + lamp.start_time}),
+        transmitter=lamp.transmitter.replace(panel_width=width, panel_height=height),
+        model=scene.model.replace(start_time=scene.model.start_time + lamp.start_time),
     )
 
 
@@ -89,10 +89,10 @@ def _surroundings_of(room: Room) -> Surroundings:
         light = light_of(lamp.transmitter)
         if isinstance(light, Cosine):
             cycles = Fraction(light.frequency) * Fraction(lamp.start_time)
-            return room.scene.surroundings.replaced({
-                "flicker_depth": light.depth, "flicker_frequency": light.frequency,
-                "flicker_phase": math.remainder(2.0 * math.pi * float(cycles % 1), 2.0 * math.pi),
-            })  # fmt: skip
+            turn = math.remainder(2.0 * math.pi * float(cycles % 1), 2.0 * math.pi)
+            return room.scene.surroundings.replace(
+                flicker_depth=light.depth, flicker_frequency=light.frequency, flicker_phase=turn
+            )
     return room.scene.surroundings
 
 

@@ -122,7 +122,7 @@ class Scene:
         for name, value in changes.items():
             by_group.setdefault(group_of(name), {})[name] = value
         groups = {
-            group: getattr(self, group).replaced(values) for group, values in by_group.items()
+            group: getattr(self, group).replace(**values) for group, values in by_group.items()
         }
         return dataclasses.replace(self, **groups)
 

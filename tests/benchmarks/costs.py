@@ -145,10 +145,10 @@ def compare_many_lamps() -> str:
     def room(side: int) -> Room:
         size, gap = 0.8 / side, 0.08
         scene = occ.load_preset("phone-136us")
-        sent = scene.transmitter.replaced({"panel_width": size, "panel_height": size})
+        sent = scene.transmitter.replace(panel_width=size, panel_height=size)
         lamps = tuple(
             RoomLamp(
-                name=f"L{n}", z=1.5, start_time=1e-4 * n, transmitter=sent.replaced({"code": n}),
+                name=f"L{n}", z=1.5, start_time=1e-4 * n, transmitter=sent.replace(code=n),
                 x=(size + gap) * (n % side - (side - 1) / 2),
                 y=(size + gap) * (n // side - (side - 1) / 2),
             )

@@ -38,8 +38,8 @@ def random_room(random: np.random.Generator) -> Room:
             name=f"L{n}", z=2.8, roll=float(random.uniform(-0.2, 0.2)),
             x=1.2 * (n % across - (across - 1) / 2), y=1.2 * (n // across - (across - 1) / 2),
             start_time=float(random.uniform(0.0, 3e-3)),
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
+            transmitter=scene.transmitter.replace(
+                panel_width=0.8, panel_height=0.7, code=61 * n + 5
             ),
         )
         for n in range(count)

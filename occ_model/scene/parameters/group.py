@@ -1,7 +1,8 @@
 """Groups of parameters as frozen dataclasses, each field of which declares a parameter."""
 
+import dataclasses
 from collections.abc import Callable, Mapping
-from dataclasses import Field, field, replace
+from dataclasses import Field, field
 from functools import cache
 from typing import Any, ClassVar, Concatenate, ParamSpec, Protocol, Self, TypeVar
 
@@ -67,11 +68,11 @@ class Group:
     @cache
     def declarations(cls) -> Mapping[str, Parameter]:
         return {
-            name: replace(made.metadata["declared"], name=name)
+            name: dataclasses.replace(made.metadata["declared"], name=name)
             for name, made in cls.__dataclass_fields__.items()
         }
 
-    def replaced(self, changes: Mapping[str, ParameterValue]) -> Self:
+    def replace(self, **changes: ParameterValue) -> Self:
         """Return the group with some values changed; only these are checked."""
         made = object.__new__(type(self))
         declarations = self.declarations()

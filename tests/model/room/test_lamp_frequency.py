@@ -24,7 +24,7 @@ def _room(*lights: dict[str, Any], **settings: Any) -> Room:
     """Return a room of lamps with these lights, as its file says it."""
     room = small_room(len(lights), **settings)
     lamps = tuple(
-        dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced(light))
+        dataclasses.replace(lamp, transmitter=lamp.transmitter.replace(**light))
         for lamp, light in zip(room.lamps, lights, strict=True)
     )
     return Room.from_toml(room.replace(lamps=lamps).to_toml())
@@ -150,9 +150,7 @@ def _random_room(seed: int) -> Room:
         RoomLamp(
             name=f"L{n}", x=1.4 * (n % 2) - 0.7, y=1.2 * (n // 2) - 0.5, z=2.2,
             start_time=float(random.uniform(0.0, 0.01)), roll=float(random.uniform(-0.4, 0.4)),
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.8, **light}
-            ),
+            transmitter=scene.transmitter.replace(panel_width=0.8, panel_height=0.8, **light),
         )
         for n, light in enumerate(lights)
     )  # fmt: skip

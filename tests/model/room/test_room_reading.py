@@ -157,7 +157,7 @@ def test_a_picture_is_read_equally_in_any_pixel_type() -> None:
 def test_a_lamp_that_sends_a_payload_is_named_by_its_bits() -> None:
     room = small_room(2)
     sent = ("bits:0100100001", "bits:1110001010")
-    lamps = [dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced({"payload": payload}))
+    lamps = [dataclasses.replace(lamp, transmitter=lamp.transmitter.replace(payload=payload))
              for lamp, payload in zip(room.lamps, sent, strict=True)]  # fmt: skip
     room = dataclasses.replace(room, lamps=tuple(lamps))
     reading = occ.read_room(occ.render_room(room, seed=1).camera_image, room)
@@ -175,7 +175,7 @@ def test_a_lamp_with_long_dark_runs_is_found_as_one() -> None:
         columns=1536, rows=1024,
     )  # fmt: skip
     # There are ten dark chips between two lit ones.
-    sent = [lamp.transmitter.replaced({"bits": 8, "code": code})
+    sent = [lamp.transmitter.replace(bits=8, code=code)
             for lamp, code in zip(room.lamps, (192, 240), strict=True)]  # fmt: skip
     lamps = [dataclasses.replace(lamp, transmitter=own)
              for lamp, own in zip(room.lamps, sent, strict=True)]  # fmt: skip
@@ -188,7 +188,7 @@ def test_a_lamp_with_long_dark_runs_is_found_as_one() -> None:
 @pytest.mark.parametrize("chips", [*range(0, 24, amount(12, 2)), 10 / 7])
 def test_a_lamp_cut_at_dark_chips_is_reported_as_cut(chips: float) -> None:
     room = small_room(1, camera=Place(z=-0.56764158), rows=1024, switching_frequency=4e3)
-    sent = room.lamps[0].transmitter.replaced({"panel_width": 1.3})
+    sent = room.lamps[0].transmitter.replace(panel_width=1.3)
     lamp = dataclasses.replace(room.lamps[0], start_time=chips / 4e3, transmitter=sent)
     # A chip has 7 columns, and a metre 243 columns.
     for shift, is_cut in ((0.0, False), (-0.83, False), (-1.1, True), (1.1, True)):
@@ -213,7 +213,7 @@ def test_a_lamp_of_another_room_is_not_named() -> None:
     room = _room(1, 4)
     image = occ.render_room(room).camera_image
     others = tuple(
-        dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced({"code": 900 + n}))
+        dataclasses.replace(lamp, transmitter=lamp.transmitter.replace(code=900 + n))
         for n, lamp in enumerate(room.lamps)
     )
     reading = occ.read_room(image, room.replace(lamps=others))

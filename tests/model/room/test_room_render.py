@@ -153,11 +153,11 @@ def test_the_plan_of_a_picture_includes_every_effect_that_a_lamp_needs() -> None
         RoomLamp(
             name=f"{n}", x=float(random.uniform(-1.5, 1.5)), y=float(random.uniform(-1.0, 1.0)),
             z=float(random.uniform(1.5, 3.5)), pitch=float(random.uniform(-0.4, 0.4)),
-            transmitter=scene.transmitter.replaced({
-                "panel_width": float(random.uniform(0.1, 0.6)),
-                "luminance": float(10.0 ** random.uniform(2.5, 4.0)),
-                "switching_frequency": float(10.0 ** random.uniform(3.3, 4.5)),
-            }),
+            transmitter=scene.transmitter.replace(
+                panel_width=float(random.uniform(0.1, 0.6)),
+                luminance=float(10.0 ** random.uniform(2.5, 4.0)),
+                switching_frequency=float(10.0 ** random.uniform(3.3, 4.5)),
+            ),
         )
         for n in range(12)
     )  # fmt: skip
@@ -179,8 +179,8 @@ def test_an_effect_of_a_single_lamp_is_planned(own: dict[str, float], effect: st
     lamps = tuple(
         RoomLamp(
             name=f"{n}", x=0.5 * (n % 3 - 1), y=0.4 * (n // 3 - 1), z=1.5, yaw=0.3,
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.3, "panel_height": 0.3} | (own if n == 4 else {})
+            transmitter=scene.transmitter.replace(
+                panel_width=0.3, panel_height=0.3, **(own if n == 4 else {})
             ),
         )
         for n in range(9)

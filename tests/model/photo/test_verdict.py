@@ -1,6 +1,7 @@
 """A match says how sure it is, and why, and refuses what is no lamp's."""
 
 import pickle
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -52,34 +53,18 @@ def test_what_a_check_raises_ends_the_search(chips: int) -> None:
     search = TimingSearch(
         np.random.default_rng(1).standard_normal(2000), np.arange(chips, dtype=np.uint8) % 3 % 2
     )
-    calls: list[int] = []
-
-    def stop() -> None:
-        calls.append(1)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-
+    stop = Mock(side_effect=[None, None, KeyboardInterrupt])
     with pytest.raises(KeyboardInterrupt):
         search.candidates(search.steps(), 2.2, stop)
-    assert len(calls) == 3
+    assert stop.call_count == 3
 
 
 def test_what_a_check_raises_ends_the_joint_fit() -> None:
-    calls: list[int] = []
-
-    def stop() -> None:
-        calls.append(1)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-
-    columns = stripes_of_ones_and_zeros(12.0, 400)
+    stop = Mock(side_effect=[None, None, KeyboardInterrupt])
+    chips, timing = np.array([1, 0], dtype=np.uint8), Timing(1 / 12, 0.5, 0.0, 2.2)
+    columns = 20.0 + 100.0 * light_of(chips, timing, 400)
     even = EvenProfile(columns, np.ones(400, dtype=bool), 100.0)
-    model = JointModel([even], np.array([1, 0], dtype=np.uint8), 1 / 12, 2.2, check=stop)
+    model = JointModel([even], chips, timing.step, 2.2, check=stop)
     with pytest.raises(KeyboardInterrupt):
-        model.fit(model.start(Timing(1 / 12, 0.5, 0.0, 2.2)))
-    assert len(calls) == 3
-
-
-def stripes_of_ones_and_zeros(columns_a_chip: float, columns: int) -> np.ndarray:
-    wave = Timing(1 / columns_a_chip, 0.5, 0.0, 2.2)
-    return 20.0 + 100.0 * light_of(np.array([1, 0], dtype=np.uint8), wave, columns)
+        model.fit(model.start(timing))
+    assert stop.call_count == 3

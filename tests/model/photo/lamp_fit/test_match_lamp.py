@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -118,20 +119,13 @@ def test_the_scene_of_a_match_begins_where_the_photo_does() -> None:
 
 def test_a_match_can_be_ended_while_it_fits() -> None:
     picture = draw_lamp(np.random.default_rng(5), duty=0.3, exposure=0.12, periods=7.7)
-    whole, asked = region_within(picture.photo, None), 0
-
-    def stop_at_third() -> None:
-        nonlocal asked
-        asked += 1
-        if asked == 3:
-            raise InterruptedError
-
+    whole = region_within(picture.photo, None)
+    stop = Mock(side_effect=[None, None, InterruptedError])
     with pytest.raises(InterruptedError):
         match_lamp(
-            picture.photo, SCENE, whole,
-            estimate="readout_time", is_duty_known=False, check=stop_at_third,
-        )  # fmt: skip
-    assert asked == 3
+            picture.photo, SCENE, whole, estimate="readout_time", is_duty_known=False, check=stop
+        )
+    assert stop.call_count == 3
 
 
 def stripes(shift: float = 0.0, floor: float = 0.0, exposure: float = 0.2) -> occ.Photo:

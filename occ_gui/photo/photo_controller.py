@@ -47,11 +47,6 @@ class PhotoController(QObject):
         results_store.select(lambda results: results.photo).changed.connect(self.opened)
 
     @property
-    def path(self) -> Path | None:
-        photo = self._results_store.results.photo
-        return None if photo is None else photo.path
-
-    @property
     def choice(self) -> PhotoChoice:
         return self._store.workspace.photo
 

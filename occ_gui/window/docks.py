@@ -58,16 +58,12 @@ class Panes(dict[str, DeclaredPane]):
             if name not in places:
                 window.addDockWidget(_SIDES[pane.default_side], pane.dock)
                 pane.dock.hide()
+        widths = {name: place.width for name, place in places.items() if place.width}
+        heights = {name: place.height for name, place in places.items() if place.height}
+        orientations = Qt.Orientation
         for orientation, sizes in (
-            (
-                Qt.Orientation.Horizontal,
-                {n: place.width for n, place in places.items() if place.width},
-            ),
-            (
-                Qt.Orientation.Vertical,
-                {n: place.height for n, place in places.items() if place.height},
-            ),
-        ):
+            (orientations.Horizontal, widths), (orientations.Vertical, heights)
+        ):  # fmt: skip
             window.resizeDocks([self[n].dock for n in sizes], [*sizes.values()], orientation)
 
 

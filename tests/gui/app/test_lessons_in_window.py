@@ -98,7 +98,7 @@ def test_a_crash_or_a_closed_window_during_a_lesson_leaves_the_users_own_state(
     before = application.store.store.workspace
     user.press(guide.list.choices[5])
     assert application.store.scene != before.scene
-    assert application.photos.path != photo_file
+    assert application.photos.choice.path != photo_file
     session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert record["in_use"]

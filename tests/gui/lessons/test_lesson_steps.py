@@ -279,10 +279,10 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     for _ in range(2):
         guide.step.next.click()
     bench.wait_until_idle()
-    assert bench.photos.path == sample  # in place of a photo of one's own
+    assert bench.photos.choice.path == sample  # in place of a photo of one's own
     assert bench.photos.choice.form.sent == "auto"
     bench.press(guide.step.back)
-    assert bench.photos.path is None
+    assert bench.photos.choice.path is None
     bench.press(guide.step.all_lessons)
-    assert bench.photos.path == sample
+    assert bench.photos.choice.path == sample
     assert bench.photos.choice.form.sent == "lamp"

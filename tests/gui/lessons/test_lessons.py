@@ -91,25 +91,25 @@ def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_du
     bench.open(photo_file)
     bench.choose_sent("read")
     bench.press(guide.list.choices[1])
-    assert bench.photos.path is None
+    assert bench.photos.choice.path is None
     bench.press(guide.step.all_lessons)
-    assert bench.photos.path == photo_file
+    assert bench.photos.choice.path == photo_file
     assert bench.photos.choice.form.sent == "read"
     bench.press(guide.list.choices[5])
-    assert bench.photos.path != photo_file
+    assert bench.photos.choice.path != photo_file
     bench.press(guide.step.all_lessons)
-    assert bench.photos.path == photo_file
+    assert bench.photos.choice.path == photo_file
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
     sheet.click()
     for _ in range(3):
         guide.step.next.click()
     bench.wait_until_idle()
-    assert bench.photos.path == photo_file, "a lab sheet is about it"
+    assert bench.photos.choice.path == photo_file, "a lab sheet is about it"
     other = Path(shutil.copy(photo_file, photo_file.with_name("other.png")))
     bench.photos.open(other)  # during a lesson
     bench.wait_until_idle()
     bench.press(guide.step.all_lessons)
-    assert bench.photos.path == other
+    assert bench.photos.choice.path == other
 
 
 @pytest.mark.parametrize("error", [SceneFileError("a <song>."), RecursionError("too <song>")])
@@ -152,7 +152,7 @@ def test_a_sample_that_is_still_being_read_is_not_opened_after_its_step(
         for _ in with_photo:
             guide.step.next.click()
     bench.wait_until_idle()
-    assert photos.path is None
+    assert photos.choice.path is None
 
 
 def test_a_missing_photo_is_reported(

@@ -86,7 +86,7 @@ class Clock(ClockSolution):
     chips_of_cycle: int = 0
 
     def widen_readout(self, relative_error: float, columns: int) -> Self:
-        """Add an error to the readout time, and to the gap after as many columns."""
+        """Add an error to the readout time, and to the gap, which follows some columns."""
         readout, gap = self.readout_time, self.gap
         added = relative_error * readout.value
         return replace(

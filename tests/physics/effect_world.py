@@ -42,7 +42,7 @@ def draw_anywhere(random: np.random.Generator) -> Scene:
         if isinstance(declared, Quantity)
     }
     distance = float(random.uniform(0.3, 3.0))
-    observe_with = random.uniform(0.1, 1.5, size=2) * distance
+    width, height = (random.uniform(0.1, 1.5, size=2) * distance).tolist()
     changes |= {
         "rows": int(random.integers(16, 200)),
         "columns": int(random.integers(60, 400)),
@@ -53,8 +53,8 @@ def draw_anywhere(random: np.random.Generator) -> Scene:
         "adc_bits": int(random.integers(6, 14)),
         "equivalent_focal_length": float(random.uniform(0.02, 0.06)),
         "distance": distance,
-        "panel_width": float(observe_with[0]),
-        "panel_height": float(observe_with[1]),
+        "panel_width": width,
+        "panel_height": height,
         "offset_x": float(random.normal() * 0.2 * distance),
         "offset_y": float(random.normal() * 0.2 * distance),
         # At the sliders' ends most pictures fold.

@@ -103,7 +103,7 @@ def random_scene(random: np.random.Generator) -> Scene:
 
 
 def fractions(scene: Scene, path: SignalPath, images: int, seed: int) -> np.ndarray:
-    """The fraction of right bits in each image with all effects, shape (images, decoders)."""
+    """Return the fraction of right bits in each image with all effects: (images, decoders)."""
     settings = RateSettings(images, DECODERS, seed, tolerance=0.0, path=path)
     counts = np.array([*right_bits_of_images(scene, settings)])
     return np.asarray(counts / scene.transmitter.payload_length)

@@ -54,7 +54,7 @@ def expose(light: FloatArray, columns: float) -> FloatArray:
 
 
 def error(light: FloatArray, found: FloatArray) -> float:
-    """Root mean square error, away from the ends."""
+    """Return the root mean square error, away from the ends."""
     return float(np.sqrt(np.mean((light - found)[200:-200] ** 2)))
 
 

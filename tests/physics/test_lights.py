@@ -26,7 +26,7 @@ def starts_of(scene: Scene) -> FloatArray:
 
 
 def pixel_values(scene: Scene, light: FloatArray) -> FloatArray:
-    """Equations (1) to (3) of the paper for a mean light of each column."""
+    """Apply equations (1) to (3) of the paper for a mean light of each column."""
     camera, around = scene.camera, scene.surroundings
 
     def value(luminance: float) -> float:

@@ -2,7 +2,7 @@
 
 import platform
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
@@ -68,17 +68,11 @@ def find_cameras(devices: Path = _DEVICES) -> tuple[CameraDevice, ...]:
 
 def _list_devices(devices: Path) -> Iterator[CameraDevice]:
     """List the capture devices: the first node of each camera."""
-    for number, folder in sorted(_number_devices(devices)):
+    names = (folder.name.removeprefix("video") for folder in devices.glob("video*"))
+    for number in sorted(int(name) for name in names if name.isascii() and name.isdigit()):
+        folder = devices / f"video{number}"
         if _read_text(folder / "index") in ("", "0"):
             yield CameraDevice(number, _read_text(folder / "name") or f"/dev/video{number}")
-
-
-def _number_devices(devices: Path) -> Iterator[tuple[int, Path]]:
-    with suppress(OSError):
-        for folder in devices.iterdir():
-            digits = folder.name.removeprefix("video")
-            if digits.isascii() and digits.isdigit():
-                yield int(digits), folder
 
 
 def _read_text(file: Path) -> str:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
@@ -114,7 +114,7 @@ class Line:
     course: Course
     offsets: FloatArray  # Shape (points,): measured distance of each from the course, in pixels
     # Shape (2, 2): covariance of both ends beyond that of the points' scatter
-    extra_covariance: FloatArray
+    extra_covariance: FloatArray = field(default_factory=lambda: np.zeros((2, 2)))
 
     @property
     def weights(self) -> FloatArray:
@@ -166,11 +166,10 @@ def fit_line(course: Course, offsets: FloatArray, common_error: float, blur: flo
 
     ``common_error``: the error in pixels that all points have in common.
     """
-    no_covariance = np.zeros((2, 2))
     for _ in range(5):
         if len(offsets) < MIN_POINTS:
             return None
-        line = Line(course, offsets, no_covariance)
+        line = Line(course, offsets)
         distances = np.abs(line.scatter)
         is_near = distances < _MAX_DEVIATIONS * 1.48 * float(np.median(distances)) + 0.5
         if is_near.all():

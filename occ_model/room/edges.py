@@ -42,7 +42,6 @@ _CONVERGED = 0.2  # pixels up to which a line agrees with the course around whic
 _PIXEL_BLUR = math.sqrt(1.0 / 12.0)  # standard deviation of the blur by a pixel's own width
 _SHARP = 0.3  # standard deviation in pixels of a blur below which no pixel is partly lit
 _SEARCHED_POINTS = 64  # number of an edge's points used to search for it
-_NO_COVARIANCE = np.zeros((2, 2))
 _SAMPLES = 16  # of each side's curve in the lamp's outline
 
 
@@ -252,9 +251,7 @@ class _PixelsAcross:
             for half_errors in (errors[:, :half], errors[:, half:])
         )
         position = np.linspace(-0.5, 1.5, len(self.light))  # 0 and 1 in the middles of the halves
-        line = Line(
-            self.course, self.inwards * (first + position * (second - first)), _NO_COVARIANCE
-        )
+        line = Line(self.course, self.inwards * (first + position * (second - first)))
         return self.course.move(line.shift)
 
     def _take(self, points: slice) -> Self:

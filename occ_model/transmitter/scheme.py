@@ -198,13 +198,7 @@ def sent_chips(transmitter: Transmitter) -> ByteArray:
     check_code(transmitter)
     if transmitter.pattern:
         return _pattern_chips(transmitter.pattern)
-    return _payload_chips(
-        transmitter.payload_bits,
-        transmitter.line_code,
-        transmitter.framing,
-        transmitter.preamble,
-        transmitter.error_correction,
-    )
+    return _payload_chips(scheme_of(transmitter), transmitter.payload_bits)
 
 
 @lru_cache(maxsize=64)
@@ -215,10 +209,8 @@ def _pattern_chips(pattern: str) -> ByteArray:
 
 
 @lru_cache(maxsize=256)
-def _payload_chips(
-    bits: tuple[int, ...], line_code: str, framing: str, preamble: str, correction: str
-) -> ByteArray:
-    chips = scheme_named(line_code, framing, preamble, correction, len(bits)).encode(bits)
+def _payload_chips(scheme: Scheme, bits: tuple[int, ...]) -> ByteArray:
+    chips = scheme.encode(bits)
     chips.flags.writeable = False
     return chips
 

@@ -36,11 +36,6 @@ _ALTERNATE = "0111"  # for HGF = 111, if the usual word would end a run of five
 _ALTERNATE_AFTER = {-1: (17, 18, 20), 1: (11, 13, 14)}  # EDCBA before it, by disparity
 _COMPLEMENT = str.maketrans("01", "10")
 
-_K28 = "001111"
-
-_CONTROL = {"K28.1": (_K28, "1001"), "K28.5": (_K28, "1010"), "K28.7": (_K28, "1000")}
-"""The control words with a comma, which data never contain, for a running disparity of -1."""
-
 
 def _disparity(word: str) -> int:
     return 2 * word.count("1") - len(word)
@@ -61,12 +56,6 @@ def encode_byte(byte: int, disparity: int) -> tuple[str, int]:
     is_alternate = high == 7 and low in _ALTERNATE_AFTER[disparity]
     four = _choose_form(_ALTERNATE if is_alternate else _FOUR[high], disparity)
     return six + four, disparity + _disparity(four)
-
-
-def control_word(name: str, disparity: int = -1) -> str:
-    """Return the ten chips of a control word: K28.1, K28.5 or K28.7."""
-    six, four = _CONTROL[name]
-    return six + four if disparity < 0 else (six + four).translate(_COMPLEMENT)
 
 
 @lru_cache(maxsize=1)
@@ -134,6 +123,7 @@ LINE_CODE = LineCode(
     finds_wrong_chip=False,
     encode=_encode,
     decode=_decode,
-    # It has a comma, which data never contain, and leaves the running disparity for the first byte.
-    preamble=control_word("K28.5", 1),
+    # The control word K28.5 at a running disparity of +1: it has a comma, which data never contain,
+    # and leaves the running disparity for the first byte.
+    preamble="1100000101",
 )

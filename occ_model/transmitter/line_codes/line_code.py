@@ -94,15 +94,6 @@ class LineCode:
         """Count the chips for a number of bits, with the padding of the last block."""
         return -(-bits // self.block_bits) * self.block_chips
 
-    def lowest_frequency(self, switching_frequency: float) -> float:
-        """Return the frequency in Hz of the code's slowest square wave, f / (2 longest run).
-
-        A packet repeats at a frequency that may be lower still, f / chips of the packet.
-        """
-        if self.longest_run is None:
-            return 0.0
-        return switching_frequency / (2 * self.longest_run)
-
     @property
     def least_switching_frequency(self) -> float | None:
         """Switching frequency in Hz above which no run of chips lasts long enough to be seen.
@@ -161,8 +152,3 @@ class WordTable:
     @property
     def _bits(self) -> int:
         return len(self.words).bit_length() - 1
-
-
-def parse_words(text: str) -> ByteArray:
-    """Parse words of 0 and 1 that are separated by spaces, shape (words, chips)."""
-    return np.array([[int(chip) for chip in word] for word in text.split()], dtype=np.uint8)

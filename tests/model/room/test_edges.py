@@ -32,7 +32,7 @@ def line(random: np.random.Generator, reach: int) -> Line:
     noise = random.normal(size=_POINTS + reach - 1)
     errors = 0.2 * np.convolve(noise, np.full(reach, reach**-0.5), mode="valid")
     course = Course.of(_ENDS, Scene().replace(rows=500, columns=_POINTS))
-    return Line(course, errors, np.zeros((2, 2)))
+    return Line(course, errors)
 
 
 def cut(reach: int) -> float:

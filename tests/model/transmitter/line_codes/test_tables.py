@@ -8,7 +8,7 @@ from each_case import each_case
 from hypothesis import given, strategies as st
 
 from occ_model.transmitter.line_codes import _4b6b, _8b10b, fsk, manchester
-from occ_model.transmitter.line_codes._8b10b import control_word, encode_byte
+from occ_model.transmitter.line_codes._8b10b import encode_byte
 from occ_model.transmitter.line_codes.differential_manchester import decode, encode
 from occ_model.transmitter.line_codes.fsk import HALF_PERIODS
 
@@ -68,13 +68,6 @@ def test_8b10b_words_are_those_of_ieee_802_3(
     byte = high << 5 | low
     assert encode_byte(byte, -1)[0] == negative
     assert encode_byte(byte, 1)[0] == positive
-
-
-def test_k28_5_is_the_comma_of_the_standard() -> None:
-    assert control_word("K28.5") == "0011111010"
-    assert control_word("K28.5", 1) == "1100000101"
-    assert control_word("K28.1") == "0011111001"
-    assert control_word("K28.7") == "0011111000"
 
 
 def test_no_data_contain_a_comma_or_a_run_of_six() -> None:

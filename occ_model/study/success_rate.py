@@ -146,11 +146,11 @@ def right_bits_of_scenes(
     those that each scene's signal needs.
     """
     for part in _batches(scenes, 1, settings.path):
-        plans = [chosen or plan_images([scene], settings) for scene, _ in part]
         images = [
-            image_of(scene, plan, seed, 0) for (scene, seed), plan in zip(part, plans, strict=True)
+            image_of(scene, chosen or plan_images([scene], settings), seed, 0)
+            for scene, seed in part
         ]
-        observations = list(observe_images(images, settings.path, plans[0]))
+        observations = list(observe_images(images, settings.path))
         yield from _right_bits([scene for scene, _ in part], observations, settings, heartbeat)
 
 
@@ -252,16 +252,12 @@ def _observe_cached(
     """Return the signals of pictures, simulated at once if they are not kept from before."""
     found = {key: _observed[key] for key in keys if key in _observed}
     missing = [key for key in keys if key not in found]
+    images = [
+        image_of(pictures.scene, _plan_cached(pictures), pictures.seed, number)
+        for pictures, number in missing
+    ]
     path = keys[0][0].path if keys else "auto"
-    at_once = 1 if path == "image" else max(len(missing), 1)  # whole pictures have their own plans
-    for start in range(0, len(missing), at_once):
-        part = missing[start : start + at_once]
-        plans = [_plan_cached(pictures) for pictures, _ in part]
-        images = [
-            image_of(pictures.scene, plan, pictures.seed, number)
-            for (pictures, number), plan in zip(part, plans, strict=True)
-        ]
-        found |= zip(part, observe_images(images, path, plans[0]), strict=True)
+    found |= zip(missing, observe_images(images, path), strict=True)
     for key in missing:
         _observed[key] = found[key]
         if len(_observed) > _MOST_KEPT:

@@ -141,7 +141,7 @@ class _CauseSearch:
         try:
             plan = signal_plan([scene], settings, is_estimated=self._path == "image")
             image = picture_itself(scene, plan, settings.seed)
-            (observation,) = observe_images([image], self._path, plan)
+            (observation,) = observe_images([image], self._path)
         except OccError:
             return False
         if observation is None:

@@ -15,6 +15,7 @@ from occ_model.camera.interpolation import Places, divide_weights
 from occ_model.camera.photometry import ColumnLight, panel_values, surroundings_values
 from occ_model.effects.effect import LightEffect
 from occ_model.effects.registry import effects_named
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene
 from occ_model.study.signals.grey_tables import (
     GreyDistribution,
@@ -29,10 +30,15 @@ class Image:
     """One picture of a scene, whose own start time and flicker's phase are not used."""
 
     scene: Scene
-    included: frozenset[str]  # Names of the effects
+    plan: Plan  # The simulated effects
     start_time: float
     flicker_phase: float
     random: np.random.Generator
+
+    @property
+    def included(self) -> frozenset[str]:
+        """Names of the effects."""
+        return frozenset(self.plan.included)
 
 
 def expose(images: Sequence[Image]) -> tuple[FloatArray, FloatArray]:

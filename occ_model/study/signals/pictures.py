@@ -33,32 +33,28 @@ def image_of(scene: Scene, plan: Plan, seed: int, number: int) -> Image:
     start_time, phase = float(random.uniform(0.0, duration)), scene.surroundings.flicker_phase
     if scene.surroundings.flicker_depth:  # the mains are not synchronous with the packets
         phase = float(random.uniform(-math.pi, math.pi))
-    return Image(scene, frozenset(plan.included), start_time, phase, random)
+    return Image(scene, plan, start_time, phase, random)
 
 
 def picture_itself(scene: Scene, plan: Plan, seed: int) -> Image:
     """Return the picture of a scene at its own start time."""
     random = np.random.default_rng(seed)
     phase = scene.surroundings.flicker_phase
-    return Image(scene, frozenset(plan.included), scene.model.start_time, phase, random)
+    return Image(scene, plan, scene.model.start_time, phase, random)
 
 
-def observe_images(
-    images: Sequence[Image], path: SignalPath, plan: Plan
-) -> Iterable[Observation | None]:
+def observe_images(images: Sequence[Image], path: SignalPath) -> Iterable[Observation | None]:
     """Simulate the signals that decoders read; None where a picture shows no panel.
 
-    ``path``: ``"image"`` simulates whole pictures with a plan's effects, any other a batch.
+    ``path``: ``"image"`` simulates whole pictures, any other a batch.
     """
-    if path != "image":
-        return simulate_images(images)
-    return (_observe_whole(image, plan) for image in images)
+    return map(_observe_whole, images) if path == "image" else simulate_images(images)
 
 
-def _observe_whole(image: Image, plan: Plan) -> Observation | None:
+def _observe_whole(image: Image) -> Observation | None:
     scene = image.scene.replace(start_time=image.start_time, flicker_phase=image.flicker_phase)
     seed = int(image.random.integers(_SEEDS))
-    picture = render_plan(paper_view_of(scene), plan, seed=seed).image
+    picture = render_plan(paper_view_of(scene), image.plan, seed=seed).image
     bright_area = locate(picture, scene.receiver.bright_fraction)
     if bright_area is None:
         return None

@@ -117,9 +117,9 @@ def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[P
     used: list[Plan] = []
     whole = observe_images
 
-    def reading(images: Any, path: Any, plan: Plan) -> Any:
-        used.append(plan)
-        return whole(images, path, plan)
+    def reading(images: Any, path: Any) -> Any:
+        used.extend(image.plan for image in images)
+        return whole(images, path)
 
     monkeypatch.setattr(success_rate, "observe_images", reading)
     occ.bit_error_rate(scene, bits=bits, seed=2, path="image")

@@ -3,8 +3,10 @@
 import errno
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
+from types import FrameType
 from typing import NoReturn
 
 import pytest
@@ -20,7 +22,7 @@ from worker_calls import (
 )
 
 from occ_model.parallel.job import CHANNELS, Job, JobResult, Workers, WorkerThread
-from occ_model.parallel.process_pool import ProcessPool
+from occ_model.parallel.process_pool import ProcessPool, delay_interrupts
 
 
 @pytest.fixture
@@ -138,3 +140,50 @@ def test_arguments_that_cannot_be_sent_fail_only_their_request(pool: ProcessPool
     assert [(channel, run) for channel, run, _ in bench.errors] == [(0, 1)]
     assert bench.results == ["sent"]
     assert bench.notices == []
+
+
+def test_ctrl_c_is_handled_at_the_end() -> None:
+    answered: list[int] = []
+
+    def answer(number: int, _frame: FrameType | None) -> None:
+        answered.append(number)
+
+    before = signal.signal(signal.SIGINT, answer)
+    try:
+        with delay_interrupts():
+            signal.raise_signal(signal.SIGINT)
+            assert answered == []
+        assert answered == [signal.SIGINT]
+        assert signal.getsignal(signal.SIGINT) is answer
+        with delay_interrupts():
+            pass
+        assert answered == [signal.SIGINT]
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_another_thread_does_not_delay_ctrl_c() -> None:
+    """Only the main thread may set signal handlers."""
+    before = signal.getsignal(signal.SIGINT)
+    seen: list[object] = []
+
+    def hold() -> None:
+        with delay_interrupts():
+            seen.append(signal.getsignal(signal.SIGINT))
+
+    thread = threading.Thread(target=hold)
+    thread.start()
+    thread.join()
+    assert seen == [before]
+
+
+def test_idle_workers_end_by_themselves_and_are_not_killed(
+    pool: ProcessPool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # However long it takes on a busy machine.
+    monkeypatch.setattr("occ_model.parallel.process_pool.EXIT_SECONDS", 60.0)
+    assert result(pool.submit(Job(echo, ("done",)), 0, 1)).value == "done"
+    started = pool.started_processes()
+    pool.close()
+    assert started
+    assert {process.exitcode for process in started} == {0}

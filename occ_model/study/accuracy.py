@@ -126,10 +126,10 @@ def _measure_added_effects(
 ) -> Iterator[AccuracyPoint]:
     """Add the effects one by one, in falling order of their estimates."""
     by_estimate = sorted(chosen.decisions, key=lambda decision: -decision.estimate)
-    steps = [decision.effect for decision in by_estimate if decision.effect in complete.effects]
-    for count in range(len(steps) + 1):
-        name = f"+ {_label(chosen, steps[count - 1])}" if count else "paper's model"
-        yield _measure_effects(scene, name, steps[:count], settings, complete)
+    added = [decision for decision in by_estimate if decision.effect in complete.effects]
+    effects = [decision.effect for decision in added]
+    for count, name in enumerate(["paper's model", *(f"+ {each.label}" for each in added)]):
+        yield _measure_effects(scene, name, effects[:count], settings, complete)
     yield _measure_effects(scene, "this plan", chosen.included, settings, complete, current=True)
 
 
@@ -145,10 +145,6 @@ def _measure_effects(
     error = complete.error_of(effects)
     seconds, _ = time_moves(_rendering(effects, settings), scene)
     return AccuracyPoint("effects", name, seconds, error, current, tuple(effects))
-
-
-def _label(chosen: Plan, effect: str) -> str:
-    return next(d.label for d in chosen.decisions if d.effect == effect)
 
 
 def _rendering(

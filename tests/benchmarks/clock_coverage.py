@@ -25,9 +25,9 @@ def main(count: int, containers: Sequence[str]) -> None:
             sure = [one for one in found if one.is_sure]
             listed = sum(one.is_listed for one in found)
             parts = [
-                f"{container:9}{known:8} {len(found)} of {count} clocks, {listed} hold the true"
+                f"{container:9}{known:8} {len(found)} of {count} clocks, "
+                f"{listed} hold the true one, {len(sure)} sure;"
             ]
-            parts.append(f"one, {len(sure)} sure;")
             for name in NAMES:
                 off = np.abs([one.off(name) for one in sure])
                 shares = [f"{100.0 * np.mean(off < bound):.1f}" for bound in (1.0, 2.0, 4.0)]

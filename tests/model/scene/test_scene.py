@@ -11,7 +11,7 @@ from scene_values import values_of
 import occ_model.scene.scene
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import GROUPS, Scene, group_of
+from occ_model.scene.scene import GROUPS, Scene
 
 # A code must fit its bits, which has tests of its own.
 FREE = {name: values_of(p) for name, p in PARAMETERS.items() if name not in ("code", "bits")}
@@ -75,16 +75,6 @@ def test_a_code_that_fits_its_bits_is_accepted_in_any_order(bits: int, code: int
             assert str(refused.value) == (
                 f"code is {code}; allowed with {bits} bits: 0 to {2**bits - 1}."
             )
-
-
-def test_an_unknown_name_is_answered_with_the_nearest() -> None:
-    for refused in (
-        lambda: Scene().replace(exposure_tme=1e-3),
-        lambda: Scene().value("exposure_tme"),
-        lambda: group_of("exposure_tme"),
-    ):
-        with pytest.raises(ParameterError, match=r"'exposure_tme'; did you mean exposure_time\?$"):
-            refused()
 
 
 def test_a_group_s_name_is_not_a_parameter_s() -> None:

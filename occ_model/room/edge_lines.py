@@ -19,7 +19,7 @@ _MIN_VARIANCE = 1e-8  # of a line's end in square pixels, as points may lie exac
 _MAX_SCATTER = 2.0  # scatter in pixels beyond which points do not belong to one edge
 _PHASES = 16  # positions of an edge on the pixel grid over which its error is averaged
 
-_BLOCK = 8  # points with correlated errors, due to the blocks of a JPEG file or the lens's blur
+BLOCK = 8  # points with correlated errors, due to the blocks of a JPEG file or the lens's blur
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -138,7 +138,7 @@ class Line:
     def sums_of_blocks(self) -> tuple[float, float]:
         """Return the squared sums of errors over blocks, and those expected if independent."""
         places, weights, scatter = self.course.places, self.weights, self.scatter
-        block = (places - places.min()) // _BLOCK
+        block = (places - places.min()) // BLOCK
         lines, _ = np.linalg.qr(self.course.leverage)
         block_sum = independent_sum = 0.0
         for weight in weights / np.sqrt(np.square(weights).mean()):

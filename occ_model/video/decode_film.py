@@ -49,13 +49,11 @@ def decode_video(
     VideoError
         The file cannot be read.
     """
-    reader = reader_of(
-        video,
-        scene,
-        decoder,
-        readout_tolerance=readout_tolerance,
-        frequency_tolerance=frequency_tolerance,
-    )
+    tolerances = {
+        "readout_tolerance": readout_tolerance,
+        "frequency_tolerance": frequency_tolerance,
+    }
+    reader = reader_of(video, scene, decoder, **tolerances)
     for frame in video:
         film_progress = reader.add(frame)
         if progress is not None:
@@ -67,18 +65,10 @@ def reader_of(
     video: Video,
     scene: Scene,
     decoder: str = PAPER_DECODER,
-    *,
-    readout_tolerance: float | None = None,
-    frequency_tolerance: float | None = None,
+    **tolerances: float | None,
 ) -> VideoReader:
     """Return a reader of a film's frames; arguments and errors as for :func:`decode_video`."""
-    reader = VideoReader(
-        scene_of_frames(video, scene),
-        decoder,
-        readout_tolerance=readout_tolerance,
-        frequency_tolerance=frequency_tolerance,
-        times=video.times,
-    )
+    reader = VideoReader(scene_of_frames(video, scene), decoder, times=video.times, **tolerances)
     if video.line_step > 1:
         reader.notes = (_INTERLACED,)
     return reader

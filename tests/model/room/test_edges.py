@@ -15,7 +15,7 @@ from occ_model.camera.photometry import (
     panel_values,
     saturate,
 )
-from occ_model.room.edge_lines import _BLOCK, Course, Line, estimate_variance_ratio
+from occ_model.room.edge_lines import BLOCK, Course, Line, estimate_variance_ratio
 from occ_model.room.edges import find_edges
 from occ_model.room.render import RoomFrame
 from occ_model.room.room import Place, Room
@@ -42,7 +42,7 @@ def cut(reach: int) -> float:
     """
     apart = np.arange(1 - reach, reach)
     alike = 1.0 - np.abs(apart) / reach
-    return float(alike.sum() / (alike * np.maximum(1.0 - np.abs(apart) / _BLOCK, 0.0)).sum())
+    return float(alike.sum() / (alike * np.maximum(1.0 - np.abs(apart) / BLOCK, 0.0)).sum())
 
 
 @pytest.mark.parametrize("reach", [1, 8])

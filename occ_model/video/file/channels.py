@@ -45,8 +45,10 @@ class ChannelReader:
             if not (form.is_rgb or form.has_palette or "bayer" in form.name):
                 kind = "gray16le" if form.name.startswith("gray") else "yuv444p16le"
                 return self._read_luma(self._convert(frame, kind), lines)
-        is_deep = max(component.bits for component in form.components) > 8
-        picture = self._convert(frame, "bgr48le" if is_deep else "bgr24").to_ndarray()
+        bits = max(component.bits for component in form.components)
+        if "bayer" in form.name:  # whose components share the bits of one sample
+            bits = form.bits_per_pixel
+        picture = self._convert(frame, "bgr48le" if bits > 8 else "bgr24").to_ndarray()
         return extract_channel(np.ascontiguousarray(picture[lines]), self._channel)
 
     def _read_luma(self, frame: VideoFrame, lines: slice) -> Samples:

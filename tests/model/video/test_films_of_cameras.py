@@ -127,6 +127,20 @@ def test_luma_that_shares_its_plane_is_the_files_own_too(tmp_path: Path, form: s
     )
 
 
+@pytest.mark.parametrize(("form", "white"), [("bayer_rggb16le", 65_535), ("bayer_rggb8", 255)])
+def test_a_mosaic_keeps_its_bits(form: str, white: int) -> None:
+    """An even mosaic, as CineForm RAW has it, is grey of the level that it stores."""
+    from occ_model.video.file.channels import ChannelReader
+
+    frame = av.VideoFrame(COLUMNS, LINES, form)
+    kind = np.dtype("<u2" if white > 255 else np.uint8)
+    level = white // 60
+    frame.planes[0].update(np.full((LINES, COLUMNS), level, kind).tobytes())
+    found = ChannelReader("luma", "cfhd").read(frame)
+    assert found.dtype == kind.newbyteorder("=")
+    np.testing.assert_array_equal(found, level)
+
+
 @pytest.mark.parametrize("luma_of", [(1, 0.2126, 0.0722), (6, 0.299, 0.114)])
 def test_colours_are_those_of_the_stated_matrix(
     tmp_path: Path, luma_of: tuple[int, float, float]

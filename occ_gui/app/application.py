@@ -31,8 +31,8 @@ class Application(Parts):
         self.shell.enable_entries()
         connect_story(self)
         self.scene = SceneInWindow(self)
-        self._code_selection = self.store.store.select(lambda workspace: workspace.has_code)
-        self.session = Session(self.store.store, self._user_workspace)
+        self._code_selection = self.scene_store.store.select(lambda workspace: workspace.has_code)
+        self.session = Session(self.scene_store.store, self._user_workspace)
         self._connect_parts()
 
     def _offer_exports(self) -> None:
@@ -94,7 +94,7 @@ class Application(Parts):
         self.document.photo_named.connect(window.show_photo)
         self.files.pane_requested.connect(window.bring_to_front)
         menus.scan_axes.triggered.connect(lambda action: photos.set_scan_axis(action.data()))
-        scan_axis = self.store.store.select(
+        scan_axis = self.scene_store.store.select(
             lambda workspace: workspace.photo.load_options.scan_axis
         )
         scan_axis.changed.connect(lambda axis: menus.show_choice(menus.scan_axes, axis))
@@ -104,11 +104,11 @@ class Application(Parts):
 
     def _report_undo(self) -> None:
         # The change may be invisible in this mode. Menu texts contain && for &.
-        title = self.store.undo_stack.redoText().replace("&&", "&")
+        title = self.scene_store.undo_stack.redoText().replace("&&", "&")
         self.messages.note(f"Undone: {title}.")
 
     def _report_redo(self) -> None:
-        title = self.store.undo_stack.undoText().replace("&&", "&")
+        title = self.scene_store.undo_stack.undoText().replace("&&", "&")
         self.messages.note(f"Redone: {title}.")
 
     def _connect_strips(self) -> None:
@@ -142,11 +142,11 @@ class Application(Parts):
 
     def resume(self, workspace: Workspace) -> None:
         """Restore the workspace of an earlier window, without a step to undo."""
-        self.store.store.put(workspace)
+        self.scene_store.store.put(workspace)
 
     def _user_workspace(self) -> Workspace:
         """Return the user's own workspace, even while a lesson shows another."""
-        return self.lessons.user_workspace() or self.store.store.workspace
+        return self.lessons.user_workspace() or self.scene_store.store.workspace
 
     def _keep_view(self) -> None:
         """Store the layout of the window, unless a lesson has its own panes in it."""

@@ -14,8 +14,8 @@ from occ_model.version import __version__
 
 
 def features(parts: Parts) -> tuple[Feature[Any], ...]:
-    scenes, shell, window = parts.store, parts.shell, parts.window
-    preferences, store = parts.preferences, parts.store.store
+    scenes, shell, window = parts.scene_store, parts.shell, parts.window
+    preferences, store = parts.preferences, parts.scene_store.store
 
     def current_pane() -> str:
         return parts.current_pane.name
@@ -82,7 +82,7 @@ def _entries(parts: Parts) -> Feature[None]:
             "save_scene_as": files.ask_to_save_scene,
             "save_picture": files.ask_to_save_picture,
             "save_film": files.ask_to_save_film,
-            "reset_scene": lambda: parts.store.begin(
+            "reset_scene": lambda: parts.scene_store.begin(
                 load_preset(DEFAULT_PRESET), "reset of the scene"
             ),
             "match": lambda: _match(parts),
@@ -114,7 +114,7 @@ def _show_report(parts: Parts) -> None:
     from occ_gui.app.report import report_text, show_report
 
     messages = parts.error_reports.last_messages.lines
-    text = report_text(parts.store.scene, parts.store.settings.settings, messages)
+    text = report_text(parts.scene_store.scene, parts.scene_store.settings.settings, messages)
     show_report(parts.window, text)
 
 

@@ -222,12 +222,12 @@ class Parts(QObject):
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
         super().__init__()
         store = Store(workspace)
-        self.store = SceneStore(store, {e.name: e.label for e in EFFECTS})
-        self.settings = self.store.settings
-        self.editor = SceneEditor(self.store)
+        self.scene_store = SceneStore(store, {e.name: e.label for e in EFFECTS})
+        self.settings = self.scene_store.settings
+        self.editor = SceneEditor(self.scene_store)
         self.preferences = Preferences(preferences)
         # Simulates the first picture while the panes are created.
-        self.simulation = SimulationController(self.store)
+        self.simulation = SimulationController(self.scene_store)
         self.present = PresentResults(self.simulation)
         self.controls = _make_controls()
         self.slider_strips = SliderStrips(self.controls.main_rows())
@@ -236,19 +236,19 @@ class Parts(QObject):
         centre = self._make_centre()
         self.story: StoryView = self.view("story")
         self.window = MainWindow(
-            self.controls, centre, self.story, undo_stack=self.store.undo_stack
+            self.controls, centre, self.story, undo_stack=self.scene_store.undo_stack
         )
         self.messages = StatusMessages(self.window, self.controls, store, self.results_store)
         self.photos = PhotoController(store, self.results_store)
-        self.presets = PresetController(self.window, self.store)
+        self.presets = PresetController(self.window, self.scene_store)
         self.files = FileController(
-            self.window, self.store, self.photos, self.preferences, self.present.ask
+            self.window, self.scene_store, self.photos, self.preferences, self.present.ask
         )
-        self.document = Document(self.window, self.store, self.files)
+        self.document = Document(self.window, self.scene_store, self.files)
         self.background_rates = BackgroundRates(
-            self.store, self.slider_strips, self._may_measure_rates
+            self.scene_store, self.slider_strips, self._may_measure_rates
         )
-        self.pins = PinController(self.store, self.present.is_present)
+        self.pins = PinController(self.scene_store, self.present.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(self.window, self.shell, store, self.files)
         self.options = ViewOptions(
@@ -262,8 +262,10 @@ class Parts(QObject):
 
     def _make_centre(self) -> QWidget:
         """Make the story, with a place for the whole picture in it."""
-        picture = self.shell.embed(panes.picture(self.store.store, self.describe_photo))
-        return self.shell.embed(declare_story(self.store, self.simulation, picture, [*DECODERS]))
+        picture = self.shell.embed(panes.picture(self.scene_store.store, self.describe_photo))
+        return self.shell.embed(
+            declare_story(self.scene_store, self.simulation, picture, [*DECODERS])
+        )
 
     def describe_photo(self) -> str:
         """Return the photo's name and the verdict on its match; empty if no photo is open."""
@@ -273,7 +275,7 @@ class Parts(QObject):
         from occ_gui.photo.photo_verdict import photo_caption
         from occ_gui.photo.shown_photo import ShownPhoto
 
-        return photo_caption(ShownPhoto.of(self.store.store.workspace, results))
+        return photo_caption(ShownPhoto.of(self.scene_store.store.workspace, results))
 
     def _may_measure_rates(self) -> bool:
         """Return whether the first picture is shown, or none is being simulated."""

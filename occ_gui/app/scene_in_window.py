@@ -18,30 +18,30 @@ class SceneInWindow(QObject):
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._parts = parts
-        self.before = BeforeController(parts.store.store, parts.results_store.show_before)
+        self.before = BeforeController(parts.scene_store.store, parts.results_store.show_before)
         self.plan_changes = PlanChanges(self)
         self._connect_scene()
         self._connect_simulation()
         self._list_presets()
         self._list_recent()
-        self._show_scene(parts.store.scene)
-        self._show_settings(parts.store.settings.settings)
+        self._show_scene(parts.scene_store.scene)
+        self._show_settings(parts.scene_store.settings.settings)
 
     def _connect_scene(self) -> None:
         parts, messages = self._parts, self._parts.messages
-        controls, editor, store = parts.controls, parts.editor, parts.store
+        controls, editor, scenes = parts.controls, parts.editor, parts.scene_store
         controls.connect_editor(editor)
         controls.preset_chosen.connect(parts.presets.load)
-        controls.forced.released.connect(store.release_effects)
+        controls.forced.released.connect(scenes.release_effects)
         editor.edit_started.connect(messages.accept)
         editor.input_refused.connect(messages.note)
-        store.changed.connect(self._show_scene)
-        store.store.select(entries_of).changed.connect(messages.accept)
-        store.refused.connect(self._refuse)
-        store.noted.connect(messages.note)
-        store.refused_for.connect(controls.show_problem)
-        store.settings.changed.connect(self._show_settings)
-        store.settings.refused.connect(messages.note)
+        scenes.changed.connect(self._show_scene)
+        scenes.store.select(entries_of).changed.connect(messages.accept)
+        scenes.refused.connect(self._refuse)
+        scenes.noted.connect(messages.note)
+        scenes.refused_for.connect(controls.show_problem)
+        scenes.settings.changed.connect(self._show_settings)
+        scenes.settings.refused.connect(messages.note)
         parts.presets.changed.connect(self._list_presets)
         parts.preferences.changed.connect(self._list_recent)
 
@@ -81,13 +81,13 @@ class SceneInWindow(QObject):
 
     def _show_settings(self, settings: SimulationSettings) -> None:
         parts = self._parts
-        labels = parts.store.settings.effect_labels
+        labels = parts.scene_store.settings.effect_labels
         parts.controls.forced.show_list(describe_accuracy(settings, labels))
         parts.window.show_accuracy(accuracy_badge(settings, labels))
 
     def _refuse(self, sentence: str) -> None:
         # The control still shows the refused value.
-        self._parts.controls.show_scene(self._parts.store.scene)
+        self._parts.controls.show_scene(self._parts.scene_store.scene)
         self._parts.messages.note(sentence)
 
     def _list_presets(self) -> None:

@@ -23,23 +23,23 @@ class Document(QObject):
 
     photo_named = Signal(str)  # the name of the open photo; empty if none is
 
-    def __init__(self, window: QWidget, store: SceneStore, files: FileController) -> None:
+    def __init__(self, window: QWidget, scenes: SceneStore, files: FileController) -> None:
         super().__init__(window)
         self._window = window
-        self._store = store
+        self._scenes = scenes
         self._files = files
         self._saved_scene: Scene | None = None
         self._photo_name = ""
         files.scene_saved.connect(self._adopt_file)
         files.scene_opened.connect(self._adopt_file)
-        store.changed.connect(self._mark_changes)
-        path = store.store.select(lambda workspace: workspace.scene_file)
+        scenes.changed.connect(self._mark_changes)
+        path = scenes.store.select(lambda workspace: workspace.scene_file)
         path.changed.connect(self._compare_with_file)
         self._show_title()
 
     @property
     def path(self) -> Path | None:
-        return self._store.store.workspace.scene_file
+        return self._scenes.store.workspace.scene_file
 
     def save(self) -> None:
         """Save the scene to its file; if it has none, ask the user for one."""
@@ -72,9 +72,9 @@ class Document(QObject):
         self._show_title()
 
     def _adopt_file(self, path: Path) -> None:
-        store = self._store.store
+        store = self._scenes.store
         store.put(replace(store.workspace, scene_file=path))
-        self._saved_scene = self._store.scene
+        self._saved_scene = self._scenes.scene
         self._show_title()
 
     def _compare_with_file(self, path: Path | None) -> None:
@@ -88,7 +88,7 @@ class Document(QObject):
         scene = "" if self.path is None else f"{in_title(self.path.name)}[*]"
         names = [name for name in (in_title(self._photo_name), scene) if name]
         self._window.setWindowTitle(" – ".join((*names, title)))  # noqa: RUF001 - a dash
-        self._mark_changes(self._store.scene)
+        self._mark_changes(self._scenes.scene)
 
     def _mark_changes(self, scene: Scene) -> None:
         has_changed = self.path is not None and scene != self._saved_scene

@@ -74,14 +74,14 @@ class FileController(QObject):
     def __init__(
         self,
         window: QWidget,
-        store: SceneStore,
+        scenes: SceneStore,
         photos: PhotoController,
         preferences: Preferences,
         when_present: Callable[[ResultsConsumer], None],
     ) -> None:
         super().__init__(window)
         self._window = window
-        self._store = store
+        self._scenes = scenes
         self._photos = photos
         self._preferences = preferences
         self._when_present = when_present
@@ -186,7 +186,7 @@ class FileController(QObject):
             self.failed.emit(str(error))
             return False
         title = f"opening of {one_line(path.name)}"
-        self._store.begin(scene, title)
+        self._scenes.begin(scene, title)
         return True
 
     def ask_to_save_scene(self) -> None:
@@ -194,13 +194,13 @@ class FileController(QObject):
             self.save_scene(path)
 
     def save_scene(self, path: Path) -> None:
-        scene = self._store.scene
+        scene = self._scenes.scene
         if self._save(path, lambda: write_scene_file(path, scene)):
             self._preferences.add(path)
             self.scene_saved.emit(path)
 
     def ask_to_save_picture(self) -> None:
-        picture_kind = self._store.store.workspace.picture_kind
+        picture_kind = self._scenes.store.workspace.picture_kind
         title, kinds = f"Save the {picture_kind}'s picture", f"Pictures ({_PICTURES})"
         if path := self._ask_for_name(title, f"simulation-{picture_kind}.png", kinds):
             self.save_picture(path)
@@ -214,7 +214,7 @@ class FileController(QObject):
     def save_picture(self, path: Path) -> None:
         """Save the picture of the present scene at full size, the camera's or the receiver's."""
         self._when_present(
-            partial(self._write_picture, path, self._store.store.workspace.picture_kind)
+            partial(self._write_picture, path, self._scenes.store.workspace.picture_kind)
         )
 
     def _write_picture(self, path: Path, picture_kind: str, snapshot: Snapshot) -> None:

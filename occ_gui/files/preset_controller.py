@@ -21,13 +21,13 @@ class PresetController(QObject):
     status_message = Signal(str)
     changed = Signal()
 
-    def __init__(self, window: QWidget, store: SceneStore) -> None:
+    def __init__(self, window: QWidget, scenes: SceneStore) -> None:
         super().__init__(window)
         self._window = window
-        self._store = store
+        self._scenes = scenes
         self._loaded = read_presets()
         self._record_preset()
-        store.changed.connect(self._record_preset)
+        scenes.changed.connect(self._record_preset)
 
     @property
     def titles(self) -> list[tuple[str, str]]:
@@ -50,12 +50,12 @@ class PresetController(QObject):
     @property
     def shown_names(self) -> tuple[str, str]:
         """Names of the preset of the scene, and of the one it was changed from; empty for none."""
-        name = self.name_of(self._store.scene)
-        return name, "" if name else self._store.store.workspace.preset
+        name = self.name_of(self._scenes.scene)
+        return name, "" if name else self._scenes.store.workspace.preset
 
     def _record_preset(self) -> None:
-        store = self._store.store
-        if name := self.name_of(self._store.scene):
+        store = self._scenes.store
+        if name := self.name_of(self._scenes.scene):
             store.put(replace(store.workspace, preset=name))
 
     def load(self, name: str) -> None:
@@ -67,7 +67,7 @@ class PresetController(QObject):
             self.update()
             return
         shown = name if name in self.user_presets else preset.title  # as in the list
-        self._store.begin(preset.scene, f"preset {one_line(shown)}", new_gesture())
+        self._scenes.begin(preset.scene, f"preset {one_line(shown)}", new_gesture())
 
     def ask_to_save_match(self, matching: "MatchController") -> None:
         photo = matching.photo

@@ -105,8 +105,8 @@ class Window(QObject):
         rows = []
         for move in range(moves + _WARM_UP):
             start = perf_counter()
-            self.application.store.change(1, exposure_time=60e-6 + 1e-7 * move)
-            scene = self.application.store.scene
+            self.application.scene_store.change(1, exposure_time=60e-6 + 1e-7 * move)
+            scene = self.application.scene_store.scene
             self.come_to_rest()
             first = self.painted.first
             kinds = (("draft", "exact"), ("verdict",), ("panel", "exact"), ("exact",))
@@ -121,7 +121,7 @@ class Window(QObject):
 
         def move() -> None:
             made.append(perf_counter())
-            self.application.store.change(2, exposure_time=80e-6 + 1e-7 * len(made))
+            self.application.scene_store.change(2, exposure_time=80e-6 + 1e-7 * len(made))
             if len(made) == moves:
                 loop.stop()
 
@@ -132,7 +132,7 @@ class Window(QObject):
         times = [at for kind in ("draft", "exact") for at, _ in self.painted.times.get(kind, ())]
         during = sum(made[0] <= at <= made[-1] for at in times)
         self.come_to_rest()
-        exact = self.painted.first(self.application.store.scene, "exact")
+        exact = self.painted.first(self.application.scene_store.scene, "exact")
         return during / (made[-1] - made[0]), exact - made[-1]
 
     def close(self) -> None:

@@ -100,8 +100,8 @@ def state_of(application: Application) -> list[object]:
     """Return what a test could have changed in a window beside its widgets."""
     window = application.window
     return [
-        application.store.store.workspace,
-        application.store.undo_stack.count(),
+        application.scene_store.store.workspace,
+        application.scene_store.undo_stack.count(),
         application.results_store.results.photo,
         application.view("picture").overlay.placement,
         application.view("photo").form.choice(),
@@ -194,7 +194,7 @@ class SharedWindow:
         qtbot.wait(_SETTLED_MS)
         self._home = Home.of(kept)
         # Each test finds a window that had another scene, the first one too.
-        kept.store.change(iso=1.1 * scene.camera.iso)
+        kept.scene_store.change(iso=1.1 * scene.camera.iso)
         qtbot.waitUntil(lambda: kept.is_idle)
         self._put_back(qtbot, scene, kept)
         self._first = [*state_of(kept), *look_of(kept.window)]
@@ -230,11 +230,11 @@ class SharedWindow:
         kept.video.close()
         kept.pins.clear()
         kept.preferences.clear()
-        first = replace(kept.store.store.workspace, scene=scene, settings=FIRST_SETTINGS)
+        first = replace(kept.scene_store.store.workspace, scene=scene, settings=FIRST_SETTINGS)
         first = replace(first, photo=PhotoChoice(), film=FilmChoice(), room=RoomChoice())
         first = replace(first, preset="", scene_file=None)
-        kept.store.store.put(first, "first scene")
-        kept.store.undo_stack.clear()
+        kept.scene_store.store.put(first, "first scene")
+        kept.scene_store.undo_stack.clear()
         kept.document.show_photo(None)  # writes the title
         if kept.options.theme.theme != THEMES[0]:
             kept.options.theme.choose(THEMES[0])

@@ -107,8 +107,10 @@ class Monkey:
         self._actions: dict[Callable[[], object], int] = {
             self.move_a_slider: 1200,
             self.choose_a_word: 80,
-            lambda: at.store.change(code=chance.randrange(1024), bits=10): 80,
-            lambda: chance.choice([at.store.undo_stack.undo, at.store.undo_stack.redo])(): 120,
+            lambda: at.scene_store.change(code=chance.randrange(1024), bits=10): 80,
+            lambda: chance.choice(
+                [at.scene_store.undo_stack.undo, at.scene_store.undo_stack.redo]
+            )(): 120,
             self.load_a_preset: 60,
             self.force_an_effect: 40,
             lambda: at.settings.set_tolerance(10.0 ** chance.uniform(-1.0, 2.0)): 40,
@@ -187,8 +189,8 @@ class Monkey:
         settings = self._application.settings
         settings.set_tolerance(FIRST_SETTINGS.tolerance)
         for effect in NAMES:
-            self._application.store.force(effect, None)
-        self._application.store.put(scene, "home")
+            self._application.scene_store.force(effect, None)
+        self._application.scene_store.put(scene, "home")
         self._show_a_photo_everywhere()
         self.close_the_photo()
         self._films.live.stop_filming()
@@ -223,22 +225,22 @@ class Monkey:
         if self._random.random() < 0.3:
             self._gesture = new_gesture()
         value = declared.at(self._random.random())
-        self._application.store.change(self._gesture, **{declared.name: value})
+        self._application.scene_store.change(self._gesture, **{declared.name: value})
 
     def choose_a_word(self) -> None:
         names = [n for n, p in PARAMETERS.items() if isinstance(p, Choice)]
         declared = PARAMETERS[self._random.choice(names)]
         assert isinstance(declared, Choice)
         word = self._random.choice(declared.choices)
-        self._application.store.change(NO_GESTURE, **{declared.name: word})
+        self._application.scene_store.change(NO_GESTURE, **{declared.name: word})
 
     def load_a_preset(self) -> None:
         scene = occ.load_preset(self._random.choice(occ.presets()))
-        self._application.store.put(smaller(scene), "preset")
+        self._application.scene_store.put(smaller(scene), "preset")
 
     def force_an_effect(self) -> None:
         included = self._random.choice([True, False, None, None])
-        self._application.store.force(self._random.choice(NAMES), included)
+        self._application.scene_store.force(self._random.choice(NAMES), included)
 
     def close_the_photo(self) -> None:
         self._application.photos.close()
@@ -299,7 +301,7 @@ class Monkey:
         self._qtbot.wait(50)
 
     def ask_for_what_cannot_be(self) -> None:
-        self._application.store.change(exposure_time=-1.0)
+        self._application.scene_store.change(exposure_time=-1.0)
         self._application.settings.set_tolerance(float("nan"))
         self._application.files.open_photo(Path("/nowhere/photo.png"))
 

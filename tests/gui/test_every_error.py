@@ -252,7 +252,7 @@ def test_every_class_becomes_a_sentence_and_the_picture_stays(
     application, pictures = stage.application, list[Snapshot]()
     application.simulation.snapshot_shown.connect(pictures.append)
     for number, (error, case) in enumerate(CASES.items()):
-        application.store.put(small_scene.replace(code=number), "another code")
+        application.scene_store.put(small_scene.replace(code=number), "another code")
         stage.user.wait_until_idle()
         raised.clear()
         shown = case(stage)
@@ -309,4 +309,4 @@ def test_every_wrong_value_is_refused_at_its_field_with_unit_and_range(
         assert stage.user.message == notice.text()
         # Text that takes long to type stays until it is corrected.
         assert line.text() == (text if isinstance(declared, kept) else last)
-    assert stage.application.store.scene == small_scene
+    assert stage.application.scene_store.scene == small_scene

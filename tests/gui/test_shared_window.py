@@ -30,8 +30,8 @@ def is_lent_again(shared: SharedWindow, qtbot: QtBot, scene: Scene, *changes: Ch
     if not shared.is_kept:
         return False
     with shared.lent(qtbot, scene) as second:
-        assert second.store.scene == scene
-        assert not second.store.undo_stack.canUndo()
+        assert second.scene_store.scene == scene
+        assert not second.scene_store.undo_stack.canUndo()
         assert second.settings.settings == FIRST_SETTINGS
         assert second.window.modes.mode == next(iter(MODES))
         assert second.window.isVisible()

@@ -120,8 +120,8 @@ def monkey(
 def test_random_actions_cause_no_exception_warning_or_leak(
     monkey: Monkey, application: Application, caplog: pytest.LogCaptureFixture, qtlog: Any
 ) -> None:
-    home = smaller(application.store.scene)
-    application.store.put(home, "smaller")
+    home = smaller(application.scene_store.scene)
+    application.scene_store.put(home, "smaller")
     used: list[tuple[float, int]] = []
     for number in range(1, ACTIONS + 1):
         monkey.act()

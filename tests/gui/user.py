@@ -77,11 +77,11 @@ class User:
 
     def change(self, **parameters: Any) -> None:
         """Change parameters of the scene, and wait."""
-        self._application.store.change(**parameters)
+        self._application.scene_store.change(**parameters)
         self.wait_until_idle()
 
     def put(self, scene: Scene, title: str) -> None:
-        self._application.store.put(scene, title)
+        self._application.scene_store.put(scene, title)
         self.wait_until_idle()
 
     def open_photo(self, path: Path) -> None:

@@ -35,7 +35,7 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture_and_can_be_undone_and
     qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
     user.wait_until_idle()
     moved = row.field.value()
-    assert application.store.scene.pose.distance == moved > 1.2
+    assert application.scene_store.scene.pose.distance == moved > 1.2
     after = grey_picture(application.view("picture"))
     assert not np.array_equal(after, before)
     for text, distance, picture in (("&Undo", 1.2, before), ("&Redo", moved, after)):
@@ -50,7 +50,7 @@ def test_a_typed_number_reaches_the_profile_and_bits_the_decode_result(
 ) -> None:
     application.settings.set_tolerance(math.inf)
     user.enter("exposure_time", "136 us")
-    scene = application.store.scene
+    scene = application.scene_store.scene
     assert scene.camera.exposure_time == 136e-6
     _, profile = application.view("profile").simulation.getOriginalDataset()
     assert np.array_equal(profile, occ.column_profile(scene))
@@ -89,7 +89,7 @@ def open_and_close(qtbot: QtBot, scene: Scene) -> None:
     application.simulation.snapshot_shown.connect(
         lambda snapshot: sizes.append(snapshot.frame.image.size)
     )
-    application.store.change(rows=4608)
+    application.scene_store.change(rows=4608)
     application.window.actions_by_name["quit"].trigger()
     QApplication.processEvents()
     assert sizes == []
@@ -118,7 +118,7 @@ def test_a_failure_is_shown_in_one_place_until_a_picture_and_not_for_intermediat
     user.change(**BEHIND_THE_CAMERA)
     user.choose("&Undo")
     assert user.message == "Undone: change of distance and yaw."
-    application.store.change(**BEHIND_THE_CAMERA)
+    application.scene_store.change(**BEHIND_THE_CAMERA)
     user.change(distance=1.0, yaw=0.0)
     assert user.message == ""
     # The status line does not repeat the sentence that is in view.
@@ -138,7 +138,7 @@ def test_a_failure_is_shown_in_one_place_until_a_picture_and_not_for_intermediat
     assert not application.story.verdict.isVisible()
     window.toolbar.modes.setCurrentIndex(0)
     qtbot.waitUntil(lambda: not line.text())
-    application.store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
     user.wait_until_idle()
     assert not window.statusBar().currentMessage()
 
@@ -159,7 +159,7 @@ def test_an_exception_in_a_slot_is_reported_and_logged_and_the_window_works_on(
     assert "Traceback" in caplog.text
     application.window.statusBar().clearMessage()
     user.enter("iso", "456")
-    assert (application.store.scene.camera.iso, user.message) == (456.0, "")
+    assert (application.scene_store.scene.camera.iso, user.message) == (456.0, "")
 
 
 def test_the_status_line_shows_what_the_plan_switches_and_what_its_pane_refuses(
@@ -195,9 +195,9 @@ def test_the_next_accepted_change_removes_a_refusal(
     assert user.message == ""
     application.files.open_dropped([damaged])
     assert "damaged.toml" in user.message
-    room = application.store.store.workspace.room
-    application.store.store.put(
-        replace(application.store.store.workspace, room=replace(room, focal_length=0.03))
+    room = application.scene_store.store.workspace.room
+    application.scene_store.store.put(
+        replace(application.scene_store.store.workspace, room=replace(room, focal_length=0.03))
     )
     assert user.message == ""
 
@@ -207,4 +207,4 @@ def test_no_preset_shows_a_message(application: Application, user: User) -> None
     for _ in occ.presets():
         name = user.choose_next_preset()
         assert user.message == "", name
-        assert application.store.scene == occ.load_preset(name)
+        assert application.scene_store.scene == occ.load_preset(name)

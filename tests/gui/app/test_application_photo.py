@@ -100,15 +100,15 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
 def test_a_match_finds_the_readout_time_and_applying_it_in_one_step_places_the_photo(
     matched: Application, user: User, small_scene: Scene
 ) -> None:
-    assert matched.store.scene == small_scene
+    assert matched.scene_store.scene == small_scene
     match = matched.shell.pane("photo").matching.match
     assert match.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
-    steps = matched.store.undo_stack.count()
+    steps = matched.scene_store.undo_stack.count()
     user.choose("&Apply to the scene")
-    assert matched.store.undo_stack.count() == steps + 1
-    assert matched.store.scene == match.scene
+    assert matched.scene_store.undo_stack.count() == steps + 1
+    assert matched.scene_store.scene == match.scene
     user.choose("&Undo")
-    assert matched.store.scene == small_scene
+    assert matched.scene_store.scene == small_scene
     overlay = matched.view("picture").overlay
     corner = overlay.placement
     assert corner != Placement()
@@ -143,15 +143,18 @@ def test_a_photo_is_drawn_in_the_story_only_where_the_scene_comes_from_its_match
     assert {"fitted", "photo"}.isdisjoint(rows.legend.keys)
     assert matched.view("profile").photo_levels is not None
     matched.view("photo").result.apply.click()
-    for scene in (matched.store.scene, matched.store.scene.replace(exposure_time=9e-5, iso=150.0)):
-        matched.store.put(scene, "sliders")
+    for scene in (
+        matched.scene_store.scene,
+        matched.scene_store.scene.replace(exposure_time=9e-5, iso=150.0),
+    ):
+        matched.scene_store.put(scene, "sliders")
         user.wait_until_idle()
         photo, levels = rows.profile.photo, matched.view("profile").photo_levels
         assert photo is not None
         assert levels is not None
         np.testing.assert_array_equal(photo[1], levels)
         assert "fitted" in rows.legend.keys
-    matched.store.put(occ.load_preset("phone-136us"), "preset")
+    matched.scene_store.put(occ.load_preset("phone-136us"), "preset")
     user.wait_until_idle()
     assert rows.profile.photo is None
     user.choose("&Undo")
@@ -185,8 +188,8 @@ def test_only_a_match_requested_with_the_photo_is_applied_automatically(
         raise MatchError("No scene explains these stripes.")
 
     matching = application.shell.pane("photo").matching
-    application.store.change(pattern="10", switching_frequency=SENT["switching_frequency"])
-    scene = application.store.scene
+    application.scene_store.change(pattern="10", switching_frequency=SENT["switching_frequency"])
+    scene = application.scene_store.scene
     with monkeypatch.context() as patched:
         patched.setattr(occ, "match_photo", refuse)
         application.photos.open(photo_path, match=True)
@@ -198,12 +201,12 @@ def test_only_a_match_requested_with_the_photo_is_applied_automatically(
     assert matching.match is None
     user.choose("&Match photo")
     assert matching.match is not None
-    assert application.store.scene == scene
+    assert application.scene_store.scene == scene
     application.photos.close()
     application.photos.open(photo_path, match=True)
     user.wait_until_idle()
     user.wait_until_idle()
-    readout = application.store.scene.camera.readout_time
+    readout = application.scene_store.scene.camera.readout_time
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
 

@@ -49,7 +49,7 @@ def test_a_screenshot_of_the_requested_size_is_written(
 
 
 def test_a_scene_without_a_picture_has_no_screenshot(application: Application) -> None:
-    application.store.change(distance=0.1, yaw=1.2)
+    application.scene_store.change(distance=0.1, yaw=1.2)
     with pytest.raises(occ.OccError, match="behind the camera"):
         wait_until_shown(application)
 
@@ -60,7 +60,7 @@ def test_a_screenshot_waits_for_the_visible_study_and_the_rates_at_the_sliders(
     states = list[bool]()
     # The rates finish after all other work.
     monkeypatch.setattr(BackgroundRates, "is_idle", property(lambda _: states.count(True) > 2))
-    application.store.change(rows=60, columns=100)
+    application.scene_store.change(rows=60, columns=100)
     application.settings.set_tolerance(2.0)
     application.window.bring_to_front("accuracy")
     timer = QTimer(application.window)

@@ -50,7 +50,7 @@ def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     assert not window.isWindowModified()
     user.enter("iso", "400")
     assert window.isWindowModified()
-    application.store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
     assert not window.isWindowModified()
     assert "iso = 300.0" in (tmp_path / "mine.toml").read_text(encoding="utf-8")
 
@@ -105,11 +105,11 @@ def test_reset_is_one_step_and_the_menu_offers_an_animation(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     user.enter("iso", "200")
-    before = application.store.scene
+    before = application.scene_store.scene
     user.choose("Reset &scene")
-    assert application.presets.name_of(application.store.scene) == "phone-68us"
-    application.store.undo_stack.undo()
-    assert application.store.scene == before
+    assert application.presets.name_of(application.scene_store.scene) == "phone-68us"
+    application.scene_store.undo_stack.undo()
+    assert application.scene_store.scene == before
     paths: list[str] = []
     monkeypatch.setattr(
         QFileDialog, "getSaveFileName", lambda *words: (paths.append(words[2]), ("", ""))[1]
@@ -301,7 +301,7 @@ def test_each_button_of_the_welcome_page_leads_to_its_mode(
     page = application.shell.pane("welcome")
     modes = {"photo": "photo", "explore": "explore", "bars": "limits", "learn": "lessons"}
     for task, mode in modes.items():
-        assert application.store.scene == small_scene
+        assert application.scene_store.scene == small_scene
         user.choose("&Welcome…")
         page.dialog.buttons[task].click()
         user.wait_until_idle()

@@ -46,8 +46,8 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_a_pane_without_a_row_i
     lesson = smaller_lessons().lessons[0]
     user.press(guide.list.choices[0])
     step = lesson.steps[0]
-    assert application.store.scene == step.scene
-    assert application.store.undo_stack.count() == 1
+    assert application.scene_store.scene == step.scene
+    assert application.scene_store.undo_stack.count() == 1
     assert guide.step.question.text() == step.question
     assert "step 1 of 3" in guide.step.position.text()
     assert not guide.step.back.isEnabled()
@@ -56,7 +56,7 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_a_pane_without_a_row_i
     assert application.story.rows.profile.isVisible()
     assert application.window.docks["profile"].isHidden()
     user.choose("&Undo")
-    assert application.store.scene == small_scene
+    assert application.scene_store.scene == small_scene
     guide.step.all_lessons.click()
     lesson = next(each for each in lessons().lessons if each.steps[0].pane == "accuracy")
     guide.list.choices[lessons().lessons.index(lesson)].click()
@@ -90,26 +90,26 @@ def test_a_crash_or_a_closed_window_during_a_lesson_leaves_the_users_own_state(
     session = application.session
     session.begin(SessionFile(tmp_path), names_scene=True)
     application.settings.set_tolerance(7.0)
-    store = application.store.store
+    store = application.scene_store.store
     store.put(
         replace(store.workspace, decoder="matched", picture_kind="receiver", is_enhanced=True)
     )
     user.open_photo(photo_file)
-    before = application.store.store.workspace
+    before = application.scene_store.store.workspace
     user.press(guide.list.choices[5])
-    assert application.store.scene != before.scene
+    assert application.scene_store.scene != before.scene
     assert application.photos.choice.path != photo_file
     session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert record["in_use"]
     assert Scene.from_toml(record["scene"]) == before.scene
     assert record["settings"] == asdict(before.settings)
-    assert application.store.store.workspace.decoder == "threshold"
+    assert application.scene_store.store.workspace.decoder == "threshold"
     values = [record["view"][name] for name in ("decoder", "picture_kind", "is_enhanced")]
     assert values == ["matched", "receiver", True]
     assert record["photo"]["path"] == str(photo_file)
     user.press(guide.step.all_lessons)
-    application.store.change(distance=2.0)
+    application.scene_store.change(distance=2.0)
     session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert Scene.from_toml(record["scene"]).pose.distance == 2.0

@@ -105,7 +105,7 @@ def values_of(text: str, unit: Unit, pattern: str) -> Iterator[tuple[float, floa
 def test_what_all_panes_state_of_a_quantity_is_one_value(
     application: Application, user: User, name: str
 ) -> None:
-    store = application.store
+    store = application.scene_store
     store.put(store.scene.replace(**SCENES[name]), "scene")
     texts = list(dict.fromkeys(texts_of(application, user)))
     found: dict[str, list[tuple[float, float]]] = defaultdict(list)
@@ -140,13 +140,13 @@ def check_band_model(application: Application, texts: list[str]) -> None:
         any("no band model here" in text for text in texts),  # the legend
         any(text.startswith("The band model is undefined here") for text in texts),
     )
-    if application.store.scene.transmitter.light == "code":
+    if application.scene_store.scene.transmitter.light == "code":
         assert set(places) == {is_undefined}
 
 
 def check_bars(application: Application, texts: list[str]) -> None:
     """Check that the story and the pane of bars agree on whether there are bars."""
-    if application.store.scene.transmitter.light != "code":
+    if application.scene_store.scene.transmitter.light != "code":
         has_none = application.story.verdict.heading.endswith(": no bars")
         assert has_none == any(text.startswith("No bars at ") for text in texts)
 

@@ -168,11 +168,11 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     workers: None, application: Application, user: User, qtbot: QtBot
 ) -> None:
     """Check that the rate at the handle is the study's, too, and not that of the shown picture."""
-    application.store.put(
-        application.store.scene.replace(rows=300, switching_frequency=3.4e3), "an edge"
+    application.scene_store.put(
+        application.scene_store.scene.replace(rows=300, switching_frequency=3.4e3), "an edge"
     )
     user.wait_until_idle()
-    scene, strips = application.store.scene, application.slider_strips.strips
+    scene, strips = application.scene_store.scene, application.slider_strips.strips
     own = application.background_rates.scene_rate
     qtbot.waitUntil(lambda: own.rate is not None)
     rate = occ.success_rate(scene, 20)
@@ -191,5 +191,5 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     colour = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
     pixel = strip.grab().toImage().pixelColor(round(handle_middle(strip.slider) - strip.x() + 9), 3)
     assert [pixel.red(), pixel.green(), pixel.blue()] == colour
-    application.store.change(switching_frequency=14e3)
+    application.scene_store.change(switching_frequency=14e3)
     assert {s.present_rate for s in strips.values()} == {None}

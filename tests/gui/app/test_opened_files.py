@@ -52,7 +52,7 @@ def test_a_sample_is_opened_with_its_scene_and_not_listed_as_recent(
     assert entries(menu) == ["LED 1 kHz panel (simulated)"]
     menu.actions()[0].trigger()
     user.wait_until_idle()
-    assert application.store.scene == camera_scene
+    assert application.scene_store.scene == camera_scene
     assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
     assert application.preferences.files == ()
     monkeypatch.setattr(file_controller, "resource_path", samples.joinpath)  # which has no folder
@@ -68,19 +68,19 @@ def test_recent_files_are_listed_and_reopened_and_missing_ones_are_removed(
     recent = application.window.menus.recent
     assert not recent.isEnabled()
     scene = tmp_path / "a&b.toml"
-    saved = application.store.scene.replace(iso=99.0)
+    saved = application.scene_store.scene.replace(iso=99.0)
     scene.write_text(saved.to_toml(), encoding="utf-8")
     for path in (photo_copy, photo_file):
         user.open_photo(path)
     application.files.open_scene(scene)
     user.wait_until_idle()
     assert entries(recent) == ["a&&b.toml", "stripes.png", "taken.png", "&Clear this list"]
-    application.store.change(iso=321.0)
+    application.scene_store.change(iso=321.0)
     for place, text in ((0, "a&&b.toml"), (2, "taken.png")):
         assert entries(recent)[place] == text
         recent.actions()[place].trigger()
         user.wait_until_idle()
-    assert application.store.scene == saved
+    assert application.scene_store.scene == saved
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
     assert not recent.isEnabled()
@@ -99,13 +99,13 @@ def test_a_dropped_photo_and_scene_are_opened_and_ignored_files_are_reported(
     tmp_path: Path,
 ) -> None:  # fmt: skip
     scenes = [tmp_path / "one.toml", tmp_path / "other.toml"]
-    saved = application.store.scene.replace(iso=99.0)
+    saved = application.scene_store.scene.replace(iso=99.0)
     for scene in scenes:
         scene.write_text(saved.to_toml(), encoding="utf-8")
     application.window.dropped.emit([photo_file, *scenes])
     assert "only one.toml and stripes.png" in user.message
     user.wait_until_idle()
-    assert application.store.scene == saved
+    assert application.scene_store.scene == saved
     assert application.window.windowTitle().startswith("stripes.png")
     # Photos that are dropped together become a table.
     application.window.dropped.emit([photo_file, photo_copy])
@@ -170,7 +170,7 @@ def test_a_full_disk_while_saving_keeps_the_old_file_and_is_reported(
 def test_exported_figures_show_the_scene_just_chosen(
     application: Application, user: User, tmp_path: Path
 ) -> None:
-    application.store.change(distance=1.3)
+    application.scene_store.change(distance=1.3)
     application.shell.pane("export").export("profile", tmp_path / "profile.csv")
     user.wait_until_idle()
-    assert scene_inside(tmp_path / "profile.csv") == application.store.scene
+    assert scene_inside(tmp_path / "profile.csv") == application.scene_store.scene

@@ -30,7 +30,7 @@ _PANES = ("decode", "profile", "equations", "spectrum", "compare", "bands", "ben
 def test_no_visible_text_of_any_pane_speaks_of_chips(
     application: Application, user: User, light: str
 ) -> None:
-    window, store = application.window, application.store
+    window, store = application.window, application.scene_store
     user.put(store.scene.replace(**LIGHTS[light]), "light")
     for mode in (mode for mode in MODES if mode not in ("photo", "lessons")):
         user.switch(mode)
@@ -58,7 +58,7 @@ def _check_texts(application: Application) -> None:
 def test_the_verdict_names_the_lamp_its_bars_and_its_ratio(
     application: Application, user: User
 ) -> None:
-    store, verdict = application.store, application.story.verdict
+    store, verdict = application.scene_store, application.story.verdict
     lamp = {"lamp_frequency": 2500.0, "duty": 0.3, "exposure_time": 120e-6, "readout_time": 8e-6}
     user.put(store.scene.replace(light="lamp", **lamp), "lamp")
     assert verdict.heading.startswith("Lamp of 2.5 kHz, duty 30 %: 50 columns from bar to bar")
@@ -76,13 +76,13 @@ def test_the_light_is_chosen_at_the_top_and_undone(
     field: Any = getattr(controls.light, "field")  # noqa: B009 - the choice's own
     qtbot.keyClick(field, Qt.Key.Key_Down)
     user.wait_until_idle()
-    assert application.store.scene.transmitter.light == "lamp"
+    assert application.scene_store.scene.transmitter.light == "lamp"
     shown = [name for name, row in controls.panels["Main"].rows.items() if row.isVisible()]
     assert tuple(shown) == main_of("lamp")
     assert not controls.code.isVisible()
     assert not entries["slider_strips"].isEnabled()
     user.enter("lamp_frequency", "239 Hz")
-    assert describe_light(application.store.scene.transmitter).startswith("lamp of 239 Hz")
+    assert describe_light(application.scene_store.scene.transmitter).startswith("lamp of 239 Hz")
     user.enter("lamp_frequency", "0 Hz")
     assert "Lamp frequency cannot be 0 Hz" in user.row("lamp_frequency").notice.text()
     entries["undo"].trigger()
@@ -96,7 +96,7 @@ def test_the_light_is_chosen_at_the_top_and_undone(
 def test_what_the_tolerance_limits_is_no_decision_of_a_lamp(
     application: Application, user: User
 ) -> None:
-    store = application.store
+    store = application.scene_store
     store.settings.set_observable("decision")
     user.change(light="lamp")
     assert store.settings.settings.observable == "signal"

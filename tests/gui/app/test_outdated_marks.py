@@ -40,12 +40,12 @@ def test_a_verdict_does_not_wait_for_the_picture(
 ) -> None:
     decode = application.view("decode")
     assert (decode.verdict.text(), tabs(application)) == (RIGHT, ["✓", "✓"])
-    application.store.change(switching_frequency=500.0)
+    application.scene_store.change(switching_frequency=500.0)
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
     assert decode.origin.text() == "Read from the column profile; the picture follows."
     reading = application.view("profile").reading
-    assert reading.scene == application.store.scene
+    assert reading.scene == application.scene_store.scene
     release.set()
     user.wait_until_idle()
     assert decode.verdict.text() == "✗ No code read"
@@ -71,7 +71,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
         application.shell.pane("equations").view.exposure,
     }
     assert all(mark.isHidden() for mark in marks(application))
-    application.store.change(iso=60.0, jpeg_quality=jpeg)
+    application.scene_store.change(iso=60.0, jpeg_quality=jpeg)
     outdated = application.outdated
     late = outdated.find_marks(of_picture, of_snapshot, *((of_reading,) if jpeg else ()))
     # On a busy machine the reading may be late, too, and is marked until then.
@@ -96,8 +96,8 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     assert strip.accessibleDescription().startswith("earlier scene: sent ")
     text = "of an earlier scene: this one has no picture"
     assert {mark.accessibleName() for mark in marks(application)} == {text}
-    application.store.undo_stack.undo()
-    assert application.store.scene == small_scene
+    application.scene_store.undo_stack.undo()
+    assert application.scene_store.scene == small_scene
     user.wait_until_idle()
     assert application.view("decode").verdict.text() == RIGHT
     assert strip.accessibleDescription().startswith("sent ")

@@ -61,7 +61,7 @@ def test_a_lamp_is_a_lamp_from_its_photo_to_the_figures_of_its_scene(
     verdict = application.view("photo").verdict.accessibleDescription()
     check_says_no_chips_of_the_lamp(f"{pane}\n{verdict}")
     user.choose("&Apply to the scene")
-    sent = application.store.scene.transmitter
+    sent = application.scene_store.scene.transmitter
     assert (sent.light, sent.lamp_frequency, sent.duty) == ("lamp", 1e3, match.duty)
     said = "\n".join(visible_texts(application.window))
     assert "kHz" in said

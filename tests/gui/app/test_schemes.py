@@ -38,16 +38,16 @@ def test_a_text_typed_for_the_code_is_sent_read_and_shown(
     user.wait_until_idle()
     choose(application, user, "line_code", "4b6b")
     choose(application, user, "framing", "c-ook")
-    transmitter = application.store.scene.transmitter
+    transmitter = application.scene_store.scene.transmitter
     assert (transmitter.payload, transmitter.line_code, transmitter.framing) == (
         "text:HI", "4b6b", "c-ook",
     )  # fmt: skip
     view = application.view("decode")
     assert view.verdict.text() == "✓ “HI” read, all bits right"
     assert view.payload.accessibleDescription() == "sent HI, received HI, 0 wrong"
-    application.store.undo_stack.undo()
-    application.store.undo_stack.undo()
-    application.store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
     user.wait_until_idle()
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert view.payload.isHidden()
@@ -74,13 +74,15 @@ def test_all_panes_show_that_the_typed_payload_is_sent(
     scheme: dict[str, str],
 ) -> None:
     # The distance is small enough for two packets with the longest payload.
-    application.store.put(application.store.scene.replace(distance=0.6, **scheme), "scheme")
+    application.scene_store.put(
+        application.scene_store.scene.replace(distance=0.6, **scheme), "scheme"
+    )
     field = row(application, "payload")
     assert isinstance(field, PatternRow)
     field.field.setText(typed)
     qtbot.keyClick(field.field, Qt.Key.Key_Return)
     user.wait_until_idle()
-    scene = application.store.scene
+    scene = application.scene_store.scene
     assert change_scene(scene.replace(payload=""), [f"payload={typed}"]) == scene
     bits = scene.transmitter.payload_length
     code, count = application.controls.code, row(application, "bits")

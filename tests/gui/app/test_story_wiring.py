@@ -115,7 +115,7 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
     assert story.picture_kind.key() == "camera"
     assert story.rows.profile.levels is reading.profile
     profile.enhanced.click()
-    assert not application.store.store.workspace.is_enhanced
+    assert not application.scene_store.store.workspace.is_enhanced
 
 
 def test_the_mouse_selects_the_column_of_the_readout(

@@ -96,10 +96,10 @@ def test_neither_a_files_name_nor_its_notes_become_markup(
     scene = hostile_photo.with_suffix(".toml")
     application.files.save_scene(scene)
     assert window.statusBar().currentMessage() == f"Saved {SHOWN}.toml"
-    application.store.change(iso=321.0)
+    application.scene_store.change(iso=321.0)
     application.files.open_scene(scene)
     assert window.statusBar().currentMessage() == f"Opened {SHOWN}.toml"
-    undo = application.store.undo_stack.undoText()
+    undo = application.scene_store.undo_stack.undoText()
     assert strip_mnemonics(undo) == f"opening of {SHOWN}.toml"
     assert not any(RichText.mightBeRichText(text) and "<img" in text for text in texts(window))
     delete_preset("hostile")
@@ -108,7 +108,7 @@ def test_neither_a_files_name_nor_its_notes_become_markup(
 
 
 def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> None:
-    show(application.store.store, scene_file=Path("/a[*]b.toml"))
+    show(application.scene_store.store, scene_file=Path("/a[*]b.toml"))
     assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
 
 
@@ -119,7 +119,9 @@ def test_a_lessons_title_is_plain_text(
     monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: LoadedLessons(hostile))
     view, answers = LessonView(), LessonAnswers()
     qtbot.addWidget(view)
-    controller = LessonController(application.store.store, application.results_store, view, answers)
+    controller = LessonController(
+        application.scene_store.store, application.results_store, view, answers
+    )
     answers.task.stop()
     controller.set_visible(True)
     assert strip_mnemonics(view.list.choices[0].text()).startswith(f"{TAG} & co")

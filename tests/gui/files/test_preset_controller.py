@@ -116,7 +116,7 @@ def test_a_saved_match_is_listed_last_and_can_be_loaded_and_replaces_rubbish_on_
     assert preset_named("my phone").title == "Measured from stripes.png"
     matched.controls.preset_chosen.emit("my phone")
     user.wait_until_idle()
-    assert matched.store.scene == matched.shell.pane("photo").matching.match.scene
+    assert matched.scene_store.scene == matched.shell.pane("photo").matching.match.scene
     assert matched.controls.preset.currentText() == "my phone"
     answer("rubbish", False)
     matched.view("photo").result.save.click()
@@ -151,12 +151,12 @@ def test_a_preset_is_replaced_and_deleted_on_request_and_a_missing_one_gives_a_s
     assert user.message == "There is no preset of your own."
     answer("mine", False)
     matched.view("photo").result.save.click()
-    scene = matched.store.scene
+    scene = matched.scene_store.scene
     delete_preset("mine")
     matched.controls.preset_chosen.emit("mine")
     assert user.message.startswith("There is no preset 'mine'.")
     assert "mine" not in names(matched)
-    assert matched.store.scene == scene
+    assert matched.scene_store.scene == scene
 
 
 def test_without_a_match_there_is_nothing_to_save(application: Application, user: User) -> None:
@@ -170,18 +170,18 @@ def test_a_changed_preset_is_named_until_another_scene_comes(
     preset = application.controls.preset
     application.presets.load("phone-68us")
     assert preset.currentText() == "Phone, 68 µs"
-    application.store.change(iso=200.0)
-    application.store.change(distance=1.5)
+    application.scene_store.change(iso=200.0)
+    application.scene_store.change(distance=1.5)
     assert preset.currentIndex() == -1
     assert preset.placeholderText() == "Phone, 68 µs, changed"
-    application.store.undo_stack.undo()
-    application.store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
     assert preset.currentText() == "Phone, 68 µs"
-    application.store.change(iso=200.0)
+    application.scene_store.change(iso=200.0)
     other = occ.load_preset("tablet-61us").replace(iso=300.0)
-    application.store.put(other, "another scene")
+    application.scene_store.put(other, "another scene")
     assert preset.placeholderText() == "Choose a preset"
-    application.store.undo_stack.undo()
+    application.scene_store.undo_stack.undo()
     assert preset.placeholderText() == "Phone, 68 µs, changed"
     user.wait_until_idle()
 
@@ -190,9 +190,9 @@ def test_a_scene_that_is_a_preset_is_named_by_it_whatever_a_session_says(
     application: Application, user: User
 ) -> None:
     application.presets.load("phone-68us")
-    show(application.store.store, preset="tablet-61us")
+    show(application.scene_store.store, preset="tablet-61us")
     assert application.presets.shown_names == ("phone-68us", "")
-    application.store.change(iso=200.0)
+    application.scene_store.change(iso=200.0)
     assert application.presets.shown_names == ("", "tablet-61us")
     user.wait_until_idle()
 
@@ -206,10 +206,10 @@ def test_a_preset_is_named_again_after_a_lesson(application: Application, user: 
         ("", "Phone, 68 µs"),
         ("10", "Phone, 68 µs, changed"),  # two parameters differ from the scene of a lesson
     ):
-        application.store.change(pattern=pattern)
+        application.scene_store.change(pattern=pattern)
         assert (preset.currentText() or preset.placeholderText()) == named
         lessons.begin_first()
-        application.store.change(code=3)
+        application.scene_store.change(code=3)
         application.presets.load("phone-136us")
         application.lessons.end()
         assert (preset.currentText() or preset.placeholderText()) == named

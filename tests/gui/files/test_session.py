@@ -108,9 +108,9 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         window.docks["controls"].hide()
         window.addDockWidget(LEFT, window.docks["decode"])
         QApplication.processEvents()
-        application.store.change(iso=321.0)
+        application.scene_store.change(iso=321.0)
         application.settings.set_tolerance(2.5)
-        application.store.force("vignetting", True)
+        application.scene_store.force("vignetting", True)
         window.actions_by_name["hold_brightness"].trigger()
         application.options.theme.choose("dark")
         application.options.choose_overlay("blend")
@@ -120,10 +120,10 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         qtbot.waitUntil(lambda: application.is_idle)
         window.docks["controls"].hide()
         window.modes.switch("limits")
-        scene, settings = application.store.scene, application.settings.settings
+        scene, settings = application.scene_store.scene, application.settings.settings
     with start() as application:
-        assert application.store.scene == scene
-        assert not application.store.undo_stack.canUndo()
+        assert application.scene_store.scene == scene
+        assert not application.scene_store.undo_stack.canUndo()
         assert application.settings.settings == settings
         assert application.results_store.results.photo is not None
         picture = application.view("picture")
@@ -214,11 +214,11 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
     other.write(SavedSession(Workspace(later)), in_use=False)
     other.close()
     with start() as application:
-        assert application.store.scene == lost
+        assert application.scene_store.scene == lost
         assert application.settings.settings.tolerance == 7.0
         assert "is restored" in application.window.statusBar().currentMessage()
-        application.store.undo_stack.undo()
-        assert application.store.scene == later
+        application.scene_store.undo_stack.undo()
+        assert application.scene_store.scene == later
     assert SessionFile(tmp_path / "state").crashed is None
 
 
@@ -230,12 +230,12 @@ def test_undo_restores_the_crashs_scene_behind_another_that_is_requested(
     lost = small_scene.replace(iso=777.0) if is_other else asked
     crash(tmp_path / "state", lost)
     with start(asked=asked, fresh=True) as application:
-        assert application.store.scene == asked
+        assert application.scene_store.scene == asked
         said = application.window.statusBar().currentMessage()
         assert ("brings its scene back" in said) == is_other
         assert "is restored" not in said
-        application.store.undo_stack.undo()
-        assert application.store.scene == lost
+        application.scene_store.undo_stack.undo()
+        assert application.scene_store.scene == lost
 
 
 def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
@@ -284,7 +284,7 @@ def comparison(application: Application) -> list[list[str]]:
 
 
 def undo_texts(application: Application) -> list[str]:
-    stack = application.store.undo_stack
+    stack = application.scene_store.undo_stack
     return [stack.text(place) for place in range(stack.count())]
 
 
@@ -293,18 +293,18 @@ def test_nothing_of_a_killed_window_is_lost(
 ) -> None:
     monkeypatch.setattr(session_module, "LONGEST_WAIT_MS", 20)
     with start() as application:
-        user, stack = User(qtbot, application), application.store.undo_stack
+        user, stack = User(qtbot, application), application.scene_store.undo_stack
         application.presets.load("tablet-61us")
         user.change(rows=120, columns=600)
         user.choose("Pin as &A")
         user.enter("iso", "321")
-        application.store.force("jpeg", True)
+        application.scene_store.force("jpeg", True)
         user.enter("distance", "0.9")
         stack.undo()
         kill(qtbot, application, tmp_path / "state", kept)
         user.choose("Pin as &B")
         qtbot.waitUntil(lambda: len(comparison(application)) > 4)
-        scene, differences = application.store.scene, comparison(application)
+        scene, differences = application.scene_store.scene, comparison(application)
         steps = undo_texts(application), stack.index()
         put_back = kill(qtbot, application, tmp_path / "state", kept)
     put_back()
@@ -313,13 +313,13 @@ def test_nothing_of_a_killed_window_is_lost(
         assert application.controls.preset.placeholderText() == "Tablet, 61 µs, changed"
         assert application.window.docks["compare"].isVisible()
         qtbot.waitUntil(lambda: comparison(application) == differences)
-        stack = application.store.undo_stack
+        stack = application.scene_store.undo_stack
         assert (undo_texts(application), stack.index()) == steps
         stack.redo()
-        assert application.store.scene == scene.replace(distance=0.9)
+        assert application.scene_store.scene == scene.replace(distance=0.9)
         for _ in range(3):
             stack.undo()
-        assert application.store.scene == scene.replace(iso=100.0)
+        assert application.scene_store.scene == scene.replace(iso=100.0)
         assert application.settings.settings.force == {}
         stack.undo()
         assert application.controls.preset.currentData() == "tablet-61us"

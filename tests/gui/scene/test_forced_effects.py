@@ -40,8 +40,8 @@ def make_presets_small(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def by_hand(application: Application, user: User) -> Application:
-    application.store.force("jpeg", False)
-    application.store.force("vignetting", True)
+    application.scene_store.force("jpeg", False)
+    application.scene_store.force("vignetting", True)
     user.wait_until_idle()
     return application
 
@@ -74,7 +74,7 @@ def test_the_badge_is_always_whole_on_the_screen(application: Application, user:
     window = application.window
     application.settings.set_tolerance(10.0)
     for effect in ("jpeg", "flicker", "defocus"):
-        application.store.force(effect, False)
+        application.scene_store.force(effect, False)
     badges = window.statusBar().findChildren(BadgeLabel)
     (badge,) = (badge for badge in badges if badge.badge.key == "accuracy")
     for width, height in ((1024, 700), (1920, 1080)):
@@ -106,7 +106,7 @@ def test_another_scene_is_simulated_within_the_usual_tolerance(
     ):
         application.settings.set_tolerance(10.0)
         application.settings.set_observable("signal")
-        application.store.force("jpeg", False)
+        application.scene_store.force("jpeg", False)
         begin()
         user.wait_until_idle()
         assert application.settings.settings == FIRST_SETTINGS
@@ -138,7 +138,7 @@ def test_a_click_a_preset_or_a_reset_ends_listed_forced_effects_in_one_step(
         lambda snapshot: simulated.append(dict(snapshot.request.settings.force))
     )
     user.choose_next_preset()
-    assert by_hand.store.scene in map(small, presets())
+    assert by_hand.scene_store.scene in map(small, presets())
     assert simulated
     assert not any(simulated)  # neither in a draft nor in the picture
     user.choose("&Undo")
@@ -146,4 +146,4 @@ def test_a_click_a_preset_or_a_reset_ends_listed_forced_effects_in_one_step(
     for _ in range(2):  # the second reset leaves the scene unchanged
         user.choose("Reset &scene")
         assert forced_effects(by_hand) == {}
-        by_hand.store.force("jpeg", True)
+        by_hand.scene_store.force("jpeg", True)

@@ -89,11 +89,11 @@ def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(bench: ControlsBench) 
 def test_the_marks_follow_the_scene(application: Application) -> None:
     panel = application.controls.panels["Main"]
     (scale,) = panel.rows[NAME].findChildren(SliderScale)
-    application.store.change(exposure_time=100e-6)
+    application.scene_store.change(exposure_time=100e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([10e3, 20e3])
     assert "10 kHz: Exposure and switching period are equal" in scale.accessibleDescription()
     assert scale.accessibleName() == "From 500 Hz to 100 kHz"
-    application.store.change(exposure_time=15e-6)
+    application.scene_store.change(exposure_time=15e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([1 / 15e-6])
     QToolTip.hideText()
 

@@ -37,7 +37,7 @@ def test_typing_the_old_value_or_changing_the_scene_ends_a_refusal(
         assert name != "distance" or user.message == ""
     row = user.row("distance")
     user.enter("distance", "0 m")
-    application.store.change(iso=250.0)
+    application.scene_store.change(iso=250.0)
     assert row.notice.text() == ""
     user.enter("distance", "0 m")
     user.choose("&Undo")

@@ -17,13 +17,13 @@ from occ_model.scene.scene import Scene
 @pytest.fixture
 def application(application: Application, film_scene: Scene) -> Application:
     """Return the window, which shows the scene of the films."""
-    application.store.put(film_scene, "scene of the films")
+    application.scene_store.put(film_scene, "scene of the films")
     return application
 
 
 def film_in(application: Application) -> Path | None:
     """Return the film that is open, or that will be opened when the pane is first shown."""
-    return application.store.store.workspace.film.path
+    return application.scene_store.store.workspace.film.path
 
 
 def states(pane: VideoWiring) -> list[int]:
@@ -74,7 +74,7 @@ def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode
     application: Application, user: User, film_file: Path
 ) -> None:
     assert application.shell.is_idle
-    store = application.store.store
+    store = application.scene_store.store
     store.put(replace(store.workspace, film=FilmChoice(film_file)))
     user.choose("C&lose film")
     assert film_in(application) is None

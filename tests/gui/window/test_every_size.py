@@ -53,7 +53,7 @@ def test_nothing_is_cut_at_any_size_after_all_modes_and_with_filled_limits(
 ) -> None:
     application.window.resize(LEAST)
     application.window.bring_to_front("map")
-    advice = advice_on(application.store.scene)
+    advice = advice_on(application.scene_store.scene)
     view, x, y = application.view("map"), "switching_frequency", "distance"
     for decoder in DECODERS:
         limits = replace(advice.limits, decoder=decoder)
@@ -99,7 +99,7 @@ def test_nothing_is_cut_off_squeezed_or_overlapped_beside_a_photo(
     photos, choice = application.photos, MatchChoice("lamp")
     document, reason = photos.document, "No scene explains the stripes of this photo at all. " * 4
     refused = replace(document, outcome=MatchOutcome(None, match_with(), ("", 0.0), (reason,)))
-    request = MatchRequest(document.photo, application.store.scene, choice, None)
+    request = MatchRequest(document.photo, application.scene_store.scene, choice, None)
     for mode in (*OVERLAYS, "refused", "running"):
         if mode in OVERLAYS:
             application.options.choose_overlay(mode)

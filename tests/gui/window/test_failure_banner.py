@@ -47,5 +47,5 @@ def test_files_that_cannot_be_opened_say_so_in_the_middle_and_not_at_the_bottom_
     assert not banner.isVisible()
     drop(application, user, bad_scene)
     assert banner.isVisible()
-    application.store.change(iso=250.0)  # the user goes on
+    application.scene_store.change(iso=250.0)  # the user goes on
     assert not banner.isVisible()

@@ -164,7 +164,7 @@ def test_a_pane_that_needs_less_height_than_when_it_was_seen_covers_nothing_belo
     window = application.window
     user.open_photo(photo_file)
     needed = window.docks["profile"].minimumHeight()
-    store = application.store.store
+    store = application.scene_store.store
     store.put(replace(store.workspace, photo=PhotoChoice()), "no photo")
     window.modes.switch("explore")
     user.wait_until_idle()

@@ -30,10 +30,10 @@ def test_each_button_is_an_entry_of_the_menus(application: Application) -> None:
 def test_a_click_does_what_the_entry_does(application: Application) -> None:
     buttons = application.window.toolbar.buttons
     assert not buttons["undo"].isEnabled()
-    application.store.change(iso=200.0)
+    application.scene_store.change(iso=200.0)
     assert buttons["undo"].isEnabled()
     buttons["undo"].click()
-    assert application.store.scene.value("iso") == 100.0
+    assert application.scene_store.scene.value("iso") == 100.0
     buttons["before"].click()
     assert application.view("picture").before.checkbox.isChecked()
     application.view("picture").before.checkbox.click()

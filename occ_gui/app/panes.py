@@ -111,7 +111,7 @@ def photo(
         enabled=enabled,
         commands={
             "match_all": lambda pane: pane.match_all(),
-            "find_lamps": lambda pane: pane.parts.find(),
+            "find_lamps": lambda pane: pane.lamps.find(),
             "region_by_hand": lambda pane: pane.view.lamps.by_hand.toggle(),
             "whole_photo": lambda pane: pane.parts.match_whole(),
             "apply_match": lambda pane: pane.matching.apply(),

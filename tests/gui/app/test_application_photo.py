@@ -180,6 +180,14 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
     assert not any(actions[name].isEnabled() for name in (*with_photo, *with_match))
 
 
+def test_the_menu_finds_the_lamps_of_a_photo(
+    application: Application, user: User, photo_path: Path, qtbot: QtBot
+) -> None:
+    user.open_photo(photo_path)
+    user.choose("&Find lamps")
+    qtbot.waitUntil(lambda: len(application.photos.document.lamps) == 1)
+
+
 def test_only_a_match_requested_with_the_photo_is_applied_automatically(
     application: Application, user: User, photo_path: Path, monkeypatch: pytest.MonkeyPatch,
     remembered_matches: None,

@@ -74,6 +74,12 @@ class PhotoSteps(QWidget):
             button.style().polish(button)
 
 
+_LAMP_TIP = (
+    "Match the photo as one of a lamp, lit once in each period; its frequency is assumed until "
+    "you enter it."
+)
+
+
 class PhotoVerdictBar(StateBar):
     """Whether the open photo is matched, how sure the match is, and its estimates.
 
@@ -86,10 +92,6 @@ class PhotoVerdictBar(StateBar):
     def __init__(self) -> None:
         super().__init__()
         self.setAccessibleName("Verdict on the photo")
-        self.step.setToolTip(
-            "Match the photo as one of a lamp, lit once in each period; its frequency is assumed "
-            "until you enter it."
-        )
         self._simulation: tuple[Badge, ...] = ()
         self.show_photo(ShownPhoto(Scene()))
 
@@ -107,7 +109,7 @@ class PhotoVerdictBar(StateBar):
             badges = (Badge("applied", "not applied", meaning, State.DOUBTFUL), *badges)
         self.show_state(state, title, *sentences, badges=badges)
         is_plain = PLAIN_STRIPES in shown.refusal and not shown.is_matching
-        self.offer_step("It is a &lamp" if is_plain else "")
+        self.offer_step("It is a &lamp" if is_plain else "", _LAMP_TIP)
 
 
 def judge_photo(shown: ShownPhoto) -> tuple[State, tuple[str, ...]]:

@@ -112,6 +112,7 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
     assert bar.step.isHidden()
     view.show_matched(None, PLAIN_STRIPES, "They repeat after 40.0 columns.")
     assert not bar.step.isHidden()
+    assert "as one of a lamp" in bar.step.toolTip()
     qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
     assert [one.sent for one in asked] == ["lamp"]
     assert not view.form.certain.isChecked()

@@ -178,15 +178,17 @@ class ComparePane(Pane[None]):
         super().__init__(view)
         self.view = view
         self._pins = pins
-        self._is_visible = False
+        self._is_visible, self._drawn_pair = False, PinnedPair()
         view.pin_asked.connect(pins.pin)
         view.go_asked.connect(pins.go_to)
         view.clear_asked.connect(pins.clear)
         pins.changed.connect(self._show)
 
     def _show(self) -> None:
-        if self._is_visible:
-            self.view.show_pinned(self._pins.pinned)
+        pinned = self._pins.pinned
+        if self._is_visible and pinned is not self._drawn_pair:  # else zoom and scrolling stay
+            self._drawn_pair = pinned
+            self.view.show_pinned(pinned)
 
     def set_visible(self, visible: bool) -> None:
         self._is_visible = visible

@@ -217,6 +217,11 @@ def test_states_are_pinned_compared_once_the_pane_is_visible_and_restored_in_one
     assert bench.view.table.rowCount() == 0
     bench.see("compare")
     assert ["ISO speed", "100", "200"] in texts(bench.view.table)
+    box = bench.view.plot.getViewBox()
+    box.setRange(xRange=(1100.0, 1200.0), padding=0)
+    for visible in (False, True):
+        bench.see("compare", visible)
+    assert box.viewRange()[0] == [1100.0, 1200.0], "the user's zoom stays"
     steps = bench.scenes.undo_stack.count()
     bench.view.return_buttons["A"].click()
     assert bench.scenes.scene == small_scene

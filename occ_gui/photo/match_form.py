@@ -4,7 +4,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from occ_gui.photo.match_figures import is_certain
-from occ_gui.photo.shown_photo import ShownPhoto
+from occ_gui.photo.shown_photo import ShownPhoto, known_of
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import new_gesture
@@ -17,7 +17,6 @@ from occ_gui.widgets.building import (
     paragraph,
     push_button,
 )
-from occ_model.results.match import known_parameter
 from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -130,10 +129,7 @@ class MatchForm(QWidget):
         self.certain_chosen.emit(_LAMP, frequency)
 
     def _known_name(self) -> str:
-        estimate = self.estimate.key()
-        if estimate == "readout_time" and self.sent.key() == "lamp":
-            return _LAMP
-        return known_parameter(estimate, self._shown.scene.transmitter)
+        return known_of(self._current_choice(), self._shown.scene)
 
     def _set_certain(self, certain: bool) -> None:
         name = self._known_name()

@@ -9,14 +9,14 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import ColumnView, Reading
-from occ_gui.values.choices import PhotoChoice, PhotoFrame, Placement
+from occ_gui.values.choices import MatchChoice, PhotoChoice, PhotoFrame, Placement
 from occ_gui.values.photo_results import ListedRows, MatchOutcome, PhotoDocument, StripeSearch
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within
 from occ_model.results.bands import Cure
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import Match, Stripes
+from occ_model.results.match import Match, Stripes, known_parameter
 from occ_model.results.photo_table import PhotoRow
 from occ_model.scene.scene import Scene
 
@@ -45,6 +45,13 @@ def lies_within(photo: Photo, region: Region) -> bool:
     except ParameterError:
         return False
     return True
+
+
+def known_of(choice: MatchChoice, scene: Scene) -> str:
+    """Return the parameter that must be known for a match with these choices."""
+    if choice.sent == "lamp" and choice.estimate == "readout_time":
+        return "lamp_frequency"
+    return known_parameter(choice.estimate, scene.transmitter)
 
 
 def find_match(results: Results) -> MatchOutcome | None:

@@ -15,7 +15,7 @@ from PySide6.QtGui import QGuiApplication, QPalette
 
 from occ_gui.photo.match_figures import is_certain
 from occ_gui.photo.match_result import SIGNS
-from occ_gui.photo.shown_photo import ShownPhoto
+from occ_gui.photo.shown_photo import ShownPhoto, known_of
 from occ_gui.values.photo_results import ListedRows
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import ParameterError, one_line
@@ -64,8 +64,9 @@ class PhotoRowsModel(QAbstractTableModel):
     @property
     def known(self) -> str:
         """The parameter that must be known of each photo."""
-        scene = self._shown.scene if self._listed is None else self._listed.settings.scene
-        return known_parameter(self._estimate, scene.transmitter)
+        if self._listed is None:
+            return known_of(self._shown.choice.form, self._shown.scene)
+        return known_parameter(self._estimate, self._listed.settings.scene.transmitter)
 
     def entered_values(self, name: str) -> tuple[tuple[int, float], ...]:
         """Return the values of a known parameter entered for single photos, in SI units."""

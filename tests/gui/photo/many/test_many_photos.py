@@ -133,6 +133,8 @@ def test_before_the_match_the_header_says_what_must_be_known(
     view: ManyPhotosView, listed: Listed, qtbot: QtBot
 ) -> None:
     for change, known in (
+        (lambda: listed.choose(form=MatchChoice("lamp")), "lamp_frequency"),
+        (lambda: listed.choose(form=MatchChoice()), "switching_frequency"),
         (lambda: listed.scenes.change(light="lamp"), "lamp_frequency"),
         (lambda: listed.choose(form=MatchChoice(estimate="switching_frequency")), "readout_time"),
     ):

@@ -70,7 +70,7 @@ def test_on_time_is_that_of_rational_arithmetic(
     frequency=FREQUENCIES,
     start=STARTS,
 )
-def test_on_time_of_whole_packets_is_exact_an_ulp_either_side(
+def test_on_time_of_whole_chips_or_packets_is_exact_an_ulp_either_side(
     whole: int, unit: int, ulps: int, frequency: float, start: float
 ) -> None:
     scene = scene_of_exposure(whole * unit, frequency, start_time=start)
@@ -116,7 +116,7 @@ MANY_COLUMNS: dict[str, dict[str, float | str]] = {
     "a decimal readout time": {"readout_time": 7.77e-6},
     # A step of nearly a period, whose product with the column number needs 65 bits.
     "a step just short of a packet": {"readout_time": 24e-4 * (1 - 1e-9)},
-    # The step's remainder beyond 24 bits of thousands of chips adds up to hundreds of chips.
+    # Rounding such a step to 24 bits would add up to 80 chips.
     "thousands of chips a column": {"readout_time": 0.3333333333333333, "pattern": LONG},
     # With 4e-11 packets a column, the last one must still be 4e-5 packets from the first.
     "a step of next to nothing": {"readout_time": 1e-9, "switching_frequency": 1.0},
@@ -140,7 +140,7 @@ def test_a_million_columns_do_not_drift(name: str) -> None:
 
 
 NAMED: dict[str, dict[str, float | str]] = {
-    # 2e14 chips after time zero, where the start in chips as a double has no decimals.
+    # 1e13 chips after time zero, where a double holds the start only to 0.002 chips.
     "a million chips, a billion seconds away": {
         "start_time": 1e9 - 0.1, "exposure_time": 100.0, "switching_frequency": 1e4},
     # The same backwards: negative numbers must not be rounded towards zero.

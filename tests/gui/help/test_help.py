@@ -1,7 +1,5 @@
 """The manual in its window: pages, links, pictures, search, and the page of each pane."""
 
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,15 +11,13 @@ from PySide6.QtGui import QColor, QDesktopServices, QPalette, QTextCursor, QText
 from PySide6.QtWidgets import QTextBrowser
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app import services
 from occ_gui.app.panes import bands, spectrum
-from occ_gui.app.services import manual as declaration
 from occ_gui.help import help_window
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import CONTENTS, GUIDE, Section, docs_folder, pages, search, sections
 from occ_model.scene.scene import Scene
-
-ROOT = Path(__file__).parents[3]
 
 IMAGE = int(QTextDocument.ResourceType.ImageResource.value)
 
@@ -64,7 +60,7 @@ def click(qtbot: QtBot, browser: QTextBrowser, text: str, target: str) -> None:
     while cursor.charFormat().anchorHref() != target:
         cursor = browser.document().find(text, cursor)
         assert not cursor.isNull(), target
-    cursor.setPosition(cursor.position() - len(text) // 2)  # beside its end no link begins
+    cursor.setPosition(cursor.position() - len(text) // 2)  # its middle; its end is no part of it
     browser.setTextCursor(cursor)
     browser.ensureCursorVisible()
     place = browser.cursorRect(cursor).center()
@@ -164,7 +160,7 @@ def test_the_menu_entries_open_the_guide_and_the_page_of_the_pane(
     bench, current = PaneBench(qtbot, small_scene), ["spectrum"]
     for declared in (spectrum(), bands(bench.scenes)):
         bench.shell.add(declared, bench.window)
-    bench.shell.add(declaration(bench.window, bench.shell, lambda: current[0]), bench.window)
+    bench.shell.add(services.manual(bench.window, bench.shell, lambda: current[0]), bench.window)
     entries = bench.window.actions_by_name
     entries["guide"].trigger()
     (browser,) = bench.window.findChildren(HelpBrowser)
@@ -187,14 +183,9 @@ def test_a_missing_manual_is_answered_with_a_sentence(
 ) -> None:
     monkeypatch.setattr(help_window, "docs_folder", lambda: tmp_path)
     bench = PaneBench(qtbot, small_scene)
-    bench.add(declaration(bench.window, bench.shell, str)).show_page()
+    bench.add(services.manual(bench.window, bench.shell, lambda: "")).show_page()
     assert bench.said == ["The manual cannot be read: No such file or directory."]
     assert not (tmp_path / CONTENTS).exists()
-
-
-def run(program: str, folder: Path) -> str:
-    command = [sys.executable, "-W", "error", "-c", program]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
 
 
 _PAGE = "# One\nLight.\n## Bars\nDark *stripes*\n```\n# no heading\n```\n## Flicker\nBars of light."

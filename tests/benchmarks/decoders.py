@@ -7,15 +7,16 @@
 * ``timing``: the same with an exposure time or a readout time that the receiver has wrong by 0.1,
   0.3 and 1 %;
 * ``pose``: of all codes, those read from tilted, cut-off and noisy pictures. Each code gets one
-  picture a cell, with a random start time, which is made whole and decoded from its pixels;
+  picture a cell, with a random start time, all of whose pixels are made and decoded;
 * ``confidence``: how often the matched decoder reads a wrong code, and how sure it is then, in
   trials of other codes, start times, 4 to 60 kHz, 300 to 1800 columns, noise of 0.01 to 32 grey
   levels on the column means, 136 us;
 * ``scheme``: random payloads of 10 bits read of every scheme, at 4 kHz and 68 us;
+* ``line-code``: the highest frequency up to which all such payloads are read, at 136 us. In this
+  part and ``scheme`` the panel is 0.6 m away, the enhancement off; the columns' means have noise of
+  one grey level;
 * ``together``: processor time of each decoder for 40 pictures, one at a time and all together, in
-  turn in one process;
-* ``line-code``: the highest frequency up to which all of them are read, at 136 us. In both the
-  panel is 0.6 m away, the enhancement off; the columns' means have noise of one grey level.
+  turn in one process.
 """
 
 import argparse
@@ -102,7 +103,7 @@ def print_frequencies(options: argparse.Namespace) -> None:
 
 
 def print_together(options: argparse.Namespace) -> None:
-    """Print the milliseconds of a picture that is read alone, and their ratio to those in 40."""
+    """Print the time of a picture that is read alone, and how many times faster 40 together are."""
     random = np.random.default_rng(6)
     print(f"| frequency | {' | '.join(DECODERS)} |\n|---|{'---|' * len(DECODERS)}")
     for frequency in (4e3, 14e3, 50e3):
@@ -260,7 +261,7 @@ def print_schemes(options: argparse.Namespace) -> None:
 
 
 def print_line_codes(options: argparse.Namespace) -> None:
-    """Print the highest frequency at which every payload is read, and all below it from 4 kHz."""
+    """Print the highest frequency up to which every payload is read, from 4 kHz on."""
     print(f"| line code | {' | '.join(DECODERS)} |\n|---|{'---|' * len(DECODERS)}")
     for line_code in occ.line_codes():
         cells = []

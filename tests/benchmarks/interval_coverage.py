@@ -1,9 +1,9 @@
-"""Print how many of the 95 % intervals of ends hold the end, in studies at ten ends.
+"""Print how many 95 % intervals hold the end of a working range, for ten such ends.
 
 python tests/benchmarks/interval_coverage.py --studies 40 --seed 0
 
-Each study searches about an end with a scan and pictures of its own. The true end is where the rate
-of the pictures of all studies, which falls outwards, crosses the required one.
+Each study scans values about an end with pictures of its own. The true end is where the success
+rate in the pictures of all studies falls to the required one; outwards it is taken to fall only.
 """
 
 import argparse
@@ -56,6 +56,7 @@ def study_end(end: int, seed: int) -> Study:
         return [[1.0 - right / bits for right in each] for each in counts]
 
     step = STEP**outwards
+    # From about four steps inside, go outwards to the first value at which pictures lose bits.
     innermost = value = about / step**4 * float(step ** random.uniform())
     while not any(measure([value * step], FEW_IMAGES)[0]):
         value *= step

@@ -65,7 +65,7 @@ def test_a_scene_without_colours_says_why(
     pane.stop()
 
 
-def test_the_strip_shows_the_mean_of_the_pixels_under_each_of_the_screen(qtbot: QtBot) -> None:
+def test_each_pixel_of_the_strip_shows_the_mean_of_those_it_covers(qtbot: QtBot) -> None:
     strip = ColourStrip()
     qtbot.addWidget(strip)
     strip.resize(40, strip.height())

@@ -213,14 +213,14 @@ def test_the_pane_follows_axes_shown_values_and_frame_rate(
     assert bench.pane.show_quantity.call_args.args == ("bits", 12.0)
 
 
-def test_the_theoretical_limits_are_those_of_theory(
+def test_theory_divides_the_map_at_one_and_two_chips_an_exposure(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
     rates = bench.look()
     along, _ = rates.theory.places
     exposure = bench.scenes.scene.camera.exposure_time
-    frequencies = 500.0 * 200.0**along
+    frequencies = 500.0 * (100e3 / 500.0) ** along
     for name, limit in (("band", 1 / exposure), ("null", 2 / exposure)):
         np.testing.assert_array_equal(
             rates.theory.sides[name][:, 0] > 0, frequencies > limit, err_msg=name
@@ -229,7 +229,7 @@ def test_the_theoretical_limits_are_those_of_theory(
 
 @pytest.fixture
 def few_points(bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Give maps few points if no other test uses them."""
+    """Give maps fewer points than ``bench_of``, which it therefore follows."""
     monkeypatch.setattr(map_schedule, "SHAPE", (3, 2))
 
 
@@ -248,7 +248,7 @@ def test_a_map_of_an_earlier_scene_ages_until_the_next_one_comes(
     assert last_argument(bench.pane.show_age) == 0.0
 
 
-def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
+def test_first_points_are_awaited_until_they_come_or_the_map_is_hidden(
     bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench = bench_of()
@@ -275,7 +275,7 @@ def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
 
 def test_counts_that_arrive_before_those_ahead_of_them_are_kept() -> None:
     rates = RateMap("distance", "iso", (1.0, 2.0), (1.0,), ("threshold",))
-    first, rest = (SweepPoint(1, 10 * n, (9 * n,), "", (n - 1,)) for n in (5, 15))
+    first, rest = (SweepPoint(1, sent=10 * n, right=(9 * n,), whole=(n - 1,)) for n in (5, 15))
     rates.enter([rest], 20, first=5)
     assert rates.known_count == 0
     rates.enter([first], 5)

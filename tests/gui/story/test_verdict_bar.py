@@ -236,7 +236,7 @@ def test_while_a_slider_runs_the_verdict_names_its_value_and_that_of_the_picture
     assert bar.heading == "Code 718 read, all bits right"
 
 
-def test_an_earlier_choice_does_not_change_which_decoders_are_named(
+def test_a_slow_decoder_that_was_chosen_earlier_is_not_named_beside_the_quick_ones(
     bar: VerdictBar, small_scene: Scene
 ) -> None:
     snapshot = simulate(small_scene)
@@ -306,7 +306,7 @@ def test_before_the_cause_is_known_no_symptom_is_the_title(
     assert bar.accessibleDescription().endswith("The decoder does not detect this.")
 
 
-def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
+def test_a_code_read_from_exposures_above_the_period_leads_to_its_lesson(
     bar: VerdictBar, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=5.5e3))
@@ -326,19 +326,18 @@ def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
     [
         (State.BAD, "No header fits: come closer.", "No code: no header fits", "Come closer."),
         (State.BAD, "No header, two needed: 9 fit.", "No code: no header", "Two needed: 9 fit."),
-        (State.BAD, "No header fits.", "No code: no header fits", None),
+        (State.BAD, "No header fits.", "No code: no header fits", ""),
         (State.BAD, "No code stands out: 1, 2.", "No code stands out", "1, 2."),
         (State.BAD, "", "Title", ""),
         (State.DOUBTFUL, "Half fits: look.", "Title", "Half fits: look."),
     ],
 )
 def test_the_reason_is_divided_between_heading_and_explanation(
-    state: State, reason: str, heading: str, explanation: str | None
+    state: State, reason: str, heading: str, explanation: str
 ) -> None:
     verdict = CodeVerdict(state, "Title", reason)
     assert verdict.heading == heading
-    if explanation is not None:
-        assert verdict.explanation == explanation
+    assert verdict.explanation == explanation
 
 
 def test_the_verdict_on_one_of_three_colours_names_it_and_leads_to_all(

@@ -39,7 +39,7 @@ def test_a_film_keeps_its_colours_and_shows_three_codes(tmp_path: Path, demosaic
         assert abs(readout.value - step) < 4.0 * readout.error < 1e-3 * step
 
 
-def test_colours_of_a_film_are_turned_with_its_lines(tmp_path: Path) -> None:
+def test_a_film_scanned_along_its_other_axis_is_turned_with_its_colours(tmp_path: Path) -> None:
     film = occ.render_video(small(columns=1200, panel_width=0.05), 1)
     image = film.frame(0).image
 
@@ -59,8 +59,7 @@ def test_colours_of_a_film_are_turned_with_its_lines(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("colour", ["red", "green", "blue"])
-def test_the_steps_of_a_film_are_those_of_one_led_on_white_light(colour: str) -> None:
-    # The period of the light is the code's: a later frame shows the packet at its own phase.
+def test_a_film_of_one_led_keeps_the_phase_of_its_code_and_has_no_other_code(colour: str) -> None:
     scene = small(colour_light=colour)
     film = occ.render_video(scene, 400)
     late = film.frame(399)
@@ -69,8 +68,8 @@ def test_the_steps_of_a_film_are_those_of_one_led_on_white_light(colour: str) ->
     lit = occ.on_time(scene.replace(start_time=float(late.start)).colour(colour))
     assert occ.on_time(late.scene.colour(colour)) == pytest.approx(lit, abs=1e-9)
     few = occ.render_video(scene, 3, settings=occ.SimulationSettings(seed=4))
-    (read,) = occ.decode_colour_video(few, scene, frequency_tolerance=1e-4).items()
-    assert (read[0], read[1].payload) == (colour, CODES["red"])  # the only code
+    readings = occ.decode_colour_video(few, scene, frequency_tolerance=1e-4)
+    assert {name: reading.payload for name, reading in readings.items()} == {colour: CODES["red"]}
 
 
 def test_what_no_film_shows_in_three_colours_is_refused() -> None:

@@ -27,17 +27,18 @@ NEAR = occ.load_preset("phone-68us").replace(
 
 
 class Case:
-    """The hypotheses about a photo's stripes, and how often fitting them called its check."""
+    """The hypotheses about the stripes in a photo of ``scene``, for a user who assumes ``told``."""
 
     def __init__(self, scene: Scene, columns: int = 1200, told: Scene | None = None) -> None:
-        self.check = Mock()
+        self.check = Mock()  # called again and again while chips are read or fitted
         told = told or scene
         stripes = occ.find_stripes(take(scene), (0, 60, 0, columns))
         low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
         cameras = camera_responses(told, ("light",), low, high)
         self.candidates = Candidates(
-            stripes, told, cameras, False, "readout_time", None, self.check
-        )
+            stripes, told, cameras,
+            fit_gamma=False, estimate="readout_time", noted=None, check=self.check,
+        )  # fmt: skip
 
     def as_sent(self) -> Hypothesis:
         found = self.candidates.as_sent()
@@ -50,11 +51,12 @@ def is_of(found: Hypothesis, scene: Scene) -> bool:
     return np.array_equal(canonical(found.chips), canonical(sent_chips(scene.transmitter)))
 
 
-def test_chips_that_are_explained_well_are_not_fitted_again_however_they_are_turned() -> None:
+def test_chips_that_are_explained_well_are_not_fitted_again_however_they_are_rotated() -> None:
     scene = NEAR.replace(switching_frequency=6e3, pattern="110100")
     case = Case(scene, columns=400, told=scene.replace(pattern="001101"))
     sent = case.as_sent()
-    assert (sent.fit.correlation > 0.99, sent.information < 100.0) == (True, True)
+    assert sent.fit.correlation > 0.99
+    assert sent.information < 100.0
     assert case.candidates.read(sent) == []
     case.check.assert_called()
     (read,) = case.candidates.read()
@@ -69,10 +71,10 @@ def test_nothing_is_read_where_the_chips_given_are_sure() -> None:
     case.check.assert_not_called()
 
 
-def test_where_nothing_explains_the_stripes_well_chips_are_read_otherwise_too() -> None:
+def test_where_nothing_explains_the_stripes_well_chips_are_read_again_in_another_way() -> None:
     bright = {"exposure_time": 0.8 / 12e3, "luminance": 1500.0 * NEAR.transmitter.luminance}
-    white = NEAR.replace(pattern="11101000", point_spread=2.0, iso=50.0, **bright)
-    found = Case(white, told=NEAR).candidates.read()
+    overexposed = NEAR.replace(pattern="11101000", point_spread=2.0, iso=50.0, **bright)
+    found = Case(overexposed, told=NEAR).candidates.read()
     first = [one for one in found if not one.read_again]
     assert max(one.fit.correlation for one in first) < 0.98
     assert len(found) > len(first) > 0
@@ -91,7 +93,7 @@ def test_stripes_that_do_not_repeat_are_not_read() -> None:
     ("changes", "name"),
     [({"code": 345}, "the code 0101011001"), ({"pattern": "110100"}, "a code of 6 chips")],
 )
-def test_chips_are_named_by_their_code_or_as_one(changes: dict[str, Any], name: str) -> None:
+def test_chips_are_named_by_their_code_or_number(changes: dict[str, Any], name: str) -> None:
     found = Case(NEAR.replace(**changes), told=NEAR).candidates.read()
     assert max(found, key=lambda one: one.fit.correlation).sent == f"{name} read from the photo"
 
@@ -111,7 +113,7 @@ def test_chips_that_were_misread_are_set_right(wrong: list[int]) -> None:
     assert found.tolist() == chips.tolist()
 
 
-def test_of_a_packet_all_codes_are_compared_turned_about() -> None:
+def test_all_codes_of_a_packet_are_compared_however_they_are_rotated() -> None:
     scene = occ.Scene()
     right, wrong = (sent_chips(scene.replace(code=code).transmitter) for code in (345, 718))
     profile = 40.0 + 100.0 * light_of(np.roll(right, 5), TIMING, COLUMNS)
@@ -119,10 +121,10 @@ def test_of_a_packet_all_codes_are_compared_turned_about() -> None:
     assert found.tolist() == np.roll(right, 5).tolist()
 
 
-def test_neither_the_same_chips_turned_nor_chips_without_a_change_are_others() -> None:
+def test_neither_the_same_chips_rotated_nor_chips_without_a_change_are_others() -> None:
     chips = np.array([1, 0, 0, 0], dtype=np.uint8)
-    turned = np.roll(chips, 1)
-    profile = 40.0 + 100.0 * light_of(turned, TIMING, COLUMNS)
+    rotated = np.roll(chips, 1)
+    profile = 40.0 + 100.0 * light_of(rotated, TIMING, COLUMNS)
     found = nearest_other(profile, hypothesis(chips, TIMING, COLUMNS), occ.Scene().transmitter)
     assert 0 < found.sum() < 4
     assert sorted(found.tolist()) != sorted(chips.tolist())

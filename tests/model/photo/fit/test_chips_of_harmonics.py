@@ -50,7 +50,7 @@ def test_there_are_no_more_harmonics_than_columns_tell(
 
 
 @pytest.mark.parametrize("exposure", [0.1, 0.9, 1.5, 2.3])
-def test_chips_come_back_turned_about_at_most(exposure: float) -> None:
+def test_chips_come_back_rotated_at_most(exposure: float) -> None:
     found = best_chips(lines_of(exposure), len(CHIPS))
     assert any(np.array_equal(np.roll(found.chips, k), CHIPS) for k in range(len(CHIPS)))
     assert found.explained > 0.99

@@ -51,13 +51,13 @@ def test_a_square_wave_of_100_hz_has_the_known_numbers() -> None:
     found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=200.0))
     assert found.percent_flicker == 100.0
     assert found.flicker_index == 0.5
-    # The fundamental alone, 4/pi of the mean against the threshold_2018 0.26, gives 4.897.
+    # The fundamental alone, 4/pi of the mean against the threshold of 0.26, gives 4.897.
     assert found.visibility == pytest.approx(4.903, abs=1e-3)
     assert (found.risk, found.parts_risk) == ("above low risk", "above low risk")
 
 
-def test_a_sine_at_the_threshold_measures_one() -> None:
-    # As published: 26 % at 100 Hz; and all of the light is not enough from 776 Hz on.
+def test_the_threshold_for_a_sine_is_the_published_one() -> None:
+    # As published: 26 % at 100 Hz, and above 100 % from 776 Hz on: no sine reaches it.
     assert float(threshold_2018(np.array([100.0]))[0]) == pytest.approx(0.26, abs=5e-3)
     assert float(threshold_2018(np.array([777.0]))[0]) == pytest.approx(1.05, abs=0.01)
 
@@ -83,13 +83,13 @@ def test_of_a_long_payloads_millions_of_sines_the_strongest_are_listed_and_all_a
     many = occ.eye_flicker(long.replace(switching_frequency=300.0))
     assert len(many.frequencies) == 10_000
     assert (np.diff(many.frequencies) > 0.0).all()
-    # Of a payload of one pattern over and over little else than that pattern's sines is left.
+    # The payload repeats one pattern, whose sines are nearly all that is left.
     alone = occ.eye_flicker(_PHONE.replace(pattern="1001", switching_frequency=300.0))
     assert many.visibility == pytest.approx(alone.visibility, rel=0.02)
     assert many.modulations.max() == pytest.approx(alone.modulations.max(), rel=0.02)
 
 
-def test_the_lines_of_risk_are_those_quoted_at_their_ends() -> None:
+def test_the_limits_of_risk_are_those_quoted_and_end_at_1250_and_3000_hz() -> None:
     no_effect, low_risk = risk_limits(np.array([50.0, 100.0, 120.0, 1250.0, 1251.0, 3001.0]))
     assert no_effect[:3] == pytest.approx([0.5, 3.33, 4.0], abs=0.01)
     assert low_risk[:4] == pytest.approx([1.25, 8.0, 9.6, 100.0])
@@ -99,10 +99,10 @@ def test_the_lines_of_risk_are_those_quoted_at_their_ends() -> None:
 
 
 @pytest.mark.parametrize(
-    ("cycles", "risk"), [(1200.0, "above low risk"), (1300.0, "low risk"), (3100.0, "no effect")]
+    ("frequency", "risk"), [(1200.0, "above low risk"), (1300.0, "low risk"), (3100.0, "no effect")]
 )
-def test_full_pulses_pass_each_line_at_its_frequency(cycles: float, risk: str) -> None:
-    found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=2.0 * cycles))
+def test_full_modulation_meets_each_limit_from_its_end_on(frequency: float, risk: str) -> None:
+    found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=2.0 * frequency))
     assert found.risk == risk
 
 

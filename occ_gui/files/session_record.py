@@ -1,6 +1,6 @@
 """Record of a session: a workspace with its steps, as values of JSON.
 
-An invalid part is replaced by its first value, so that a window starts whatever its file contains.
+An invalid part gets its initial value, so that a window starts whatever its file contains.
 """
 
 import json
@@ -98,7 +98,7 @@ def _make_film_record(film: FilmChoice) -> dict[str, Any]:
 
 
 def _make_room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
-    """Return the record of a room: only its camera if nothing else differs from the former room."""
+    """Return the record of a room; lamps and scene are left out if the former room has them too."""
     room, other = choice.room, former.room
     is_known = room is None or (
         other is not None and (room.lamps, room.scene) == (other.lamps, other.scene)
@@ -136,7 +136,7 @@ def _make_history_record(history: History) -> dict[str, Any] | None:
     sizes, first = [len(json.dumps(step)) for step in steps], 0
     while sum(sizes[first:]) > _MOST_HISTORY_CHARACTERS:
         first += 1
-    if first > history.done:
+    if first > history.done:  # The present state is before the steps that remain.
         return None
     state = [*history.states()][first] if first else history.first
     return {
@@ -149,12 +149,12 @@ def _make_history_record(history: History) -> dict[str, Any] | None:
     }
 
 
-def _read_or_keep(first: T, read: Callable[[], T]) -> T:
-    """Return what ``read`` returns, or ``first`` if it fails."""
+def _read_or_keep(initial: T, read: Callable[[], T]) -> T:
+    """Return what ``read`` returns, or ``initial`` if it fails."""
     try:
         return read()
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return first
+        return initial
 
 
 def _require(is_valid: bool) -> None:
@@ -196,8 +196,8 @@ def _read_view(workspace: Workspace, values: Any) -> Workspace:
 
 def _read_photo(values: Any) -> PhotoChoice:
     path = _read_path(values.get("path"))
-    part = _read_or_keep(None, lambda: _read_region(values["region"]))
-    parts = {} if path is None or part is None else {PhotoFrame(path): part}
+    region = _read_or_keep(None, lambda: _read_region(values["region"]))
+    parts = {} if path is None or region is None else {PhotoFrame(path): region}
     photo = PhotoChoice(path, parts=parts)
 
     def read() -> PhotoChoice:
@@ -241,7 +241,7 @@ def _read_room(values: Any, former: RoomChoice) -> RoomChoice:
         from occ_model.room.room import Place, Room
 
         base = former.room if values["room"] is None else Room.from_toml(values["room"])
-        room = base.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # as any
+        room = base.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # None fails
         return RoomChoice(str(values["name"]), room, photo, length)
 
     return _read_or_keep(RoomChoice(), read)
@@ -298,7 +298,7 @@ def _read_settings(values: Any) -> SimulationSettings:
 
 
 def _read_region(values: Any) -> Region:
-    """Read a rectangle of whole numbers; whether it fits the photo is checked with the photo."""
+    """Read a region in whole pixels; whether it fits the photo is checked with the photo."""
     region = Region(**values)
     _require(all(type(side) is int and 0 <= side <= MAX_PIXELS for side in asdict(region).values()))
     return region

@@ -40,7 +40,7 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
 
     ``texts``: the bit, or what the header is called; the first text that fits is drawn.
-    ``has_text``: whether a text is drawn, even one that hardly fits; None: only if it fits.
+    ``has_text``: whether a text is drawn, even if none fits; None: only one that fits.
     ``within``: the visible area; the text is centred in the part of the cell within it.
     """
     colours = colours_of(state, palette)
@@ -53,7 +53,7 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     mark = _MARKS.get(state, "") if is_marked else ""
     painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
     visible = inner if within is None else inner.intersected(within)
-    available_width = visible.width() - _PADDING + 2
+    available_width = visible.width() - _PADDING + 2  # a cell is 2 pixels wider than inside
     fitting = (
         label
         for label in (texts[0] + mark, *texts)

@@ -61,8 +61,8 @@ def embolden(label: Label, factor: float = 1.0) -> Label:
 class ElidedLabel(QLabel):
     """Shows as much of a text as fits, and the whole text in the tooltip.
 
-    ``separator``: what stands between its parts, of which only whole ones are shown; by default,
-    the text is cut anywhere.
+    ``separator``: what stands between the parts of the text, which are shown whole or not at all;
+    without it, the text is cut anywhere.
     """
 
     def __init__(
@@ -133,9 +133,9 @@ class ScrollPane(QScrollArea):
         content = self.widget()
         if content is None:
             return self._least
-        least, bar = content.minimumSizeHint(), self.verticalScrollBar().sizeHint().width()
-        width = max(self._least.width(), least.width() + bar)
-        return QSize(width, min(self._least.height(), least.height()))
+        needed, bar = content.minimumSizeHint(), self.verticalScrollBar().sizeHint().width()
+        width = max(self._least.width(), needed.width() + bar)
+        return QSize(width, min(self._least.height(), needed.height()))
 
 
 def bring_into_view(widget: QWidget, margin: int = 50) -> None:
@@ -169,8 +169,8 @@ class KeyedComboBox(QComboBox):
             self.addItem(word, key)
         self.setAccessibleName(name)
         self.setToolTip(meaning)
-        width, adjust = QSizePolicy.Policy, QComboBox.SizeAdjustPolicy
-        self.setSizePolicy(width.Fixed if is_fixed else width.Expanding, width.Fixed)
+        policy, adjust = QSizePolicy.Policy, QComboBox.SizeAdjustPolicy
+        self.setSizePolicy(policy.Fixed if is_fixed else policy.Expanding, policy.Fixed)
         self.setSizeAdjustPolicy(
             adjust.AdjustToContents if is_fixed else adjust.AdjustToMinimumContentsLengthWithIcon
         )

@@ -12,11 +12,11 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.row_interpolation import apply_weights
 from occ_model.camera.row_memory import MEMORY
 
-_BLUR_REACH = 4.0  # standard deviations at which a blurred edge is cut off; 3e-5 of it are beyond
+_BLUR_REACH = 4.0  # standard deviations at which the blur is cut off; 3e-5 of light goes farther
 
-_FINE_CELLS_A_BLUR = 4.0  # least standard deviation of the blur, in cells, for a coarser grid
-_SAMPLED_ROWS = 16  # rows per cell that are sampled of a high outline, as accurate as all
-_MAX_EXACT_ROWS = 4096  # largest height in rows of an outline of which all rows are used
+_CELLS_A_BLUR = 4.0  # least standard deviation of the blur in cells, which are squares of pixels
+_ROWS_A_CELL = 16  # least number of a cell's rows that are used, as accurate as all of them
+_ROWS_AN_OUTLINE = 4096  # least number of a high outline's rows that are used
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -24,7 +24,7 @@ class CoveredPart:
     """Columns of some rows with light of the panel."""
 
     columns: slice
-    # Shape (rows, columns): fraction of each pixel's light that comes from the panel; None for all
+    # Shape (rows, columns): fraction of each pixel's light that is the panel's; None if it is 1
     fraction: Pixels | None
 
     def crop(self, columns: slice) -> "CoveredPart":
@@ -44,7 +44,7 @@ class CoveredPart:
 
 
 def _split_rim(columns: slice, fraction: Pixels) -> list[CoveredPart]:
-    """Split a rim of equal rows into runs of columns that the panel covers, if it is sharp."""
+    """Split columns near the outline into the runs inside it, if it is sharp and upright there."""
     first = fraction[0]
     if not ((first == 0.0) | (first == 1.0)).all() or (fraction != first).any():
         return [CoveredPart(columns, fraction)]
@@ -73,7 +73,7 @@ class Coverage:
 
     A pixel belongs to the panel if its centre is inside the outline, given as the (column, row) of
     each corner in order; the outline may be concave. The blur (standard deviation in pixels) also
-    brings in light from beyond the picture's rim, since the lens blurs before the sensor crops.
+    brings in light from beyond the picture's edge, since the lens blurs before the sensor crops.
     """
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
@@ -83,17 +83,17 @@ class Coverage:
         self._blur = blur
         self._margin = math.ceil(_BLUR_REACH * blur)
         self._blurred_rows = blurred_rows = range(-self._margin, rows + self._margin)
-        cell = max(1, int(blur / _FINE_CELLS_A_BLUR))
-        # A very wide blur needs no more sampled rows than a narrow one.
+        cell = max(1, int(blur / _CELLS_A_BLUR))
+        # One row of each stride is used: a very wide blur needs no more of them than a narrow one.
         self._stride = max(
-            1, min(cell // _SAMPLED_ROWS, _count_rows(outline, blurred_rows) // _MAX_EXACT_ROWS)
+            1, min(cell // _ROWS_A_CELL, _count_rows(outline, blurred_rows) // _ROWS_AN_OUTLINE)
         )
         self._cell = cell - cell % self._stride
         self._coarse = self._blur_whole(rows) if self._cell > 1 else None
 
     @cached_property
     def _crossings(self) -> tuple[IndexArray, FloatArray, FloatArray]:
-        return _crossings(self._starts.T, self._blurred_rows, self._stride)
+        return _find_crossings(self._starts.T, self._blurred_rows, self._stride)
 
     def rows(self, rows: range) -> Pixels:
         """Return some rows, shape (number of rows, columns), 0 to 1."""
@@ -104,13 +104,13 @@ class Coverage:
 
     def reaches(self, rows: range) -> bool:
         """Return whether the outline with its blur may reach any of some rows."""
-        reach, line = self._margin + self._cell, self._starts[1]
-        return bool(line.min() - reach <= rows[-1] and line.max() + reach >= rows[0])
+        reach, corner_rows = self._margin + self._cell, self._starts[1]
+        return bool(corner_rows.min() - reach <= rows[-1] and corner_rows.max() + reach >= rows[0])
 
     def parts(self, rows: range) -> list[CoveredPart]:
         """Return the parts of some rows with light of the panel, from the left.
 
-        They are the panel's rims, and what it covers between them.
+        They are rims, the columns near the outline, and what the panel covers between them.
         """
         return MEMORY.recall((*self._key, rows), lambda: self._compute_parts(rows), _fractions)
 
@@ -177,6 +177,7 @@ class Coverage:
         is_in_cell = row[chosen] < rows[line] + cell
         line, x, sign = line[is_in_cell], x[chosen][is_in_cell], sign[chosen][is_in_cell]
         width = columns.stop - columns.start
+        # A step at each crossing, from outside to inside or back; their sum is the coverage.
         steps = np.zeros((len(rows), -(-width // cell) + 2), dtype=np.float32)
         start = np.ceil(np.clip(x, columns.start, columns.stop)) - columns.start
         column, part = np.divmod(start, cell)
@@ -227,10 +228,10 @@ def _count_rows(outline: FloatArray, rows: range) -> int:
     return int(min(float(high), float(rows.stop)) - low)
 
 
-def _crossings(
+def _find_crossings(
     outline: FloatArray, rows: range, stride: int
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
-    """Return where the outline crosses rows: row, column, and direction (1 upwards, -1 downwards).
+    """Return where the outline crosses rows: row, column, and the sign of the row's change.
 
     Of ``rows``, only the middle one of every ``stride`` is used.
     """
@@ -255,7 +256,7 @@ def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArr
 
     ``outline`` is the (column, row) of each corner, in order.
     """
-    column, row, _ = _crossings(outline[:, ::-1], range(columns), 1)
+    column, row, _ = _find_crossings(outline[:, ::-1], range(columns), 1)
     top, bottom = np.full(columns, np.inf), np.full(columns, -np.inf)
     np.minimum.at(top, column, row)
     np.maximum.at(bottom, column, row)
@@ -264,8 +265,8 @@ def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArr
 
 
 def rows_inside(outline: FloatArray, ends: FloatArray, columns: int) -> FloatArray:
-    """Return each column's rows inside an outline between successive ends, (ends - 1, columns)."""
-    column, row, sign = _crossings(outline[:, ::-1], range(columns), 1)
+    """Count each column's rows inside an outline from one end to the next: (ends - 1, columns)."""
+    column, row, sign = _find_crossings(outline[:, ::-1], range(columns), 1)
     first = np.ceil(row)
     before = [np.bincount(column, sign * np.minimum(first, end), columns) for end in ends]
     return np.abs(np.diff(before, axis=0))

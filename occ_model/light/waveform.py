@@ -1,7 +1,8 @@
 """The light's waveform: periodic and piecewise constant, with an exact running integral.
 
 The unit of time is the mean length of a piece, so that a period has as many units as pieces. Pieces
-of equal length, such as chips, last one unit each.
+of equal length, such as chips, last one unit each. Light is counted in lit units: the panel fully
+lit for one unit.
 """
 
 from collections.abc import Sequence
@@ -29,7 +30,7 @@ class Waveform:
     """
 
     def __init__(self, levels: Sequence[float] | NDArray[Any], lengths: Sequence[Fraction] = ()):
-        self.period = count = len(levels)  # units of a period, which are its pieces
+        self.period = count = len(levels)  # in units: as many as pieces
         is_even = len(set(lengths)) <= 1
         values = np.asarray(levels)
         # Exact: integers, which are fast, where possible; fractions otherwise.

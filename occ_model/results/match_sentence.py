@@ -1,7 +1,7 @@
 """Say a match in one sentence: what was sent, what the camera does, and how sure that is."""
 
 from occ_model.errors import capitalize
-from occ_model.results.match import ESTIMATES, Match
+from occ_model.results.match import Match
 from occ_model.results.photo_table import SURE
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -12,7 +12,7 @@ _LIMIT_DEVIATIONS = 2.0  # number of standard deviations by which the limit exce
 
 
 def state_verdict(match: Match, condition: str = "") -> str:
-    """State how sure a match is in a few words, with what it leaves out and what it assumes."""
+    """State in a few words how sure a match is, except for what, and under which condition."""
     words = [match.verdict]
     if match.only_exposure_is_doubtful:
         words.append("but for the exposure")
@@ -29,7 +29,7 @@ def describe_match(match: Match, condition: str = "") -> str:
     """
     measured, known = _value(match, match.estimate), _value(match, match.known)
     what = "lamp" if match.lamp is not None else "code"
-    if match.estimate == ESTIMATES[0]:
+    if match.estimate == "readout_time":
         start = condition or f"{what} of {known}: "
         facts = [f"{start}your camera reads a line in {measured}"]
     else:

@@ -14,7 +14,7 @@ from occ_model.scene.scene import Scene
 from occ_model.simulation.grey_table import grey_table, make_scratch
 from occ_model.simulation.pixel_draw import GainPattern, PictureNumbers, dither
 
-_TOLERANCE = 0.05  # error of an interpolated level: a 300th of a deviation, of its dither a 20th
+_TOLERANCE = 0.05  # of a level; shot noise has a deviation of 16 levels, the dither spans 1
 
 _CHUNK = 32  # rows drawn at once: their arrays stay in the cache, and threads hardly wait
 
@@ -40,8 +40,8 @@ class PictureNoise:
         self._pattern = GainPattern(variation, power, seed, size) if variation > 0.0 else None
 
     def draw(self, mean: Rows, out: ByteArray, end_stage: Callable[[str], object]) -> None:
-        """Draw the grey levels of some rows of pixels."""
-        levels = mean.change_nodes(self._law.levels_of)
+        """Draw the grey levels of some rows; ``end_stage`` is called with each stage's name."""
+        levels = mean.change_nodes(self._law.levels_of)  # the table's levels, not grey levels
         if levels.weights is not None and not find_smooth_columns(levels.nodes, _TOLERANCE).all():
             levels = mean.expand_rows().change_nodes(self._law.levels_of)
         levels = self._scale(levels)
@@ -67,7 +67,7 @@ class PictureNoise:
         return varied
 
     def _scale(self, values: Rows) -> Rows:
-        """Multiply values, or levels, by the step of the gains."""
+        """Multiply values, or levels, by the step in which the pattern counts gains."""
         pattern = self._pattern
         return values if pattern is None else values.change_nodes(lambda own: own * pattern.step)
 

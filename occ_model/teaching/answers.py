@@ -20,10 +20,10 @@ def check_answer(
 ) -> CheckedAnswer:
     """Check an answer that a student typed against the model's value.
 
-    The value is that of ``scene``, of the question's scene if nothing has been changed (a
-    prediction), or of the ``match`` if the step is about the student's own photo. If the question
-    names values and the student has set others, the answer is judged only after these are set. A
-    wrong answer does not reveal the value.
+    The value is that of ``scene``, which is None if nothing has been changed: then that of the
+    question's scene, a prediction. If the step is about the student's own photo, it is that of the
+    ``match``. If the question names values and the student has set others, the answer is judged
+    only once the named ones are set. A wrong answer does not reveal the value.
     """
     text = text.strip()
     check = step.check
@@ -53,7 +53,7 @@ def check_answer(
         value = result_text(quantity.unit, model_value)
         source = "The match" if own_match else "The model"
         return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
-    if quantity.identified:
+    if quantity.identified:  # a code: no number is near it
         return CheckedAnswer(
             text, "wrong", f"Not yet: that is not the {quantity.identified}. Try again."
         )
@@ -85,7 +85,7 @@ _MAX_NAMED = 2  # parameters whose values are stated; others are only counted
 
 
 def explanation(step: LessonStep, scene: Scene) -> str:
-    """Return a step's explanation, with the scene that its numbers are for unless it is shown."""
+    """Return a step's explanation; for another scene, with the one that its numbers belong to."""
     question = step.question_scene
     if step.own_photo or scene == question:
         return step.answer
@@ -99,7 +99,7 @@ def explanation(step: LessonStep, scene: Scene) -> str:
 
 
 def describe_changes(step: LessonStep, scene: Scene) -> str:
-    """State how the scene differs from the step's, and to which of both each text refers.
+    """State how the scene differs from the step's, and to which of the two each text refers.
 
     Empty for the scene of the step or of its check, and for a step about a photo, whose match
     changes the scene.

@@ -136,21 +136,21 @@ class ResultsFile(Generic[Point]):
 
     def read_points(self) -> Iterator[Point]:
         """Read the points in the file before any is appended; cut off an incomplete last one."""
-        height = self._table.lines_a_point
+        count = self._table.lines_a_point
         is_read = bytearray(self._table.point_count)
         end, line_number = len(self._header), self._header.count(b"\n")
         with open(self._file.fileno(), "rb", closefd=False) as buffered:
             buffered.seek(end)
             while True:
-                rows = (buffered.readline(_LONGEST_LINE) for _ in range(height))
-                lines = [line for line in rows if line]
+                read = (buffered.readline(_LONGEST_LINE) for _ in range(count))
+                lines = [line for line in read if line]
                 text = b"".join(lines)
-                is_cut = len(lines) < height or not text.endswith(b"\n")
+                is_cut = len(lines) < count or not text.endswith(b"\n")
                 if is_cut and all(len(line) < _LONGEST_LINE for line in lines):
-                    break
-                rows_of_point = text.decode("utf-8", errors="replace").splitlines()
+                    break  # at the end of the file; too long a line is refused below
+                decoded = text.decode("utf-8", errors="replace").splitlines()
                 try:
-                    point = self._table.read(rows_of_point, line_number + 1)
+                    point = self._table.read(decoded, line_number + 1)
                 except ParameterError as impossible:
                     raise OutputError(
                         f"{self._name}, {impossible} Correct or remove the line, or name another "
@@ -162,7 +162,7 @@ class ResultsFile(Generic[Point]):
                         f"{self._study_name}; correct or remove it, or name another file."
                     )
                 is_read[point.index] = 1
-                end, line_number = end + len(text), line_number + height
+                end, line_number = end + len(text), line_number + count
                 self._note_order(point)
                 yield point
         try:

@@ -24,7 +24,7 @@ from occ_gui.widgets.guarded_paint import guarded
 _LEAST_GUTTER, _NAME_PADDING, _MARGIN = 64, 6, 10
 """Least width of the names of the rows, room around them, and the margin at the right."""
 
-_FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
+_FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4  # heights of the rows and between, in pixels
 _LEAST_SPACING = 80.0  # least pixels between two ticks
 _LEAST_MARK = 3.0  # least width in pixels of a single mark; narrower ones are counted in bins
 
@@ -273,5 +273,6 @@ def tick_step(span: float, width: float) -> tuple[float, int]:
 
     ``span``: the time in view, in seconds, more than zero. ``width``: its length in pixels.
     """
-    step = round_step(span * _LEAST_SPACING / max(width, 1.0) * 0.999)
+    step = round_step(span * _LEAST_SPACING / max(width, 1.0))
+    # Without the factor, a rounding error could give a step of 0.001 a fourth digit.
     return step, max(0, -math.floor(math.log10(step * 1.001)))

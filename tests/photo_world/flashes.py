@@ -12,18 +12,12 @@ from photo_world.tone_curves import unknown_curve
 
 @dataclass(frozen=True)
 class FlashPicture:
-    """Rows are the lines; times in seconds."""
+    """A picture whose rows are the lines, with its times in seconds."""
 
     image: np.ndarray
     readout_time: float
     flash: float
     exposure: float
-    first: float  # line at which the band begins
-
-    @property
-    def lines(self) -> float:
-        """Length of the band."""
-        return (self.flash + self.exposure) / self.readout_time
 
 
 def flash_picture(seed: int) -> FlashPicture:
@@ -33,15 +27,15 @@ def flash_picture(seed: int) -> FlashPicture:
     readout = math.exp(random.uniform(math.log(7e-6), math.log(40e-6)))
     total = random.uniform(0.15, 0.6) * rows
     shorter = random.uniform(0.03, 0.4) * total
-    flash, exposure = total - shorter, shorter
+    flash_lines, exposure_lines = total - shorter, shorter
     if random.random() < 0.5:
-        flash, exposure = exposure, flash
+        flash_lines, exposure_lines = exposure_lines, flash_lines
     first = random.uniform(0.05 * rows, 0.95 * rows - total)
-    # What a line gathers of the flash, exactly: the overlap of two stretches of time.
+    # What a line gathers of the flash, exactly: how long it lasts during the exposure.
     line = np.arange(rows, dtype=np.float64)
-    begin, end = first + exposure, first + exposure + flash  # of the flash, in lines
-    shared = np.minimum(line + exposure, end) - np.maximum(line, begin)
-    lit = np.maximum(shared, 0.0)[:, None] / min(flash, exposure)
+    begin = first + exposure_lines  # of the flash, in lines
+    shared = np.minimum(line + exposure_lines, begin + flash_lines) - np.maximum(line, begin)
+    lit = np.maximum(shared, 0.0)[:, None] / shorter
     down, across = np.mgrid[0:rows, 0:columns] / max(rows, columns) - 0.5
     wall = np.exp(random.uniform(-0.8, 0.8) * down + random.uniform(-0.8, 0.8) * across)
     wall *= 1.0 - random.uniform(0.0, 0.8) * (down**2 + across**2)
@@ -52,7 +46,5 @@ def flash_picture(seed: int) -> FlashPicture:
     well = math.exp(random.uniform(math.log(800.0), math.log(6000.0)))
     seen = np.clip(random.poisson(np.clip(light, 0.0, 2.0) * well) / well, 0.0, 1.0)
     image = np.rint(255.0 * unknown_curve(random)(seen)).astype(np.uint8)
-    return FlashPicture(
-        compress(image, int(random.integers(75, 96))), readout, flash * readout,
-        exposure * readout, first,
-    )  # fmt: skip
+    image = compress(image, int(random.integers(75, 96)))
+    return FlashPicture(image, readout, flash_lines * readout, exposure_lines * readout)

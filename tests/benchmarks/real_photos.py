@@ -16,19 +16,19 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from photo_world.real_views import answers, truths
+from photo_world.real_views import load_known_photos, read_answers
 
 
 def main(folder: Path) -> None:
     counts: dict[str, Counter[str]] = defaultdict(Counter)
-    for truth in truths(folder):
+    for known in load_known_photos(folder):
         start = time.process_time()
-        found = answers(truth)
+        found = read_answers(known)
         spent = time.process_time() - start
         for answer in found:
-            kind = answer.verdict + (" wrong" if answer.is_wrong(truth.tolerance) else "")
-            counts[truth.group][kind] += 1
-            print(f"{truth.group:8} {truth.file.name:20} {answer.line()}  {spent:.2f} s")
+            kind = answer.verdict + (" wrong" if answer.is_wrong(known.tolerance) else "")
+            counts[known.group][kind] += 1
+            print(f"{known.group:8} {known.file.name:20} {answer.line()}  {spent:.2f} s")
     for group, count in counts.items():
         print(f"{group:8} {dict(count)}")
 

@@ -1,4 +1,4 @@
-"""Photographs of lamps by other people, and what is read of them, by a table of truths."""
+"""Photographs of lamps by other people, with what is known and what is read of them."""
 
 import csv
 from dataclasses import dataclass, replace
@@ -11,11 +11,11 @@ _BASE = "phone-136us"
 
 
 @dataclass(frozen=True)
-class Truth:
+class KnownPhoto:
     file: Path
     group: str
     scan: str
-    known: str
+    given: str  # What the program is told: "readout_time=...", "lamp_frequency=..." or "ratios"
     frequencies: tuple[float, ...]
     readout: float | None
     chips: str
@@ -45,10 +45,10 @@ class Answer:
         return f"{self.verdict:9} {self.value:12.6g} {100.0 * off / self.truth:+7.2f} % {stated}"
 
 
-def truths(folder: Path) -> list[Truth]:
+def load_known_photos(folder: Path) -> list[KnownPhoto]:
     with (folder / "truths.csv").open(newline="", encoding="utf-8") as file:
         return [
-            Truth(
+            KnownPhoto(
                 folder / row["file"],
                 row["group"],
                 row["scan"],
@@ -62,53 +62,53 @@ def truths(folder: Path) -> list[Truth]:
         ]
 
 
-def answers(truth: Truth) -> list[Answer]:
+def read_answers(known: KnownPhoto) -> list[Answer]:
     """Return what is said of each lamp; of one view along both scan axes the better answer."""
-    axes = [truth.scan] if truth.scan else [axis for axis in SCAN_AXES if axis != "auto"]
-    found = [_along(truth, axis) for axis in axes]
+    axes = [known.scan] if known.scan else [axis for axis in SCAN_AXES if axis != "auto"]
+    found = [_along(known, axis) for axis in axes]
     order = ("refused", "doubtful", "sure")
     return max(found, key=lambda each: sum(order.index(one.verdict) for one in each))
 
 
-def _along(truth: Truth, axis: str) -> list[Answer]:
-    photo = occ.load_photo(truth.file, scan_axis=axis)
-    if truth.chips:
-        return [_chips(photo, truth.chips)]
+def _along(known: KnownPhoto, axis: str) -> list[Answer]:
+    photo = occ.load_photo(known.file, scan_axis=axis)
+    if known.chips:
+        return [_chips(photo, known.chips)]
     scene = occ.load_preset(_BASE).replace(light="lamp")
     estimate = "readout_time"
-    name, _, value = truth.known.partition("=")
+    name, _, value = known.given.partition("=")
     if name == "ratios":
         estimate = "switching_frequency"
     elif name == "readout_time":
         scene, estimate = scene.replace(readout_time=float(value)), "switching_frequency"
     elif name == "lamp_frequency":
         scene = scene.replace(lamp_frequency=float(value))
-    if len(truth.frequencies) > 1:
+    if len(known.frequencies) > 1:
         found = [
-            _answer(match, estimate, truth)
+            _answer(match, estimate, known)
             for lamp, match in occ.match_lamps(photo, scene, estimate=estimate)
             if lamp.modulated
         ]
-        found = _by_ratios(found, truth) if name == "ratios" else found
+        found = _by_ratios(found, known) if name == "ratios" else found
         return found or [Answer("refused", says="no lamp found")]
     try:
-        return [_answer(occ.match_photo(photo, scene, estimate=estimate), estimate, truth)]
+        return [_answer(occ.match_photo(photo, scene, estimate=estimate), estimate, known)]
     except occ.MatchError as error:
         return [Answer("refused", says=str(error))]
 
 
-def _answer(match: "occ.Match | occ.MatchError", estimate: str, truth: Truth) -> Answer:
+def _answer(match: "occ.Match | occ.MatchError", estimate: str, known: KnownPhoto) -> Answer:
     if isinstance(match, occ.MatchError):
         return Answer("refused", says=str(match))
     if estimate == "readout_time":
-        value, right = match.readout_time, truth.readout
+        value, right = match.readout_time, known.readout
     else:
         value = match.lamp_frequency or 0.0
-        right = min(truth.frequencies, key=lambda each: abs(each - value), default=None)
+        right = min(known.frequencies, key=lambda each: abs(each - value), default=None)
     return Answer(match.verdict, value, match.uncertainties[match.estimate], right)
 
 
-def _by_ratios(found: list[Answer], truth: Truth) -> list[Answer]:
+def _by_ratios(found: list[Answer], known: KnownPhoto) -> list[Answer]:
     """Compare frequencies up to the common factor with which most of them are right."""
 
     def scaled(factor: float) -> list[Answer]:
@@ -117,16 +117,16 @@ def _by_ratios(found: list[Answer], truth: Truth) -> list[Answer]:
                 one,
                 truth=None
                 if one.value is None
-                else min((each / factor for each in truth.frequencies),
+                else min((each / factor for each in known.frequencies),
                          key=lambda each: abs(each - (one.value or 0.0))),
             )
             for one in found
         ]  # fmt: skip
 
-    factors = [right / one.value for right in truth.frequencies for one in found if one.value]
+    factors = [right / one.value for right in known.frequencies for one in found if one.value]
     return max(
         (scaled(factor) for factor in factors),
-        key=lambda each: -sum(one.is_wrong(truth.tolerance) for one in each),
+        key=lambda each: -sum(one.is_wrong(known.tolerance) for one in each),
         default=found,
     )
 

@@ -40,7 +40,7 @@ def run_program(
     """
     if is_process:
         # The matrices are small: threads of linear algebra wait for each other longer than they
-        # compute, on a busy machine a hundred times as long. NumPy reads it when it is imported.
+        # compute, on a busy machine a hundred times as long. NumPy reads the number at its import.
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         return _prepare_and_run(name, prepare, is_process=is_process, is_window=is_window)

@@ -22,23 +22,25 @@ class Rims:
 
     @property
     def blocks(self) -> int:
-        """Number of a file's blocks that the panel touches in a column."""
+        """Number of JPEG blocks that the panel touches in a column."""
         return -(-self._region.last_row // 8) - self._region.first_row // 8
 
     @property
     def cut_variance(self) -> float:
-        """Variance of a column's sum over the panel's rows in cut blocks, relative to a pixel's.
+        """Variance of a column's sum of JPEG rounding errors, in variances of a pixel's error.
 
-        Over the rows of a whole block the rounding errors add to 0.
+        Only the blocks that the panel's first and last row cut contribute: over the rows of a whole
+        block the errors add to 0.
         """
         ends = self._region.first_row % 8, self._region.last_row % 8
         return sum(rows * (8 - rows) / 8.0 for rows in ends)
 
     @cached_property
     def fractions(self) -> tuple[float, float]:
-        """Fractions of the pixels in blocks at a rim along the rows, and at an upright rim.
+        """Fractions of the pixels in JPEG blocks at a rim along the rows, and at an upright rim.
 
-        A slanting rim counts as both.
+        A slanting rim counts as both. On average a rim leaves half of a block's 8 rows or columns
+        in the region.
         """
         region, camera = self._region, self._camera
         if self._sample.is_covered:
@@ -55,7 +57,10 @@ class Rims:
         return min(1.0, sum(self.fractions))
 
     def _cover_change(self, name: str) -> FloatArray | None:
-        """Return how an effect changes the panel's fraction of each pixel; None if it does not."""
+        """Return what an effect adds to the panel's fraction of each pixel; None if nothing.
+
+        All other effects that move or blur the rims are taken to be simulated.
+        """
         covers, outline = self._sample.covers, self._sample.outline
         complete, without = covers[outline], covers[outline - {name}]
         if complete is without or complete is None or without is None:
@@ -68,15 +73,15 @@ class Rims:
         if change is None:
             return 0.0
         is_visible = np.abs(change) > _SEEN_FRACTION
-        middle = sample.inner.start + 2
+        middle = (sample.inner.start + sample.inner.stop) // 2
         above, below = is_visible[:, :middle].any(axis=1), is_visible[:, middle:].any(axis=1)
         return float(((above * 1.0 + below) * sample.weights).sum())
 
     def upright_rim_error(self, name: str) -> float:
-        """Return the mean square error of the fraction of a column that lies inside an upright rim.
+        """Return the mean square error of the fraction of a column's rows that the panel covers.
 
-        Where an effect moves the rim across only some of a column's nodes, these give the fraction
-        of its rows to within a third.
+        An upright rim that an effect moves may pass some of a column's few nodes and not others;
+        their mean then errs by up to a third of the change.
         """
         change = self._cover_change(name)
         if change is None:

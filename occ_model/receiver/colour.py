@@ -1,9 +1,10 @@
 """Read the three colours of a picture by a colour camera.
 
-Each colour is read from its own pixels, which demosaicing leaves as they are: the signal of a
-monochrome camera (:meth:`occ_model.Scene.colour`), which any decoder reads. If a filter lets other
-LEDs' light through, that of the means is first unmixed by the inverse of the mixing matrix.
-In columns without pixels of a channel, its light is interpolated from four others by a cubic.
+Each colour is read from its own pixels, which demosaicing leaves as they are. They are those of a
+monochrome camera (:meth:`occ_model.Scene.colour`), so that any decoder reads their column means. If
+a filter lets the light of other LEDs through, the means are first unmixed by the inverse of the
+mixing matrix. In columns without pixels of a channel, a cubic through the four nearest columns with
+such pixels gives its light.
 """
 
 from dataclasses import dataclass, replace
@@ -48,7 +49,7 @@ def decode_colours(
     DecodeInputError
         The image is not of this kind.
     ParameterError
-        The scene is none of a colour camera, or the decoder does not exist.
+        The scene has no colour camera, or the decoder does not exist.
     """
     check_colour(scene)
     decoder_named(decoder)
@@ -77,7 +78,7 @@ class ColourSignals:
 
     @property
     def lights(self) -> FloatArray:
-        """Light of the mean grey levels, which decoders of one colour read as well."""
+        """Light of each mean: grey levels are averaged, not light, as for one colour."""
         return np.asarray((self.greys / WHITE) ** self.scene.camera.gamma)
 
     def own(self) -> list[FloatArray]:
@@ -104,14 +105,14 @@ def colour_signals(image: NDArray[np.uint8], scene: Scene) -> ColourSignals | No
 
 
 def _places_of(image: NDArray[np.uint8], scene: Scene) -> list[ByteArray]:
-    """Return the pixels at each of the four places of the Bayer pattern, in as many rows each."""
+    """Return the pixels at each of the four places of the Bayer pattern, arrays of one shape."""
     mosaic = mosaic_of(_check_image(image), scene)
     rows, columns = (size // 2 for size in mosaic.shape)
     return [mosaic[own][:rows, :columns] for _, own in scene.colours.filters]
 
 
 def _locate(places: list[ByteArray], scene: Scene) -> Location | None:
-    # In one colour alone, the mean of four pixels would be as dark as the noise beside the panel.
+    # If one LED alone is lit, the mean of the four would be as dark as the noise beside the panel.
     brightest = np.maximum(np.maximum(*places[:2]), np.maximum(*places[2:]))
     return locate(brightest, scene.receiver.bright_fraction)
 
@@ -127,8 +128,8 @@ def _signals_in(part: Region, places: list[ByteArray], scene: Scene) -> ColourSi
 
 def _check_image(image: NDArray[np.uint8]) -> ByteArray:
     image = np.asarray(image)
-    is_kind = image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)
-    if image.dtype != np.uint8 or not is_kind or min(image.shape[:2]) < 2:
+    is_picture = image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)
+    if image.dtype != np.uint8 or not is_picture or min(image.shape[:2]) < 2:
         raise DecodeInputError(
             "Three colours are read from 8-bit pixels of shape (rows, columns, 3), or a raw mosaic "
             f"(rows, columns), of at least 2 x 2, not from {image.dtype} of shape {image.shape}."
@@ -141,7 +142,7 @@ def _interpolate(row: FloatArray) -> FloatArray:
     missing = np.isnan(row)
     if not missing.any():
         return row
-    padded = np.pad(row, 4, mode="reflect")  # repeats after 2, so that samples stay in their places
+    padded = np.pad(row, 4, mode="reflect")  # keeps a sample in every second column
     return np.convolve(np.nan_to_num(padded), _CUBIC, mode="same")[4:-4]
 
 
@@ -159,7 +160,7 @@ def measure_mixing(pictures: list[NDArray[np.uint8]], scene: Scene) -> Scene:
     ParameterError
         The light of the four pictures gives no matrix that can be inverted.
     DecodeInputError
-        A picture is none of a colour camera, or shows no panel, or their sizes differ.
+        A picture is not from a colour camera, or shows no panel, or their sizes differ.
     """
     if len(pictures) != 4:
         raise ParameterError.of("pictures", f"{len(pictures)}", "4: red, green, blue and none lit")

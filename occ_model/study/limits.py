@@ -46,10 +46,10 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
     Each answer is a list of intervals, because the success rate need not fall steadily: stripes
-    come back beyond a null. Values are scanned in steps of 3.6 %; a gap as wide in which half of
-    the pictures are lost is found in 97 of 100 searches. The outermost ends and those of the
-    scene's own interval have 95 % intervals, see :mod:`occ_model.study.range_end`, of which the
-    limit nearer to the range is stated. Each end rests on images that were not used to choose it.
+    come back beyond a null. Values are scanned in steps of 3.6 %; a gap of this width in which
+    half of the pictures are lost is found in 97 of 100 searches. The outermost ends and those of
+    the scene's own interval have 95 % confidence limits, see :mod:`occ_model.study.range_end`; the
+    one nearer to the range is stated. Each end rests on images that were not used to choose it.
 
     Parameters
     ----------

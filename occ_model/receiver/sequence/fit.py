@@ -7,6 +7,8 @@ improved from detected chips (decision-directed), and then the chips are detecte
 An error of 1 % in the readout time shifts the ends of 96 chips by half a chip, and the ends of a
 picture by several. Therefore the timing is fitted in the middle first, then in a part twice as
 large, and so on up to the whole picture.
+
+Functions that return a ``Reading`` yield the searches they need and are sent the chips found.
 """
 
 from dataclasses import dataclass, replace
@@ -25,10 +27,10 @@ from occ_model.receiver.signal import unexplained_fraction
 _PHASES = 8  # number of phases tried, evenly spaced over one chip
 TRIED_CHIPS = 96  # chips in the middle of the picture with which the phases are tried
 
-_LAG_ROWS = 3  # lags in rows at which the autocovariance has no contribution of independent noise
+_MAX_LAG = 3  # largest lag in rows; to a lag of 1 and more, independent noise contributes nothing
 _MIN_NOISE = 1e-8  # minimum variance in squared fractions of full light: no model is more exact
 _SINGULAR = 1e-10  # fraction of the largest singular value below which others are rounding errors
-_MAX_STEP = 0.1  # maximum change of the phase in one improvement, in chips
+_MAX_STEP = 0.1  # most that an improvement moves the middle, and the ends against it, in chips
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -98,7 +100,7 @@ def guess_brightness(
     ``per_chip`` values per chip.
     """
     centred = light - light.mean()
-    lags = np.arange(1, _LAG_ROWS + 1)
+    lags = np.arange(1, _MAX_LAG + 1)
     row_covariances = np.array([dot(centred[lag:], centred[:-lag]) for lag in lags]) / len(light)
     centred_expected = expected - expected.mean()
     shifts = np.rint(lags * timing.step * per_chip).astype(np.int64)
@@ -177,9 +179,7 @@ def _autocorrelation(values: FloatArray, reach: int) -> FloatArray:
     return np.array([energy, *products]) / energy
 
 
-_MAX_PART_ROUNDS = (
-    8  # rounds for a part's timing, each of which moves its ends by at most 0.1 chips
-)
+_MAX_PART_ROUNDS = 8  # largest number of improvements of a part's timing
 _CONVERGED_CHIPS = 0.01  # movement of a part's ends in chips below which the fit has converged
 
 

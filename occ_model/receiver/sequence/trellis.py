@@ -13,7 +13,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.sequence.exposures import weights_of
 
-NO_STATE = -1  # marks an unused place of a table
+NO_STATE = -1  # stands where there is no state
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,13 +30,14 @@ FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any oth
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Steps:
-    """The steps of each state of a trellis, all into it or all from it, numbered from 0.
+    """The steps into each state of a trellis, or the steps from each, one column a state.
 
-    Unused numbers have the last of the costs, which is that of no step.
+    A state with fewer steps than others has, in place of those missing, the index after the last
+    cost.
     """
 
-    neighbours: IndexArray  # Shape (numbers, states): the state at the other end of each step
-    costs: IndexArray  # Shape (numbers, states): which cost each step has
+    neighbours: IndexArray  # Shape (steps, states): the state at the other end of each step
+    costs: IndexArray  # Shape (steps, states): the index of each step's cost
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -98,7 +99,7 @@ def _merge(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, i
         place_class: sorted(key[1])
         for key, place_class in zip(class_numbers, range(count), strict=True)
     }
-    # Both rounds number the classes equally, in the order of their first places.
+    # The last two rounds number the classes alike, in the order of their first places.
     return tuple(tuple(class_steps[place_class]) for place_class in range(count))
 
 
@@ -125,7 +126,7 @@ def make_trellis(words: tuple[Word, ...], memory: int) -> Trellis:
             (to, (chip, *chips)) for place, chips in reachable for chip, to in steps[place]
         }
     states = sorted(reachable)
-    state_numbers = {state: place for place, state in enumerate(states)}
+    state_numbers = {state: number for number, state in enumerate(states)}
     all_steps = [
         (origin, state_numbers[to, (chip, *chips)[:memory]], (chip, *chips))
         for (place, chips), origin in state_numbers.items()
@@ -133,7 +134,7 @@ def make_trellis(words: tuple[Word, ...], memory: int) -> Trellis:
     ]
     origins, destinations = np.array([step[:2] for step in all_steps]).T
     weights, costs = np.unique(
-        weights_of(np.array([word for _, _, word in all_steps], dtype=np.uint8)),
+        weights_of(np.array([exposed for *_, exposed in all_steps], dtype=np.uint8)),
         axis=1, return_inverse=True,
     )  # fmt: skip
     count, no_cost = len(states), weights.shape[1]
@@ -150,7 +151,7 @@ def make_trellis(words: tuple[Word, ...], memory: int) -> Trellis:
 def _number_steps(
     ends: IndexArray, others: IndexArray, costs: IndexArray, states: int, no_cost: int
 ) -> Steps:
-    """Table the steps by the state at one end, given both ends of each."""
+    """List the steps of each state, which is at one of their two ends, in a table."""
     order = np.argsort(ends, kind="stable")
     ends = ends[order]
     number = np.arange(len(ends)) - np.searchsorted(ends, ends)

@@ -89,7 +89,7 @@ class GivenExecutor:
         return 0
 
     def renew(self) -> None:
-        """Cancel the jobs that have not begun."""
+        """Cancel the jobs that have not begun; then raise, as no worker can be replaced."""
         # A breaking executor ends its futures one by one, and fails if one is cancelled meanwhile.
         wait(list(self._futures), timeout=_WAIT)
         for future in list(self._futures):

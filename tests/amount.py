@@ -3,7 +3,7 @@
 import os
 from typing import TypeVar
 
-VARIABLE = "OCC_WHOLE"
+WHOLE_VARIABLE = "OCC_WHOLE"
 """Is set while all is tried."""
 
 _Amount = TypeVar("_Amount")
@@ -11,4 +11,4 @@ _Amount = TypeVar("_Amount")
 
 def amount(everyday: _Amount, whole: _Amount) -> _Amount:
     """Return how many cases are tried, how far they are apart, or which."""
-    return whole if VARIABLE in os.environ else everyday
+    return whole if WHOLE_VARIABLE in os.environ else everyday

@@ -14,7 +14,7 @@ from typing import Protocol
 # Before Qt is imported anywhere: no test opens a window on a real screen.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-# As in the programs; with a thread a core, each process of the tests would wait for the others.
+# As in the programs; if each process of the tests had a thread for each core, all would wait.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # Compiled modules are kept even if Python is told not to keep them: tests start hundreds of
@@ -33,7 +33,7 @@ os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
 import pytest
-from amount import VARIABLE, amount
+from amount import WHOLE_VARIABLE, amount
 from hard_cases import laws
 from hypothesis import settings
 
@@ -80,7 +80,7 @@ _IMPORT = builtins.__import__
 """The function of imports before Qt replaces it."""
 
 _WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw-1").removeprefix("gw"))
-"""The number of this process of pytest-xdist, -1 of another process."""
+"""The number of this process of pytest-xdist; -1 if the tests run without it."""
 
 
 def pytest_unconfigure() -> None:
@@ -112,11 +112,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.hookimpl(trylast=True)  # when pytest-qt has imported Qt
 def pytest_configure(config: pytest.Config) -> None:
     """Set how many cases are tried, before the modules with tests are imported."""
-    # PySide's function reads the source of each imported module; the program replaces it, too.
+    # PySide's function reads the source of each imported module; as the program does, restore this.
     builtins.__import__ = _IMPORT
     if config.getoption("--whole"):
-        os.environ[VARIABLE] = "1"
-    examples = 100 if NEW_EXAMPLES else amount(30, 40)
+        os.environ[WHOLE_VARIABLE] = "1"
+    examples = 100 if NEW_EXAMPLES else amount(everyday=30, whole=40)
     settings.register_profile(
         "occ", deadline=None, print_blob=True, derandomize=not NEW_EXAMPLES, max_examples=examples
     )
@@ -174,7 +174,7 @@ def pytest_runtest_makereport(
     ):
         report.outcome = "failed"
         report.longrepr = (
-            f"{item.nodeid} was skipped, which only tests of real photos and boards may be"
+            f"{item.nodeid} was skipped, which only tests of photos and compilers may be"
         )
     return report
 

@@ -1,4 +1,4 @@
-"""Any value can be quoted in a sentence; a refused value is data, and its sentence names it."""
+"""Any value can be quoted in a sentence; an error keeps the value it refuses and names it."""
 
 import pickle
 
@@ -81,7 +81,7 @@ def refused(declared: Parameter, value: object) -> ParameterError:
 
 
 @each_case(PARAMETERS.values())
-def test_every_parameters_refusal_is_its_data_in_words(declared: Parameter) -> None:
+def test_the_sentence_of_every_parameters_refusal_states_its_fields(declared: Parameter) -> None:
     for wrong in WRONG:
         error = refused(declared, wrong)
         assert error.refused.parameter == declared.name

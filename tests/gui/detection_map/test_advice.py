@@ -33,9 +33,10 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of
 
+# Value, right and sent bits, 95 % interval of their rate in percent, images, images without error.
 GOOD = Trial(14.7e3, 198, 200, 81.9, 99.7, 20, 19)
 INSIDE = Trial(14.55e3, 1000, 1000, 96.3, 100.0, 100, 100)
-CERTAIN, BRIEF = (14.55e3, 14.72e3), (194e-6, 196.6e-6)
+HIGHEST, LONGEST = (14.55e3, 14.72e3), (194e-6, 196.6e-6)  # 95 % intervals of the upper ends
 BAD = Trial(14.73e3, 0, 200, 0.0, 16.1, 20, 0)
 SHORT = Trial(10e-6, 200, 200, 83.9, 100.0, 20, 20)
 UNREAD = Trial(10e3, 0, 200, 0.0, 16.1, 20, 0)
@@ -45,29 +46,17 @@ TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4, 20, 18)
 
 def find_limits(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
     own = Trial(10e3, 200, 200, 83.9, 100.0, 20, 20)
-    frequency = WorkingRange(
-        "switching_frequency",
-        (500.0, 100e3),
-        1.15,
-        own,
-        (
-            ReadInterval(
-                RangeEnd(GOOD.value, GOOD, None), RangeEnd(CERTAIN[0], INSIDE, BAD, CERTAIN)
-            ),
-        ),
-    )
-    exposure = WorkingRange(
-        "exposure_time",
-        (1e-5, 2e-3),
-        1.15,
-        own,
-        (
-            ReadInterval(
-                RangeEnd(SHORT.value, SHORT, None), RangeEnd(BRIEF[0], LONG, TOO_LONG, BRIEF)
-            ),
-        ),
-    )
-    return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
+    lowest, highest = RangeEnd(GOOD.value, GOOD, None), RangeEnd(HIGHEST[0], INSIDE, BAD, HIGHEST)
+    shortest = RangeEnd(SHORT.value, SHORT, None)
+    longest = RangeEnd(LONGEST[0], LONG, TOO_LONG, LONGEST)
+    ranges = [
+        WorkingRange(name, searched, 1.15, own, (ReadInterval(*ends),))
+        for name, searched, ends in (
+            ("switching_frequency", (500.0, 100e3), (lowest, highest)),
+            ("exposure_time", (1e-5, 2e-3), (shortest, longest)),
+        )
+    ]
+    return Limits(scene, decoder, 99.0, 20, 1, *ranges)
 
 
 def list_texts(view: AdviceView) -> list[str]:
@@ -130,7 +119,7 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     assert "above 1.17 ms, completely lit columns are saturated" in lines[7]
 
 
-def test_the_limit_is_read_without_a_gap_and_what_lies_beyond_is_named_behind_it(
+def test_the_limits_end_at_the_first_gap_and_intervals_beyond_it_follow_them(
     small_scene: Scene,
 ) -> None:
     limits = advice_on(small_scene).limits

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from gui.detection_map.test_advice import BAD, CERTAIN, GOOD, INSIDE, advice_on, list_texts
+from gui.detection_map.test_advice import BAD, GOOD, HIGHEST, INSIDE, advice_on, list_texts
 from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
@@ -97,7 +97,7 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
     button = cards.cards["threshold"].go
     assert button.text() == "Go"  # to what the card states
     button.click()
-    assert destinations == [("switching_frequency", CERTAIN[0], "threshold")]
+    assert destinations == [("switching_frequency", HIGHEST[0], "threshold")]
 
 
 def test_a_limit_without_an_end_is_marked_and_without_a_destination_the_button_is_disabled(

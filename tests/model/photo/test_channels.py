@@ -1,4 +1,4 @@
-"""What is taken of a photo's colours, in the full depth of its file."""
+"""Which channel of a photo is taken, with all bits of its file."""
 
 import struct
 import zlib
@@ -46,14 +46,14 @@ def test_a_deep_tiff_is_turned_once(
     assert turned[0, 0] == corners[first]
 
 
-def test_deep_colours_of_other_formats_are_turned_by_their_notes(tmp_path: Path) -> None:
-    """OpenCV turns none but TIFF."""
-    deep, notes = deep_stripes(), Image.Exif()
-    notes[274] = 6
+def test_deep_colours_of_other_formats_are_turned_by_their_exif_orientation(tmp_path: Path) -> None:
+    """OpenCV turns only TIFF."""
+    deep, exif = deep_stripes(), Image.Exif()
+    exif[274] = 6
     content = cv2.imencode(".png", deep)[1].tobytes()
     place = content.index(b"IDAT") - 4
-    noted = png_chunk(b"eXIf", notes.tobytes().removeprefix(b"Exif\0\0"))
-    (tmp_path / "x.png").write_bytes(content[:place] + noted + content[place:])
+    chunk = png_chunk(b"eXIf", exif.tobytes().removeprefix(b"Exif\0\0"))
+    (tmp_path / "x.png").write_bytes(content[:place] + chunk + content[place:])
     samples = load_photo(tmp_path / "x.png", "columns", channel="red").samples
     np.testing.assert_array_equal(samples, np.rot90(deep[..., 2], -1))
 
@@ -159,7 +159,6 @@ def test_the_brightest_channel_is_the_one_in_which_the_led_shows(
 ) -> None:
     picture = np.zeros((6, 8, 3), np.uint8)
     picture[:, ::2] = np.array(colour)
-    picture[0, 0] += 1  # for equal means are those of different colours
     path = save(tmp_path, picture)
     photo = load_photo(path)
     assert photo.channel == brightest

@@ -93,7 +93,7 @@ def test_all_frequencies_that_differ_by_a_period_per_frame_are_given() -> None:
     times = np.arange(60) / 30.0
     phases = _phases(8000.0, times, 2.0, random)
     fits = fit_clock(phases, 7920.0, 8080.0)
-    # A wave of two chips in 30 frames per second gives one every 60 Hz.
+    # A period of 2 chips more per frame, at 30 frames a second, is 60 Hz more.
     assert sorted(round(fit.frequency) for fit in fits) == [7940, 8000, 8060]
 
 
@@ -166,7 +166,7 @@ def test_a_predicted_phase_is_a_parabola_of_time_with_its_jumps() -> None:
     assert fit_of(60).at_start(times) == pytest.approx(expected)
 
 
-def test_its_error_grows_from_the_noise_by_those_of_frequency_and_drift() -> None:
+def test_the_error_of_a_predicted_phase_adds_noise_frequency_and_drift() -> None:
     """For many frames, whose three contributions are independent."""
     many = fit_of(100_000)
     for later in (-4.0, 0.0, 0.7, 10.0):
@@ -209,6 +209,7 @@ def test_frames_that_agree_do_not_reduce_their_stated_error(frames: int) -> None
 
 def test_a_single_frame_that_states_no_error_does_not_decide_alone() -> None:
     mean, _ = mean_step(phases_of([1.0, 1.0, 1.0, 1.0, 2.0], [0.1, 0.1, 0.1, 0.1, 1e-9]))
+    # Four times the median weight is the most that a frame counts.
     assert mean == pytest.approx((4.0 + 4.0 * 2.0) / 8.0)
 
 

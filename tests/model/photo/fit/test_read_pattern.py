@@ -1,4 +1,4 @@
-"""Chips are read from their stripes, by edges or by harmonics, up to where they start."""
+"""Chips are read from their stripes, by edges or by harmonics, whichever of them is first."""
 
 from itertools import groupby
 
@@ -20,12 +20,12 @@ PATTERNS = st.lists(st.integers(0, 1), min_size=2, max_size=26).map(
 
 def stripes_of(chips: ByteArray, exposure: float, chip: float, phase: float) -> np.ndarray:
     """Lit fractions over four periods."""
-    timing = Timing(1.0 / chip, exposure, phase, 2.22)
+    timing = Timing(1.0 / chip, exposure, phase, gamma=2.22)
     return light_of(chips, timing, int(4.0 * len(chips) * chip))
 
 
 def is_unambiguous(chips: str) -> bool:
-    """Whether it is of several pulses, and its runs are no multiples of two chips or more."""
+    """Whether there are three pulses or more and a run of one chip, or one pulse of one chip."""
     turned = chips[chips.index("0") :] + chips[: chips.index("0")]
     runs = [len(list(run)) for _, run in groupby(turned)]
     return chips == "10" or (len(runs) >= 6 and min(runs) == 1)
@@ -49,8 +49,8 @@ def test_a_sharp_pattern_is_read(
     assume(0 < chips.sum() < len(chips))
     shortest = canonical(chips)
     assume(is_unambiguous(text(shortest)))
-    # Edges sharper than a column lie anywhere in it: where a period is of whole columns, they then
-    # seem half a column off in each of them alike.
+    # An edge sharper than a column may be half a column from where it seems to be, in each period
+    # by as much if a period is a whole number of columns.
     exposure = max(exposure, 1.0 / chip)
     stripes = stripes_of(shortest, exposure, chip, phase)
     stripes += 0.01 * np.random.default_rng(seed).standard_normal(len(stripes))
@@ -75,7 +75,7 @@ def test_an_exposure_of_several_chips_is_undone(exposure: float) -> None:
 
 
 def test_long_exposures_by_a_bent_tone_curve_are_read_otherwise() -> None:
-    """They are found from a wrong reading of as many chips."""
+    """The chips are found from a wrong reading, which has as many chips."""
     chips = np.array([int(chip) for chip in "111010101010011010010110"], dtype=np.uint8)
     stripes = (stripes_of(chips, 2.75, 5.24, 0.4) + 0.05) ** 0.45
     stripes += 0.005 * np.random.default_rng(1).standard_normal(len(stripes))

@@ -9,6 +9,7 @@ from occ_model.photo.lamp_fit.model import (
     FLOOR,
     PERIOD,
     PLACE,
+    TOE,
     LampModel,
     envelope_basis,
 )
@@ -27,14 +28,14 @@ def test_slopes_are_those_of_differences(seed: int) -> None:
     model = LampModel(profile, basis, np.diff(np.eye(size), 2, axis=0), is_linear=False)
     values = np.concatenate([random.normal(0.0, 0.7, COUNT), random.normal(-0.5, 0.3, size)])
     values[PERIOD], values[PLACE] = np.log(random.uniform(6.0, 40.0)), random.uniform(0.0, 30.0)
-    values[4:] = np.where(np.arange(4, len(values)) == 8, -6.0, values[4:])  # a small toe
+    values[TOE] = -6.0  # small
     # Between the stripes there is some light, or the curve is cut off.
     values[FLOOR], values[AMBIENT] = abs(values[FLOOR]), 0.01
     level, slopes = model.slopes(values)
     np.testing.assert_allclose(level, model.levels(values), atol=1e-12)
-    for place in range(len(values)):
+    for parameter in range(len(values)):
         step = np.zeros(len(values))
-        step[place] = 1e-6
+        step[parameter] = 1e-6
         difference = (model.levels(values + step) - model.levels(values - step)) / 2e-6
         most = 2e-6 * (1.0 + float(abs(slopes).max()))
-        np.testing.assert_allclose(slopes[:, place], difference, atol=most)
+        np.testing.assert_allclose(slopes[:, parameter], difference, atol=most)

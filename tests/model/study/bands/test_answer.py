@@ -1,4 +1,4 @@
-"""Bars answered in one line, beats with frame rates, and rows of panels, against brute force."""
+"""Answers about bars in one line, beats with frame rates, and dark rows of panels."""
 
 import math
 
@@ -25,7 +25,7 @@ _MAINS = Scene().replace(light="mains", mains_frequency=60.0, illuminance=0.0)
 
 def test_a_lamp_dimmed_at_240_hz_is_answered_in_one_line() -> None:
     answer = bars_answer(_lamp(240.0, 0.3, 1 / 100, readout_time=12e-6))
-    # 2.4 periods: 0.3 of one at most and nothing at least, of 0.72 that are lit.
+    # Of 2.4 periods 0.6 to 0.9 are lit, 0.72 on average: two times 0.3, and up to 0.3 more.
     assert answer.depth == pytest.approx(0.3 / 0.72)
     assert answer.sentence == (
         "Use 1/48 or 1/120 s: no bars. At 1/100 s they are 41.7 % of the mean light from "
@@ -57,7 +57,7 @@ def test_an_advised_speed_shows_no_bars_and_others_are_said_to_show_some(
     assert "chip" not in " ".join((answer.sentence, *answer.details))
 
 
-def test_a_lamp_that_suits_no_usual_speed_is_told_its_own() -> None:
+def test_where_every_usual_speed_shows_bars_the_lamps_period_is_advised() -> None:
     answer = bars_answer(_lamp(239.0, 0.3, 1 / 100))
     assert answer.speeds == ()
     assert answer.sentence.startswith("Use 1/239 s, or a whole multiple of it: no bars.")
@@ -125,6 +125,7 @@ def test_a_panel_of_16_rows_shows_most_of_them_dark_at_a_short_exposure() -> Non
     scene = _lamp(60.0, 1 / 16, 1 / 1000)
     answer = bars_answer(scene, rows=16)
     assert answer.rows is not None
+    # One row is lit at a time, and in 1 ms the light moves on by 60 x 16 / 1000 = 0.96 rows.
     assert answer.rows.dark == pytest.approx((15 - 0.96) / 16)
     assert "87.7 % of them are dark" in answer.details[-1]
     assert unlit_rows(16, 60.0, 1 / 30).dark == 0.0

@@ -69,7 +69,7 @@ class PixelSample:
 
     @cached_property
     def blocks(self) -> IndexArray:
-        """Indices into ``columns`` of a file's whole blocks, shape (blocks, 8)."""
+        """Indices into ``columns`` of whole JPEG blocks, shape (blocks, 8)."""
         ordered = np.argsort(self.columns, kind="stable")
         column = self.columns[ordered]
         starts = np.flatnonzero(column[: max(len(column) - 7, 0)] % 8 == 0)
@@ -100,7 +100,7 @@ def choose_sample(
 
     ``optics`` holds the optics with each effect alone, ``plain`` those without any; with these, the
     panel ``fills_region`` if it is an upright rectangle. With ``in_blocks``, the columns are whole
-    blocks of a file.
+    JPEG blocks.
     """
     outlines = Outlines.of(optics, plain)
     few = region.columns <= _ALL_COLUMNS

@@ -112,7 +112,7 @@ class SignalSampling:
 
     @cached_property
     def _rounding_square(self) -> FloatArray:
-        """The mean square change of an enhanced pixel by a file's rounding."""
+        """The mean square change of an enhanced pixel by JPEG's rounding."""
         file = self._pixels.file
         change = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
         part = self._even / 6.0 + self._uneven * 0.8 * change

@@ -49,7 +49,7 @@ def decode_colours(
     DecodeInputError
         The image is not of this kind.
     ParameterError
-        The scene has no colour camera, or the decoder does not exist.
+        The scene has no colour camera or contradicts itself, or the decoder does not exist.
     """
     check_colour(scene)
     decoder_named(decoder)
@@ -78,7 +78,7 @@ class ColourSignals:
 
     @property
     def lights(self) -> FloatArray:
-        """Light of each mean: grey levels are averaged, not light, as for one colour."""
+        """Light of each mean, which is one of grey levels, as decoders of one colour take it."""
         return np.asarray((self.greys / WHITE) ** self.scene.camera.gamma)
 
     def own(self) -> list[FloatArray]:

@@ -158,8 +158,8 @@ class Scene:
         Raises
         ------
         ParameterError
-            There is no such colour, the camera is monochrome, or the scene is none of a colour
-            camera, such as one that averages pixel values.
+            There is no such colour, the camera is monochrome, or a parameter is not allowed for a
+            colour camera, such as averaging of pixel values.
         """
         from occ_model.scene.colour_scenes import colour_scene  # needed by colour cameras only
 

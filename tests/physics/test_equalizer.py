@@ -37,7 +37,7 @@ def test_the_box_is_the_exposures_fraction_of_each_column(columns: float) -> Non
 
 
 @pytest.mark.parametrize("columns", [7, 17, 63])
-def test_its_response_is_that_of_a_mean_over_columns(columns: int) -> None:
+def test_the_response_of_an_exposure_is_that_of_a_mean_over_columns(columns: int) -> None:
     # The closed form of a sum of equal steps is Dirichlet's kernel.
     frequency = np.arange(1, 2049) / 4096
     kernel = np.sin(np.pi * frequency * columns) / (columns * np.sin(np.pi * frequency))

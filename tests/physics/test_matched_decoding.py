@@ -31,7 +31,7 @@ def test_every_noisy_code_is_read_at_136_us_from_4_to_40_khz(frequency: int) -> 
         assert success_rate(scene.replace(code=code), 2, "matched", seed=code) == 100.0
 
 
-def test_it_reads_a_single_packet_and_says_if_none_fits() -> None:
+def test_a_single_packet_is_read_and_a_failure_is_stated_if_none_fits() -> None:
     scene = occ.load_preset("phone-136us").replace(distance=0.6)
     # 3456 columns of 8 us: at 1 kHz they last 27.6 chips, a packet has 24.
     assert success_rate(scene.replace(switching_frequency=1e3), 2, "matched") == 100.0

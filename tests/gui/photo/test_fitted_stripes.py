@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication
 from occ_gui.photo.fitted_stripes import FittedStripes, stripes_of
 
 
-def test_they_cover_the_columns_of_the_region_and_a_third_of_its_rows(qapp: QApplication) -> None:
+def test_fitted_stripes_cover_all_columns_and_a_third_of_the_rows(qapp: QApplication) -> None:
     box, match = pg.ViewBox(), match_of_lamp()
     stripes = FittedStripes(box)
     assert not any(item.isVisible() for item in stripes.items)

@@ -83,7 +83,7 @@ def choose_board(dialog: TransmitterDialog, name: str) -> None:
     dialog.board.activated.emit(dialog.board.currentIndex())
 
 
-def test_its_entry_opens_it_on_the_scene_at_hand(qtbot: QtBot, small_scene: Scene) -> None:
+def test_the_menu_entry_opens_the_dialog_on_the_scene(qtbot: QtBot, small_scene: Scene) -> None:
     bench = PaneBench(qtbot, small_scene)
     bench.shell.add(declared(bench.window, bench.scenes, Preferences(None)), bench.window)
     assert bench.shell.find_pane("transmitter") is None
@@ -97,7 +97,7 @@ def test_its_entry_opens_it_on_the_scene_at_hand(qtbot: QtBot, small_scene: Scen
     assert opened.take.isEnabled()
 
 
-def test_it_states_the_frequency_that_is_sent_and_its_error_and_each_control_what_it_does(
+def test_the_dialog_states_the_frequency_sent_and_its_error_and_controls_what_they_do(
     dialog: TransmitterDialog,
 ) -> None:
     assert "14.7058824 kHz, +400 ppm from the 14.7 kHz asked" in dialog.facts.text()

@@ -163,7 +163,7 @@ def test_a_film_runs_at_its_own_speed_and_leaves_late_frames_out(player: FilmPla
     assert not player.is_playing
 
 
-def test_it_plays_on_from_the_frame_that_was_sought_and_a_step_stops_it(player: FilmPlayer) -> None:
+def test_a_film_plays_on_from_the_frame_sought_and_a_step_stops_it(player: FilmPlayer) -> None:
     player.play()
     pass_time(player, 300)
     player.seek(20)

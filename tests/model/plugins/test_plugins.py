@@ -69,11 +69,11 @@ SEEN = "sampler False\nTrue None\n"
 @pytest.mark.parametrize(
     "changes", ["line_code='manchester', framing='c-ook'", "line_code='4b6b', framing='raw'"]
 )
-def test_its_decoder_reads_what_is_sent_by_any_scheme(packages: Path, changes: str) -> None:
+def test_the_plugins_decoder_reads_what_is_sent_by_any_scheme(packages: Path, changes: str) -> None:
     assert run(packages, "-c", USE.format(changes=changes)) == SEEN
 
 
-def test_its_decoder_is_imported_once_it_is_named_also_on_the_command_line(
+def test_the_plugins_decoder_is_imported_once_it_is_named_also_on_the_command_line(
     packages: Path, tmp_path: Path
 ) -> None:
     settings = ["--set", "rows=300", "--set", "distance=60cm", "--set", "switching_frequency=4kHz"]

@@ -20,7 +20,7 @@ def chips_of(code: str) -> np.ndarray:
 
 @pytest.mark.parametrize("code", CODES)
 @pytest.mark.parametrize("timing", TIMINGS)
-def test_it_is_the_exact_exposure_integral(code: str, timing: Timing) -> None:
+def test_the_light_of_chips_is_the_exact_exposure_integral(code: str, timing: Timing) -> None:
     chips = chips_of(code)
     lit = ChipLight(chips, COLUMNS).expose(timing).lit
     assert lit == pytest.approx(light_of(chips, timing, COLUMNS), abs=1e-9)

@@ -103,7 +103,7 @@ def test_a_hot_spot_whose_pixel_values_are_blurred_leaves_the_step(blur: float) 
     assert fit.unbiased.values[0] == fit.values[0]
 
 
-def test_its_misfit_is_that_of_its_noise() -> None:
+def test_the_misfit_of_a_joint_fit_is_that_of_the_noise() -> None:
     """As many as there are independent columns: of each four count as one."""
     model = model_of(values_of() + NOISE)
     model.estimate_noise(TRUE)

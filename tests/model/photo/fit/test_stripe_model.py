@@ -58,7 +58,7 @@ def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
     assert [level_freedom(chips) for chips in (0.0, 24.0, 29.9, 30.0, 1e6)] == [4, 4, 4, 5, 8]
 
 
-def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
+def test_the_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
     """Alike where nothing varies but the stripes: Pearson's coefficient."""
     flat = 40.0 + 100.0 * LIT + 12.0 * np.random.default_rng(4).normal(size=COLUMNS)
     fit = StripeModel(flat, CHIPS, Power(), 0.01).describe(TRUE, np.zeros((4, 4)))

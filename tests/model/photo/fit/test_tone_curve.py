@@ -25,7 +25,7 @@ def test_the_light_of_a_grey_level_makes_the_grey_level(curve: ToneCurve) -> Non
 
 
 @pytest.mark.parametrize("curve", CURVES)
-def test_its_slope_is_that_of_the_grey_levels_over_light(curve: ToneCurve) -> None:
+def test_the_slope_of_a_curve_is_that_of_the_grey_levels_over_light(curve: ToneCurve) -> None:
     table = curve.table()
     # The rims of the toe and of the least slope are corners.
     light, step = table.light_of(LEVELS), 1e-5
@@ -68,7 +68,7 @@ def test_a_curve_above_its_toe_has_its_closed_form(curve: ToneCurve, light: np.n
     assert curve.table().light_of(LEVELS)[20:] == pytest.approx(light[20:], rel=1e-3)
 
 
-def test_its_toe_is_straight_and_has_the_curves_height_and_slope_where_it_begins() -> None:
+def test_a_toe_is_straight_and_has_the_curves_height_and_slope_where_it_begins() -> None:
     fraction = np.array([-0.05, 0.0, 0.01, 0.02])
     light = ToneCurve(2.2).table().light_of(255.0 * fraction)
     tangent = 0.03**2.2 + 2.2 * 0.03**1.2 * (fraction - 0.03)

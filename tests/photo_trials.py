@@ -21,8 +21,8 @@ class MatchErrors:
     seed: int
     exposure_in_chips: float
     failure: str = ""
-    readout: float = np.inf
-    exposure: float = np.inf
+    readout_error: float = np.inf
+    exposure_error: float = np.inf
     deviations: tuple[float, ...] = ()
     doubts: tuple[str, ...] = ()
 
@@ -52,8 +52,8 @@ def match_seed(seed: int) -> MatchErrors:
     return MatchErrors(
         seed,
         in_chips,
-        readout=abs(off["readout_time"]) / camera.readout_time,
-        exposure=abs(off["exposure_time"]) / camera.exposure_time,
+        readout_error=abs(off["readout_time"]) / camera.readout_time,
+        exposure_error=abs(off["exposure_time"]) / camera.exposure_time,
         deviations=tuple(abs(off[name]) / match.uncertainties[name] for name in off),
         doubts=match.reasons,
     )

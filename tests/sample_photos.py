@@ -14,7 +14,7 @@ from occ_model.scene.scene import Scene
 
 FOLDER = Path(__file__).parents[1] / "resources" / "photos"
 QUALITY = 85
-KNOWN = "Simulated by occ_model with every effect; no real photograph."
+DESCRIPTION = "Simulated by occ_model with every effect; no real photograph."
 
 
 def _scene_of_photo(preset: str, brightest: float, **changes: str | float) -> Scene:
@@ -51,7 +51,7 @@ def encode_as_jpeg(scene: Scene) -> bytes:
     """Encode the picture as a camera does, with its settings as EXIF data."""
     picture = Image.fromarray(take_photo(scene))
     exif = picture.getexif()
-    exif.update({Base.ImageDescription: KNOWN, Base.Make: "Simulated", Base.Model: "phone"})
+    exif.update({Base.ImageDescription: DESCRIPTION, Base.Make: "Simulated", Base.Model: "phone"})
     exif.get_ifd(IFD.Exif).update({
         Base.ExposureTime: scene.camera.exposure_time,
         Base.FNumber: scene.camera.f_number,

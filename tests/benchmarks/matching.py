@@ -59,7 +59,7 @@ def row(name: str, found: list[Trial], what: str) -> str:
     sure = [one for one in found if one.is_sure_of(what)]
     if not sure:
         return f"| {name} | {len(found)} | 0 | {what} | | | | | | | |"
-    error = np.abs([getattr(one, what) for one in sure])
+    error = np.abs([getattr(one, f"{what}_error") for one in sure])
     stated = np.array([getattr(one, f"{what}_deviation") for one in sure])
     number = ("readout", "exposure").index(what)
     bounds = np.array([(one.picture_bounds[number], one.light_bounds[number]) for one in sure])
@@ -88,12 +88,12 @@ def within(off: np.ndarray, most: float) -> str:
 
 def told(found: list[Trial]) -> list[str]:
     """Count the verdicts, name what is surely wrong, and write the table."""
-    wrong = [one for one in found if one.is_sure and abs(one.readout) > _WRONG]
+    wrong = [one for one in found if one.is_sure and abs(one.readout_error) > _WRONG]
     refused, sure = sum(bool(one.failure) for one in found), sum(one.is_sure for one in found)
     return [
         f"sure: {sure}, doubtful: {len(found) - sure - refused}, refused: {refused}",
         f"sure, and wrong by more than {100.0 * _WRONG:g} %: {len(wrong)}",
-        *(f"  seed {one.seed}: by {100.0 * one.readout:.2g} %" for one in wrong),
+        *(f"  seed {one.seed}: by {100.0 * one.readout_error:.2g} %" for one in wrong),
         *duties(found),
         *table(found),
     ]
@@ -101,10 +101,10 @@ def told(found: list[Trial]) -> list[str]:
 
 def duties(found: list[Trial]) -> list[str]:
     """Report the errors of the duties of pulses, and how many that were given are wrong."""
-    sure = [one for one in found if one.is_sure_of("exposure") and np.isfinite(one.duty)]
+    sure = [one for one in found if one.is_sure_of("exposure") and np.isfinite(one.duty_error)]
     measured = [one for one in sure if np.isfinite(one.duty_deviation)]
-    off = np.abs([one.duty / one.duty_deviation for one in measured])
-    told_wrong = sum(abs(one.duty) > _WRONG for one in sure if one not in measured)
+    off = np.abs([one.duty_error / one.duty_deviation for one in measured])
+    told_wrong = sum(abs(one.duty_error) > _WRONG for one in sure if one not in measured)
     lines = [
         f"sure pulses taken for the one told: {len(sure) - len(measured)}, wrongly {told_wrong}"
     ]
@@ -134,7 +134,7 @@ def plot(found: list[Trial], path: Path) -> None:
         number = ("readout", "exposure").index(what)
         bound = np.array([one.picture_bounds[number] for one in sure])
         stated = np.array([getattr(one, f"{what}_deviation") for one in sure])
-        error = np.abs([getattr(one, what) for one in sure])
+        error = np.abs([getattr(one, f"{what}_error") for one in sure])
         ends = np.array([bound.min(), bound.max()])
         axes.loglog(bound, stated, "o", ms=4, mfc="none", color="#c05000", label="stated deviation")
         axes.loglog(bound, error, ".", ms=5, color="#1f6fb4", label="error")
@@ -162,11 +162,11 @@ def report(found: list[MatchErrors]) -> list[str]:
     long = [one for one in found if one.exposure_in_chips > 0.5]
     short = [one for one in found if one.exposure_in_chips <= 0.5]
     lines = [
-        line("readout time", [one.readout for one in found], 0.002),
-        line("exposure of more than half a chip", [one.exposure for one in long], 0.05),
-        line("exposure of less", [one.exposure for one in short], 0.05),
+        line("readout time", [one.readout_error for one in found], 0.002),
+        line("exposure of more than half a chip", [one.exposure_error for one in long], 0.05),
+        line("exposure of less", [one.exposure_error for one in short], 0.05),
     ]
-    sure = [one.readout for one in found if one.is_sure]
+    sure = [one.readout_error for one in found if one.is_sure]
     lines.append(f"sure: {len(sure)} of {len(found)} ({100.0 * len(sure) / len(found):.1f} %)")
     if sure:
         lines.append(line("readout time of what is sure", sure, 0.002))

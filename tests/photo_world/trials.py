@@ -23,19 +23,16 @@ class Trial:
 
     world: World | int  # its truth; or the number by which it is drawn
     saturated: float  # fraction of the lamp's pixels that are white
-    readout: float = np.nan  # readout, exposure: relative errors
-    exposure: float = np.nan
-    # Readout_deviation, exposure_deviation: relative standard deviations, as stated.
-    readout_deviation: float = np.nan
+    readout_error: float = np.nan  # relative, as are the three below
+    exposure_error: float = np.nan
+    readout_deviation: float = np.nan  # standard deviation, as the match states it
     exposure_deviation: float = np.nan
     # Doubts, exposure_doubts: why the match is not sure, and why its exposure time alone is not.
     doubts: tuple[str, ...] = ()
     exposure_doubts: tuple[str, ...] = ()
     failure: str = ""  # why there is none
-    # Duty, duty_deviation: error of a pulse's duty, and its standard deviation where it was not
-    # taken as given.
-    duty: float = np.nan
-    duty_deviation: float = np.nan
+    duty_error: float = np.nan  # of a pulse
+    duty_deviation: float = np.nan  # standard deviation, where the duty was not taken as given
 
     @property
     def seed(self) -> int:
@@ -138,7 +135,7 @@ def _matched(
         match.uncertainties["exposure_time"] / exposure,
         doubts=match.reasons,
         exposure_doubts=match.exposure_reasons,
-        duty=np.nan if match.duty is None else match.duty - duty,
+        duty_error=np.nan if match.duty is None else match.duty - duty,
         duty_deviation=match.uncertainties.get("duty", np.nan),
     )
 

@@ -25,14 +25,14 @@ def found(request: pytest.FixtureRequest, sample: list[MatchErrors]) -> list[Mat
 
 
 def test_the_readout_time_comes_back_within_two_thousandths(found: list[MatchErrors]) -> None:
-    errors = np.array([one.readout for one in found])
+    errors = np.array([one.readout_error for one in found])
     assert np.median(errors) < 0.002
     # Nearly all of them are within that.
     assert np.mean(errors < 0.002) > 0.985
 
 
 def test_long_exposures_are_found_within_a_twentieth(found: list[MatchErrors]) -> None:
-    errors = np.array([one.exposure for one in found if one.exposure_in_chips > 0.5])
+    errors = np.array([one.exposure_error for one in found if one.exposure_in_chips > 0.5])
     # Half of them are expected; of ten there may be as few as three.
     assert len(errors) > len(found) // 4
     assert np.median(errors) < 0.05

@@ -9,7 +9,8 @@ from photo_world.foreign import foreign
 from photo_world.hot_lamps import hot_lamps
 from photo_world.trials import foreign_trial_of, hot_trial_of
 from PIL import Image
-from sample_photos import FOLDER, KNOWN, QUALITY, SCENES, encode_as_jpeg, take_photo
+from PIL.ExifTags import Base
+from sample_photos import DESCRIPTION, FOLDER, QUALITY, SCENES, encode_as_jpeg, take_photo
 
 import occ_model as occ
 
@@ -40,7 +41,7 @@ def test_every_sample_has_its_scene_and_no_other_file_lies_there() -> None:
 def test_a_sample_says_that_it_is_simulated_and_how_it_was_taken(name: str) -> None:
     path = FOLDER / f"{name}.jpg"
     with Image.open(path) as opened:
-        assert opened.getexif()[0x010E] == KNOWN
+        assert opened.getexif()[Base.ImageDescription] == DESCRIPTION
     photo, camera = occ.load_photo(path), SCENES[name].camera
     assert photo.camera.startswith("Simulated")
     assert photo.exposure_time == pytest.approx(camera.exposure_time, rel=1e-3)
@@ -48,8 +49,8 @@ def test_a_sample_says_that_it_is_simulated_and_how_it_was_taken(name: str) -> N
 
 
 @pytest.mark.parametrize("seed", [91000, 91001, 91007])
-def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -> None:
-    """With a wrong truth, a period that is off by half a column would not fit."""
+def test_a_photographs_stripes_repeat_after_the_period_of_its_true_chips(seed: int) -> None:
+    """A truth that is wrong by half a column a period would be found."""
     drawn = foreign(seed)
     profile = drawn.image.mean(axis=0)
     columns = np.arange(len(profile))
@@ -69,13 +70,13 @@ def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -
 @pytest.mark.whole
 @pytest.mark.parametrize(
     ("seed", "doubts"),
-    # A blur of more than a column is no lamp's own; the readout time is right all the same.
+    # No lamp blurs so much, so that is doubted, although the readout time is right.
     [(91003, ["The stripes are blurred over 1.1 columns; at most 0.85."]), (91005, [])],
 )
 def test_a_readout_time_is_within_four_stated_deviations(seed: int, doubts: list[str]) -> None:
     found = foreign_trial_of(seed)
     assert list(found.doubts) == doubts
-    assert abs(found.readout) < 4.0 * found.readout_deviation
+    assert abs(found.readout_error) < 4.0 * found.readout_deviation
     assert found.readout_deviation < 1e-3
 
 
@@ -101,5 +102,5 @@ def test_a_picture_shows_what_its_truth_says() -> None:
 def test_no_lamp_is_surely_wrong() -> None:
     sure = [one for one in map(hot_trial_of, range(100, 110)) if one.is_sure]
     assert sure
-    assert [one.seed for one in sure if abs(one.readout) > 0.01] == []
+    assert [one.seed for one in sure if abs(one.readout_error) > 0.01] == []
     assert [one.seed for one in sure if one.readout_deviation > 0.03] == []

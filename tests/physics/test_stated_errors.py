@@ -50,9 +50,9 @@ def test_sure_results_are_within_four_stated_deviations(sample: list[Trial]) -> 
     sure = [one for one in sample if one.is_sure]
     assert len(sure) >= 1
     for one in sure:
-        assert abs(one.readout) < 4.0 * one.readout_deviation
+        assert abs(one.readout_error) < 4.0 * one.readout_deviation
         if not one.exposure_doubts:
-            assert abs(one.exposure) < 4.0 * one.exposure_deviation
+            assert abs(one.exposure_error) < 4.0 * one.exposure_deviation
 
 
 def test_no_stated_deviation_is_below_the_bound(sample: list[Trial]) -> None:
@@ -123,8 +123,8 @@ def test_errors_hold_where_they_once_did_not(
 ) -> None:
     one = trial(random_world(seed))
     assert one.is_sure_of("exposure")
-    assert abs(one.readout) < deviations * one.readout_deviation < readout
-    assert abs(one.exposure) < 2.0 * one.exposure_deviation < exposure
+    assert abs(one.readout_error) < deviations * one.readout_deviation < readout
+    assert abs(one.exposure_error) < 2.0 * one.exposure_deviation < exposure
 
 
 @pytest.mark.whole
@@ -133,8 +133,8 @@ def test_the_exposure_of_a_lamp_of_few_columns_a_period_is_doubted(seed: int) ->
     """Of 4.9 and 5.7 columns of a period; both errors hold."""
     one = trial(random_world(seed))
     assert one.is_sure
-    assert abs(one.readout) < 2.0 * one.readout_deviation
-    assert abs(one.exposure) < 2.0 * one.exposure_deviation
+    assert abs(one.readout_error) < 2.0 * one.readout_deviation
+    assert abs(one.exposure_error) < 2.0 * one.exposure_deviation
     (doubt,) = one.exposure_doubts
     assert "blur and compression hide" in doubt
 

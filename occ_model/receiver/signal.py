@@ -18,9 +18,7 @@ MAX_UNEXPLAINED = 0.05
 It was up to 3 % for packets that the equalizer read correctly, and mostly above 7 % for wrong ones.
 """
 
-_MIN_VARIANCE = (
-    1e-8  # variance of light, in squared fractions of full light: no model is more exact
-)
+_MIN_VARIANCE = 1e-8  # of a signal, with full light as 1: a smaller one may be a model's error
 
 _MAX_SUM_ROWS = 2**23  # most rows whose sum of bytes fits a 32-bit integer
 
@@ -46,7 +44,8 @@ def white_fraction(image: ByteArray, region: Region, *, is_enhanced: bool) -> fl
     """
     part = region.crop(image)
     is_white = np.mean(part == np.iinfo(image.dtype).max, axis=0) >= _WHITE_PIXELS
-    if is_enhanced and not np.any(np.ptp(part[:, ~is_white], axis=0)):
+    has_noise = np.any(np.ptp(part[:, ~is_white], axis=0))
+    if is_enhanced and not has_noise:
         return None
     return float(is_white.mean())
 
@@ -102,7 +101,7 @@ def unexplained_fraction(signal: FloatArray, residual: FloatArray) -> float:
 
 _MAX_GRID_CELLS = 512  # maximum number of cells on a side of the grid on which contours grow
 
-_MIN_BRIGHT_FRACTION = 0.04  # bright pixels of a contour's cell over all; fewer are noise
+_MIN_BRIGHT_FRACTION = 0.04  # least fraction of bright pixels in a contour's cells, above noise
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:
@@ -157,7 +156,7 @@ def grid_size_of(rows: int, columns: int) -> tuple[int, int]:
 
 
 def least_bright_fraction() -> float:
-    """Return the fraction of bright pixels above which a cell, as a byte, belongs to a contour."""
+    """Return the bright fraction above which a cell, rounded to 8 bits, is part of a contour."""
     return (math.floor(255 * _MIN_BRIGHT_FRACTION) + 0.5) / 255.0
 
 

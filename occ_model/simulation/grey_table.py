@@ -1,10 +1,11 @@
 """Drawing of grey levels by their law, with one uniform number for each pixel.
 
-A pixel's level is the quantile of its law at the number, so that it stays the same, or nearly so,
-when the pixel's mean changes a little. Quantiles are looked up (the indexed search of L. Devroye,
-*Non-Uniform Random Variate Generation*, 1986, chapter III.2) in cells of numbers, in which hardly
-ever more than one grey level ends, as they become narrower towards both tails. Numbers of the upper
-half count as negative; then sign, exponent and first bits of a floating-point number tell the cell.
+A pixel's grey level is the quantile of its law at the number, so that it stays the same, or nearly
+so, when the pixel's mean changes a little. Quantiles are looked up (the indexed search of L.
+Devroye, *Non-Uniform Random Variate Generation*, 1986, chapter III.2) in cells: intervals of
+numbers that are narrower towards both tails, so that hardly ever two grey levels end in one. A
+number's cell is told by its sign, its exponent and the first bits of its mantissa in floating
+point, where a number of the upper half, from 2^31 on, is taken less 2^32 and so is negative.
 """
 
 import math
@@ -25,12 +26,12 @@ Numbers = NDArray[np.uint32]  # uniform numbers in units of 2^-32
 _WHOLE = 2**32
 _OCTAVES = 21  # octaves of numbers that have cells, from the median down to either tail
 _FEWEST_BITS, _MOST_BITS = 2, 5  # binary logarithm of the number of an octave's cells
-_GREYS_TO_CELL = 12  # grey levels of a pixel, over whose number it has so many cells at least
+_GREYS_TO_CELL = 12  # most grey levels that a pixel can have, to a cell of an octave
 _SEVERAL = np.uint32(_WHOLE - 1)  # entry of a cell in which several grey levels end
 
 _SIGN, _MANTISSA_BITS, _BIAS = 256, 23, 127  # single precision; the sign in units of exponents
-_APART = 96  # exponents from level to level, at which the cells of none overlap those of another
-_SPAN = 288  # exponents from the lowest of a negative number to the highest
+_APART = 96  # exponents from a level's cells to the next level's, so that no two cells coincide
+_SPAN = 288  # exponents from the lowest of a negative number to the highest of a positive one
 
 
 def make_scratch(shape: tuple[int, ...]) -> list[NDArray[Any]]:
@@ -41,8 +42,8 @@ def make_scratch(shape: tuple[int, ...]) -> list[NDArray[Any]]:
 class GreyTable:
     """The quantiles of a law's grey levels.
 
-    The entry of a cell has its first grey level, by rank, in the last 8 bits, and in the others the
-    largest number of that level.
+    The entry of a cell is the largest number of the first grey level in it, but for the last 8
+    bits, which are the rank of that grey level.
     """
 
     def __init__(self, law: GreyLaw) -> None:
@@ -57,7 +58,7 @@ class GreyTable:
         self._shift, self._stride = _MANTISSA_BITS - bits, _APART << bits
         self._entries = np.full((len(ends) - 1) * self._stride + (_SPAN << bits), _SEVERAL)
         place = np.arange(len(ends))[:, None] * self._stride + _cells(bits)[0]
-        place[:2] %= len(self._entries)  # where the cells of negative numbers are before the first
+        place[:2] %= len(self._entries)  # as they are looked up: from the end if negative
         self._entries[place] = _fill_cells(ends, lowest, span, bits)
 
     def draw(
@@ -67,7 +68,10 @@ class GreyTable:
         out: ByteArray,
         scratch: Sequence[NDArray[Any]] | None = None,
     ) -> None:
-        """Draw the grey level of each pixel; all arrays have one shape, or more rows in scratch."""
+        """Draw each pixel's grey level, from the level of its mean value and a uniform number.
+
+        All arrays have one shape, or more rows in scratch.
+        """
         arrays = scratch or make_scratch(out.shape)
         place, entry, signed, is_above = (array[: len(out)] for array in arrays)
         np.copyto(signed, numbers.view(np.int32), casting="unsafe")
@@ -92,7 +96,7 @@ class GreyTable:
 
 
 def _starts(levels: int) -> IndexArray:
-    """Return what is added to the numbers of each level, so that all levels' are in order."""
+    """Return an offset of each level's numbers, with which one search covers all levels."""
     return 2 * _WHOLE * np.arange(levels)[:, None]
 
 
@@ -109,8 +113,8 @@ def _cells(bits: int) -> tuple[IndexArray, IndexArray, IndexArray]:
 def _fill_cells(ends: IndexArray, lowest: IndexArray, span: int, bits: int) -> Numbers:
     """Return the entries of all cells, shape (levels, cells).
 
-    ``ends``, shape (levels, greys - 1), are the numbers after the last of each grey level; the
-    ``span`` of those that pixels of a level have begins at the ``lowest``, shape (levels, 1).
+    ``ends``, shape (levels, greys - 1), are the numbers after the last one of each grey level. A
+    level's pixels have at most ``span`` grey levels, from rank ``lowest``, shape (levels, 1), on.
     """
     _, first, after = _cells(bits)
     levels, cells = len(ends), len(first)
@@ -125,7 +129,7 @@ def _fill_cells(ends: IndexArray, lowest: IndexArray, span: int, bits: int) -> N
     end = own.ravel().take(starts + rank)
     next_end = own.ravel().take(starts + np.minimum(rank + 1, span))
     grey = np.minimum(rank + lowest, most)
-    # The number nearest to the last of the grey level that is in an entry with it.
+    # The bits before the rank with which the entry is nearest to the grey level's last number.
     bound = np.minimum(np.maximum(end - 1 - grey + GREYS // 2, 0) // GREYS, _WHOLE // GREYS - 1)
     is_several = (end < after) & (next_end < after)
     return np.where(is_several, _SEVERAL, bound * GREYS + grey).astype(np.uint32)

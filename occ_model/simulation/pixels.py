@@ -48,7 +48,7 @@ class PixelExposure:
 
     ``bands`` are the rows to expose, in order, all but the last of them whole blocks of a JPEG
     file. With ``panel_only`` the file has only the blocks that show the panel, which do not depend
-    on others. ``mean`` are the mean pixel values, if they are not those of a single panel.
+    on others. Without ``mean``, the mean pixel values are those of the view's single panel.
     """
 
     def __init__(
@@ -113,7 +113,7 @@ class PixelExposure:
     def _expose(
         self, mean: Rows, noise: PictureNoise | None, timer: StageTimer, out: ByteArray
     ) -> Pixels | ByteArray:
-        """Return the pixel values of some rows before rounding: ``out``, if they are drawn."""
+        """Return the pixel values of some rows: unrounded, or ``out`` with drawn grey levels."""
         if noise is not None and noise.is_drawn:
             noise.draw(mean, out, timer.end_stage)
             return out
@@ -126,7 +126,7 @@ class PixelExposure:
     def _expose_band(
         self, camera_image: ByteArray, noise: PictureNoise | None, band: _Band
     ) -> tuple[tuple[slice, PanelPart], ColumnMeans, StageTimer]:
-        """Expose and store a band of the camera's picture; return where it shows the panel."""
+        """Expose and store a band; return where it shows the panel, its means and its times."""
         timer = StageTimer()
         camera, means = camera_image[band.place], ColumnMeans(self._shape[1])
         mean = self._mean.of(band.rows, timer.end_stage)
@@ -160,9 +160,11 @@ class PixelExposure:
         panels: list[tuple[slice, PanelPart]] = []
 
         def pictures_in(place: slice) -> Pictures:
-            own, timings, top = self._columns.profile, self._timer.timings, place.start
+            values, timings, top = self._columns.profile, self._timer.timings, place.start
             shown = [(slice(at.start - top, at.stop - top), panel) for at, panel in panels]
-            return Pictures(camera_image[place], means.means(own), shown, enhancement, own, timings)
+            return Pictures(
+                camera_image[place], means.means(values), shown, enhancement, values, timings
+            )
 
         def beat_for_each(bands: Sequence[_Band]) -> Iterator[_Band]:
             for band in bands:

@@ -29,15 +29,15 @@ def decode_video(
     ----------
     scene
         What the receiver knows: the scheme, the number of bits, and approximately the switching
-        frequency, the exposure time and the readout time. Of a lamp, flashes or the mains as its
-        light the clock alone is read.
+        frequency, the exposure time and the readout time. If its light is a lamp, pulses or the
+        mains, only the clock is read.
     decoder
         The decoder that finds the chips in each frame.
     readout_tolerance, frequency_tolerance
-        Maximum relative errors of the scene's readout time and frequency, None if one is only a
-        guess; clocks that imply larger ones are excluded. If both are None, the readout time is
-        taken to be right within 5 %. A known frequency (1e-4 for a lamp with a crystal) measures
-        the readout time, and shows slow motion.
+        Maximum relative errors of the scene's readout time and frequency; None for a value that is
+        only a guess. Clocks that imply larger errors are excluded. If both are None, the readout
+        time is taken to be right within 5 %. A known frequency (1e-4 for a lamp with a crystal)
+        measures the readout time, and shows slow motion.
     progress
         Called after each frame. An exception from it ends the reading.
 
@@ -45,7 +45,7 @@ def decode_video(
     ------
     ParameterError
         The decoder does not exist, a tolerance is out of range, the scheme cannot be used, or the
-        light is neither a code nor that of a lamp.
+        light is none of code, lamp, pulses and mains.
     VideoError
         The file cannot be read.
     """

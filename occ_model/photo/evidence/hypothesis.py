@@ -15,10 +15,10 @@ from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 class Hypothesis:
     """What is supposed to be sent, and how that explains a photo's stripes."""
 
-    sent: str
+    sent: str  # in words
     explanation: Explanation
     fit: StripeFit
-    bits: float  # number of bits that were chosen to explain the stripes; 0 for given chips
+    bits: float  # bits of the chips that were chosen to fit the stripes; 0 for given chips
     was_read: bool
     # Whether the chips were found by trying many sequences, as those read first explained little.
     read_again: bool = False
@@ -34,11 +34,12 @@ class Hypothesis:
 
     @property
     def periods(self) -> float:
+        """How many times the chips are sent while the columns are read out."""
         return self.chips_in_view / len(self.chips)
 
     @property
     def information(self) -> float:
-        """Bits by which the fit is better than one by chance.
+        """Bits by which the fit is better than one by chance, less those of its chosen chips.
 
         A profile of N independent Gaussian values reaches the correlation r with a given one with a
         probability of about (1 - r^2)^(N/2). An exposure of several chips leaves fewer values.
@@ -56,13 +57,13 @@ class Hypothesis:
         return profile - self.fit.profile
 
 
-def log_likelihood(power: float, columns: int, independent: float, freedom: float) -> float:
-    """Return the logarithm of a fit's likelihood, less a penalty for its parameters.
+def log_likelihood(squares: float, columns: int, independent: float, freedom: float) -> float:
+    """Return the logarithm of a fit's likelihood, less a penalty for its ``freedom`` parameters.
 
     Half of the Bayesian information criterion, negative (Schwarz, Ann. Stat. 6:461, 1978), for
-    Gaussian residuals of which only some are independent.
+    Gaussian residuals with a sum of ``squares``, of which only some are independent.
     """
-    variance = max(power / columns, 1e-12)
+    variance = max(squares / columns, 1e-12)
     return -0.5 * independent * math.log(variance) - 0.5 * freedom * math.log(max(independent, 2.0))
 
 

@@ -1,4 +1,4 @@
-"""Read the pictures of a colour camera for its three colours: a picture, or a RAW file's mosaic."""
+"""Read the three colours that a camera took, from a picture or from a RAW file's mosaic."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,7 +43,7 @@ def load_colours(path: str | Path, *, gamma: float, scan_axis: str = "auto") -> 
     Parameters
     ----------
     path
-        A file as for :func:`occ_model.load_photo`; a grey picture is a raw mosaic.
+        A file as for :func:`occ_model.load_photo`; a grey picture is taken for a raw mosaic.
     gamma
         Exponent of the grey levels that a RAW file's light is converted to.
     scan_axis
@@ -62,7 +62,7 @@ def load_colours(path: str | Path, *, gamma: float, scan_axis: str = "auto") -> 
             mosaic = read_mosaic(file, opened, MOSAIC, MAX_PIXELS, report)
             light, pattern = mosaic.all_photosites(), mosaic.pattern
             if scan_axis != "columns":
-                light, pattern = light.T, pattern[0::2] + pattern[1::2]
+                light, pattern = light.T, pattern[0::2] + pattern[1::2]  # both are transposed
             table = WHITE * (np.arange(WHITE_SAMPLE + 1.0) / WHITE_SAMPLE) ** (1.0 / gamma)
             return ColourPhoto(np.rint(table).astype(np.uint8)[light], pattern)
         decoded = DecodedPicture(open_picture(file, opened, MAX_PIXELS, DECODED_FRACTION))

@@ -15,7 +15,7 @@ _WHITE = 65535
 
 
 def palette_of(picture: "PillowImage") -> Samples:
-    """Return the colours that a picture's numbers stand for, shape (256, 3) or (256,)."""
+    """Return the colours of a picture's palette by index, shape (256, 3) or (256,)."""
     swatch = picture.crop((0, 0, 256, 1))
     swatch.frombytes(bytes(range(256)))
     colours: Samples = colours_of(swatch)[0]

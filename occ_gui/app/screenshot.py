@@ -34,7 +34,7 @@ def wait_until_shown(application: Application, measured: bool = False) -> None:
             QApplication.processEvents()  # paints, which may start more work
     if failures:
         raise occ.OccError(failures[0])
-    # A map of whole pictures takes minutes, and shows its progress.
+    # A map may stay incomplete: one of whole pictures takes minutes, and shows its progress.
     if not (is_done or _is_idle(application, measured=False)):
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 

@@ -78,7 +78,7 @@ class Document(QObject):
         self._show_title()
 
     def _compare_with_file(self, path: Path | None) -> None:
-        """Compare the scene with what is in its file, which an earlier window may have saved."""
+        """Compare the scene with its file, which may have been saved before this start."""
         self._saved_scene = None if path is None else _read_scene(path)
         self._show_title()
 

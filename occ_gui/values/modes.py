@@ -14,8 +14,8 @@ Side: TypeAlias = Literal["left", "right", "bottom"]
 @dataclass(frozen=True, slots=True)
 class Mode:
     centre: str  # the page in the middle; empty where the panes around it fill the window
-    is_bottom_wide: bool = False
-    is_right_high: bool = False
+    is_bottom_wide: bool = False  # whether the lower left corner belongs to the bottom side
+    is_right_high: bool = False  # whether the lower right corner belongs to the right side
 
 
 MODES: Mapping[str, Mode] = MappingProxyType(
@@ -34,13 +34,13 @@ MODES: Mapping[str, Mode] = MappingProxyType(
 
 @dataclass(frozen=True, slots=True)
 class PanePlace:
-    """Where a mode shows a pane at first, as a tab beside the others of that side."""
+    """Where a mode shows a pane initially, as a tab beside the others of that side."""
 
     side: Side
-    is_main: bool = False  # whether this is the mode's main pane, at first in front
-    width: int = 0  # first size in pixels; 0 if it does not matter
+    is_main: bool = False  # whether this is the mode's main pane, initially in front of the others
+    width: int = 0  # initial size in pixels; 0 if it does not matter
     height: int = 0
 
 
 Places: TypeAlias = Mapping[str, PanePlace]
-"""The places of a pane by mode, in those modes that show it at first."""
+"""The places of a pane by mode, in those modes that show it initially."""

@@ -16,17 +16,20 @@ _ICON = 32
 _TEXT_SCALE = 1.25
 _RADIUS = 8
 _PADDING, _MARGIN = 12, 5
-CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of most steps
+CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of most buttons of a step
 _WIDEST_STEP = 0.4  # largest fraction of the width for the button of a step beside the texts
 
 
 class StateBar(PaintedWidget):
-    """A title in the colours and with the icon of its state, a sentence, and a row of badges."""
+    """A title in the colours and with the icon of its state, a sentence, badges, and a button.
+
+    The button offers a step that helps in this state, such as a change of the scene.
+    """
 
     USUAL_LINES, MOST_LINES = 1, 3
-    """Lines that a sentence may take, and that the shortest may take where none is short enough."""
+    """Most lines of a sentence, and of the shortest one if none of them is short enough."""
     changed = Signal()  # the contents of the bar have changed
-    step_taken = Signal()  # the user presses the button of the step that helps
+    step_taken = Signal()  # the user presses the button of the step
 
     def __init__(self) -> None:
         super().__init__()
@@ -36,7 +39,7 @@ class StateBar(PaintedWidget):
         self.icon = StateIcon(_ICON)
         self.title = QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True)
         self.sentence = ElidedLabel()
-        self.wrapped = QLabel(
+        self.wrapped = QLabel(  # replaces the sentence where it takes several lines
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop
         )
         self._lines = self._title_lines = 1
@@ -98,10 +101,7 @@ class StateBar(PaintedWidget):
         self.sentence.setVisible(self._lines == 1)
 
     def _place_step(self, left: int, room: int) -> int:
-        """Place the step's button at the right, or below all where little else had room.
-
-        Return the room beside it.
-        """
+        """Place the step's button at the right, below all if it is wide; return the room beside."""
         self._step_height = 0
         if self.step.isHidden():
             return room
@@ -115,9 +115,9 @@ class StateBar(PaintedWidget):
         return rest
 
     def _fit_title(self, room: int) -> int:
-        """Return the width of the title: if large letters do not fit, they are of the usual size.
+        """Return the width of the title, in large letters or, if these do not fit, in usual ones.
 
-        A title that does not fit then either takes several lines.
+        If these do not fit either, the title takes several lines.
         """
         width = 0
         for scale in (_TEXT_SCALE, 1.0):

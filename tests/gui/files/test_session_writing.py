@@ -29,15 +29,15 @@ def scenes(qapp: object, small_scene: Scene) -> SceneStore:
 
 @pytest.fixture
 def begin(scenes: SceneStore) -> Begin:
-    """Write the session of a window into a folder from now on."""
+    """Begin to write the session of a window into a folder."""
 
-    def resume(folder: Path) -> Session:
+    def begin_in(folder: Path) -> Session:
         store = scenes.store
         session = Session(store, lambda: store.workspace)
         session.begin(SessionFile(folder), names_scene=True)
         return session
 
-    return resume
+    return begin_in
 
 
 def scenes_in(folder: Path) -> list[Scene]:
@@ -61,7 +61,7 @@ def test_two_open_windows_do_not_report_each_other_as_crashed(tmp_path: Path) ->
     assert not list(tmp_path.glob("*.toml"))
 
 
-def test_a_second_window_leaves_the_scene_of_an_open_one_to_it(tmp_path: Path) -> None:
+def test_a_window_does_not_take_over_the_scene_of_another_that_is_open(tmp_path: Path) -> None:
     scenes = [Scene().replace(iso=iso) for iso in (99.0, 101.0)]
     former, first = SessionFile(tmp_path), SessionFile(tmp_path)
     for file, scene in zip((former, first), scenes, strict=True):

@@ -133,7 +133,7 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
     assert bench.failures == []
 
 
-def test_the_scan_axis_holds_for_the_open_photo_and_the_next_and_opens_none(
+def test_the_scan_axis_applies_to_this_photo_and_the_next_and_opens_no_photo(
     bench: Bench, photo_file: Path, tmp_path: Path, stripes: Grey
 ) -> None:
     def set_scan_axis(axis: str) -> None:
@@ -171,10 +171,10 @@ def test_another_channel_applies_to_this_photo_and_the_next(
     assert bench.image.max() == 20
 
 
-def test_a_file_that_is_opened_again_is_read_again_but_not_where_its_choice_comes_back(
+def test_opening_a_file_again_reads_it_again_but_restoring_its_former_choice_does_not(
     bench: Bench, photo_file: Path, other_file: Path
 ) -> None:
-    """As at the end of a lesson."""
+    """A lesson restores the choice at its end."""
     bench.open(photo_file)
     first, choice = bench.shown[-1], bench.controller.choice
     Image.fromarray(np.full((8, 9), 5, dtype=np.uint8)).save(photo_file)

@@ -60,7 +60,7 @@ def cached_jobs(results: dict[tuple[object, ...], Any], monkeypatch: pytest.Monk
 
 @pytest.fixture
 def same_picture(cached_jobs: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Give every room the picture and reading of the first, which few tests depend on."""
+    """Give every room the picture and reading of one, as few tests depend on its own."""
     room_jobs: Any = jobs
     frame = room_jobs.render_room(ROOM)
     reading = room_jobs.read_room(frame.camera_image, ROOM)
@@ -159,7 +159,9 @@ def test_a_camera_that_looks_up_is_moved_by_its_ring_and_turned_by_its_triangle(
 ) -> None:
     plan, before = pane.view.plan, pane.room.camera
     assert (plan.aim.pos().x(), plan.aim.pos().y()) == pytest.approx((before.x, before.y))
-    corner = 12.0 * plan.plot.getViewBox().viewPixelSize()[1]  # of the triangle, beyond the ring
+    corner = (
+        12.0 * plan.plot.getViewBox().viewPixelSize()[1]
+    )  # metres to the triangle's corner, outside the ring
     drag(qtbot, plan.plot, plan.camera, (0.4, 0.4), (0.3, 0.3))
     moved = pane.room.camera
     assert (moved.x, moved.y) == pytest.approx((0.3, 0.3), abs=0.05)
@@ -181,7 +183,7 @@ def test_undo_while_the_pane_is_hidden_removes_the_figure(
     assert wait_until_read(qtbot, pane).room == ROOM
 
 
-def test_rooms_files_and_photos_are_steps(
+def test_opened_rooms_and_photos_are_steps_to_undo(
     same_picture: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     path = tmp_path / "other.toml"
@@ -287,7 +289,7 @@ def test_the_map_is_the_studys_and_is_removed_when_the_camera_turns(
     view, aim = pane.view, pane.view.plan.aim
     texts: list[str] = []
     pane.tasks[1].reported.connect(lambda _: texts.append(view.floor.text()))
-    for is_measured in (False, True):
+    for is_measured in (False, True):  # the camera also turns while the map is measured
         view.measure.click()
         if is_measured:
             qtbot.waitUntil(lambda: "Map of the floor" in view.floor.text())

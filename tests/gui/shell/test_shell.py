@@ -1,4 +1,4 @@
-"""The window needs only the declaration of a pane, which is made when it is first shown."""
+"""A pane is declared to the window, and made when it is first shown."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -17,7 +17,7 @@ from occ_gui.shell.shell import Shell
 from occ_model.scene.scene import Scene
 
 
-class Noting(Pane[object]):
+class RecordingPane(Pane[object]):
     """A pane that records what it is asked to show."""
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ class Bench:
                 name="iso",
                 title="ISO speed",
                 help="guide.md#iso",
-                make=Noting,
+                make=RecordingPane,
                 part=lambda workspace, results: (workspace.scene.camera.iso, results.snapshot),
                 actions={"do": lambda: self.done.append("done")},
             ),
@@ -72,9 +72,9 @@ class Bench:
         self.store.put(replace(self.store.workspace, scene=scene))
 
     @property
-    def pane(self) -> Noting:
+    def pane(self) -> RecordingPane:
         pane = self.shell.find_pane("iso")
-        assert isinstance(pane, Noting)
+        assert isinstance(pane, RecordingPane)
         return pane
 
 
@@ -117,19 +117,20 @@ def test_a_hidden_pane_is_updated_when_it_is_shown_again(bench: Bench) -> None:
     assert bench.pane.visibilities == [True, False, True]
 
 
-def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
+def test_a_pane_is_not_asked_to_show_none(qtbot: QtBot) -> None:
     window, results_store = PlainWindow(), ResultsStore()
     qtbot.addWidget(window)
     shell = Shell(Store(Workspace(Scene())), results_store)
     shell.add(
-        Feature(name="x", title="x", help="", make=Noting, part=lambda _, r: r.snapshot), window
+        Feature(name="x", title="x", help="", make=RecordingPane, part=lambda _, r: r.snapshot),
+        window,
     )
     window.docks["x"].visibilityChanged.emit(True)
     results_store.changed.emit()
     assert shell.pane("x").parts == []
 
 
-def test_entries_idle_and_stop_follow_from_the_declaration(bench: Bench) -> None:
+def test_a_panes_menu_entry_help_page_work_and_end_are_passed_on(bench: Bench) -> None:
     bench.window.actions_by_name["do"].trigger()
     assert bench.done == ["done"]
     assert bench.shell.help_pages == {"iso": "guide.md#iso"}
@@ -147,7 +148,7 @@ def test_a_pane_about_codes_is_away_while_another_light_is_sent(qtbot: QtBot) ->
     qtbot.addWidget(window)
     shell = Shell(store, ResultsStore())
     feature = Feature(
-        name="x", title="Map", make=Noting, part=lambda w, _: w.scene, is_about_codes=True
+        name="x", title="Map", make=RecordingPane, part=lambda w, _: w.scene, is_about_codes=True
     )
     shell.add(feature, window)
 

@@ -95,7 +95,7 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
     assert rows.stripes.thumbnail.view.height() == pytest.approx(view.height(), abs=14)
 
 
-def test_exact_rows_of_the_panel_are_shown_beside_the_whole_draft(
+def test_the_panels_rows_alone_give_the_same_stripes_as_the_whole_picture(
     rows: StoryRows, snapshot_of: SnapshotOf, grey_picture: GreyPicture
 ) -> None:
     frame = snapshot_of(rows=1000, distance=6.0).frame
@@ -177,7 +177,9 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
         assert values.column == chosen
 
 
-def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qtbot: QtBot) -> None:
+def test_dragging_the_exposure_window_chooses_the_column_at_its_start(
+    rows: StoryRows, qtbot: QtBot
+) -> None:
     light = rows.light
     window = light.exposure_window()
     middle = (window[0] + window[1]) / 2
@@ -243,6 +245,9 @@ def test_a_drag_moves_all_rows_and_a_double_click_fits(rows: StoryRows, qtbot: Q
     assert rows.crosshair.column == chosen
     qtbot.mouseDClick(row, button, pos=start)
     assert (rows.axis.first, rows.axis.last) == home
+
+
+def test_the_closed_hand_of_a_drag_opens_at_its_end(rows: StoryRows, qtbot: QtBot) -> None:
     row, place = rows.profile, place_of(rows.profile, 1400.0)
     qtbot.mousePress(row, Qt.MouseButton.LeftButton, pos=place)
     row.setCursor(Qt.CursorShape.ClosedHandCursor)
@@ -261,7 +266,7 @@ def test_new_results_keep_a_range_that_the_user_chose(
     assert rows.axis.span == pytest.approx(2.0 * 24 / 7e3 / 8e-6, rel=0.03)
 
 
-def test_wrong_bits_are_marked_those_without_columns_listed_and_refused_ones_not_ticked(
+def test_wrong_bits_are_marked_refused_ones_are_not_and_those_without_columns_are_listed(
     rows: StoryRows, snapshot: Snapshot
 ) -> None:
     bits = snapshot.results["threshold"].bits.copy()
@@ -289,7 +294,7 @@ def test_wrong_bits_are_marked_those_without_columns_listed_and_refused_ones_not
         assert not rows.code.grab().isNull()
 
 
-def test_bits_stand_side_by_side_and_each_letter_over_its_own(
+def test_bits_stand_side_by_side_and_each_letter_over_its_bits(
     rows: StoryRows, bare_snapshot_of: SnapshotOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn = list[tuple[str, QRectF, dict[str, Any]]]()
@@ -395,7 +400,7 @@ def test_before_any_reading_the_profile_is_empty_and_no_column_is_under_the_mous
     assert crosshair.mouse_column is None
 
 
-def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
+def test_a_column_chosen_on_the_panel_stays_on_it_and_one_beside_it_stays_as_it_is(
     rows: StoryRows, snapshot_of: SnapshotOf
 ) -> None:
     def panel() -> tuple[float, float]:

@@ -69,12 +69,9 @@ def timing_of(
 ) -> LampTiming:
     place = np.array(places)
     rises = (np.arange(len(place)) % 2 == 0) == first_rises
-    levels = np.zeros(len(place)), np.full(len(place), 100.0)
-    edges = LampEdges(place, rises, *levels)
-    return LampTiming(
-        spacing, 0.01, float(place[rises][0] % spacing), float(place[~rises][0] % spacing),
-        is_code, 0.0, edges,
-    )  # fmt: skip
+    edges = LampEdges(place, rises, np.zeros(len(place)), np.full(len(place), 100.0))
+    rise, fall = float(place[rises][0] % spacing), float(place[~rises][0] % spacing)
+    return LampTiming(spacing, 0.01, rise, fall, is_code=is_code, off=0.0, edges=edges)
 
 
 @pytest.mark.parametrize(("first_rises", "widest"), [(True, 9.0), (False, 14.0)])
@@ -84,7 +81,7 @@ def test_the_widest_bright_stripe_goes_from_a_rising_edge_to_a_falling_one(
     assert timing_of([0.0, 8.0, 20.0, 29.0, 43.0], first_rises).longest_stripe == widest
 
 
-def test_without_a_whole_stripe_it_is_as_wide_as_the_spacing() -> None:
+def test_without_a_whole_stripe_the_longest_is_as_wide_as_the_spacing() -> None:
     assert timing_of([5.0, 17.0], False).longest_stripe == 20.0
 
 
@@ -105,7 +102,7 @@ def test_lamps_agree_whose_edges_lie_on_the_same_lattices(
     assert timing_of(PULSES, is_code=True).chip == 20.0
 
 
-def test_a_part_of_a_code_that_alternates_is_that_codes() -> None:
+def test_a_part_of_a_lamp_whose_chips_alternate_agrees_with_its_code() -> None:
     code = timing_of([0.0, 10.0, 20.0, 40.0, 50.0, 60.0], spacing=10.0, is_code=True)
     pulses = timing_of([100.0, 110.0, 120.0, 130.0, 140.0, 150.0], spacing=20.0)
     assert code.agrees(pulses)
@@ -131,7 +128,7 @@ def test_parts_of_progressions_are_kept_that_have_edges_enough() -> None:
     assert clip_spans(parts, 0, 8 + least) == [(0, 10, 20.0), (8, 8 + least, 25.0)]
 
 
-def test_edges_of_which_every_second_is_a_period_farther_progress() -> None:
+def test_progressions_are_found_whose_every_second_edge_is_a_period_farther() -> None:
     one = [0.0, 8.0, 20.0, 28.0, 40.0, 48.0, 60.0]
     other = [75.0, 85.0, 105.0, 115.0, 135.0, 145.0]
     found = progressions_of(np.array([*one, *other]), 1.0)
@@ -140,7 +137,7 @@ def test_edges_of_which_every_second_is_a_period_farther_progress() -> None:
 
 
 def test_a_lamps_rectangle_has_every_column_that_its_edges_touch() -> None:
-    """In each strip, smoothed over those beside it, and never beyond the photo."""
+    """They are smoothed over neighbouring strips, and end at the sides of the photo."""
     bounds = np.array([0, 10, 20, 30, 40])
     sides = (3.2, 9.4)
     found = rectangles({1: sides, 2: sides}, bounds, 50)
@@ -150,6 +147,6 @@ def test_a_lamps_rectangle_has_every_column_that_its_edges_touch() -> None:
     (rim,) = rectangles({0: (-2.5, 60.0)}, bounds, 50)
     assert rim.tolist() == [0, 10, 0, 50]
     assert rectangles({}, bounds, 50).shape == (0, 4)
-    # A strip in which it is not seen is as wide as those to either side.
+    # A strip in which no lamp is seen gets the edges of those before and after it.
     gap = rectangles({0: sides, 2: sides}, bounds, 50)
     assert gap[1].tolist() == [10, 20, 3, 11]

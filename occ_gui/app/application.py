@@ -49,9 +49,9 @@ class Application(Parts):
         for signal in (self.error_reports.reported, self.session.status_message):
             signal.connect(self.messages.say)
         for signal in (
-            self.presets.status_message, self.files.status_message, self.present.status_message,
-            self.editor.brightness.status_message, self.shell.status_message, self.lessons.noted,
-            self.pins.status_message,
+            self.presets.status_message, self.files.status_message, self.shell.status_message,
+            self.present_results.status_message, self.editor.brightness.status_message,
+            self.pins.status_message, self.lessons.noted,
         ):  # fmt: skip
             signal.connect(self.messages.note)
         for failed in (self.files.failed, self.shell.file_failed):

@@ -42,7 +42,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.video(scenes, parts.results_store),
         panes.room(store),
         panes.bench(scenes, parts.background_rates),
-        services.export(window, shell, parts.present, preferences, current_pane, store),
+        services.export(window, shell, parts.present_results, preferences, current_pane, store),
         services.animation(window, scenes, preferences, window.animation_bar),
         services.transmitter(window, scenes, preferences),
         services.camera(window, scenes, preferences),
@@ -69,6 +69,7 @@ def _match(parts: Parts) -> None:
 
 
 def _entries(parts: Parts) -> Feature[None]:
+    """Declare the entries of the menus that belong to no pane."""
     files, options, window = parts.files, parts.options, parts.window
     return Feature(
         name="entries",

@@ -222,33 +222,29 @@ class Parts(QObject):
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
         super().__init__()
         store = Store(workspace)
-        self.scene_store = SceneStore(store, {e.name: e.label for e in EFFECTS})
-        self.settings = self.scene_store.settings
-        self.editor = SceneEditor(self.scene_store)
+        self.scene_store = scenes = SceneStore(store, {e.name: e.label for e in EFFECTS})
+        self.settings = scenes.settings
+        self.editor = SceneEditor(scenes)
         self.preferences = Preferences(preferences)
         # Simulates the first picture while the panes are created.
-        self.simulation = SimulationController(self.scene_store)
-        self.present = PresentResults(self.simulation)
+        self.simulation = SimulationController(scenes)
+        self.present_results = PresentResults(self.simulation)
         self.controls = _make_controls()
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.results_store = ResultsStore()
         self.shell = Shell(store, self.results_store)
         centre = self._make_centre()
         self.story: StoryView = self.view("story")
-        self.window = MainWindow(
-            self.controls, centre, self.story, undo_stack=self.scene_store.undo_stack
-        )
+        self.window = MainWindow(self.controls, centre, self.story, undo_stack=scenes.undo_stack)
         self.messages = StatusMessages(self.window, self.controls, store, self.results_store)
         self.photos = PhotoController(store, self.results_store)
-        self.presets = PresetController(self.window, self.scene_store)
+        self.presets = PresetController(self.window, scenes)
         self.files = FileController(
-            self.window, self.scene_store, self.photos, self.preferences, self.present.ask
+            self.window, scenes, self.photos, self.preferences, self.present_results.ask
         )
-        self.document = Document(self.window, self.scene_store, self.files)
-        self.background_rates = BackgroundRates(
-            self.scene_store, self.slider_strips, self._may_measure_rates
-        )
-        self.pins = PinController(self.scene_store, self.present.is_present)
+        self.document = Document(self.window, scenes, self.files)
+        self.background_rates = BackgroundRates(scenes, self.slider_strips, self._may_measure_rates)
+        self.pins = PinController(scenes, self.present_results.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(self.window, self.shell, store, self.files)
         self.options = ViewOptions(
@@ -262,10 +258,9 @@ class Parts(QObject):
 
     def _make_centre(self) -> QWidget:
         """Make the story, with a place for the whole picture in it."""
-        picture = self.shell.embed(panes.picture(self.scene_store.store, self.describe_photo))
-        return self.shell.embed(
-            declare_story(self.scene_store, self.simulation, picture, [*DECODERS])
-        )
+        scenes, shell = self.scene_store, self.shell
+        picture = shell.embed(panes.picture(scenes.store, self.describe_photo))
+        return shell.embed(declare_story(scenes, self.simulation, picture, [*DECODERS]))
 
     def describe_photo(self) -> str:
         """Return the photo's name and the verdict on its match; empty if no photo is open."""
@@ -279,7 +274,7 @@ class Parts(QObject):
 
     def _may_measure_rates(self) -> bool:
         """Return whether the first picture is shown, or none is being simulated."""
-        return self.present.latest is not None or self.simulation.task.is_idle
+        return self.present_results.latest is not None or self.simulation.task.is_idle
 
 
 def _make_controls() -> ControlPanel:

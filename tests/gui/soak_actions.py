@@ -102,15 +102,14 @@ class Monkey:
         self._random = random.Random(seed)
         self._gesture = new_gesture()
         self._scene = smaller(occ.load_preset("phone-68us"))
-        at, chance = application, self._random
+        at, chance, scenes = application, self._random, application.scene_store
+        undo_stack = scenes.undo_stack
         # In an order in which each action finds what it needs the first time.
         self._actions: dict[Callable[[], object], int] = {
             self.move_a_slider: 1200,
             self.choose_a_word: 80,
-            lambda: at.scene_store.change(code=chance.randrange(1024), bits=10): 80,
-            lambda: chance.choice(
-                [at.scene_store.undo_stack.undo, at.scene_store.undo_stack.redo]
-            )(): 120,
+            lambda: scenes.change(code=chance.randrange(1024), bits=10): 80,
+            lambda: chance.choice([undo_stack.undo, undo_stack.redo])(): 120,
             self.load_a_preset: 60,
             self.force_an_effect: 40,
             lambda: at.settings.set_tolerance(10.0 ** chance.uniform(-1.0, 2.0)): 40,

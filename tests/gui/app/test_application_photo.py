@@ -143,11 +143,9 @@ def test_a_photo_is_drawn_in_the_story_only_where_the_scene_comes_from_its_match
     assert {"fitted", "photo"}.isdisjoint(rows.legend.keys)
     assert matched.view("profile").photo_levels is not None
     matched.view("photo").result.apply.click()
-    for scene in (
-        matched.scene_store.scene,
-        matched.scene_store.scene.replace(exposure_time=9e-5, iso=150.0),
-    ):
-        matched.scene_store.put(scene, "sliders")
+    scene = matched.scene_store.scene
+    for changed in (scene, scene.replace(exposure_time=9e-5, iso=150.0)):
+        matched.scene_store.put(changed, "sliders")
         user.wait_until_idle()
         photo, levels = rows.profile.photo, matched.view("profile").photo_levels
         assert photo is not None

@@ -45,9 +45,8 @@ def test_a_text_typed_for_the_code_is_sent_read_and_shown(
     view = application.view("decode")
     assert view.verdict.text() == "✓ “HI” read, all bits right"
     assert view.payload.accessibleDescription() == "sent HI, received HI, 0 wrong"
-    application.scene_store.undo_stack.undo()
-    application.scene_store.undo_stack.undo()
-    application.scene_store.undo_stack.undo()
+    for _ in range(3):
+        application.scene_store.undo_stack.undo()
     user.wait_until_idle()
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert view.payload.isHidden()
@@ -74,9 +73,8 @@ def test_all_panes_show_that_the_typed_payload_is_sent(
     scheme: dict[str, str],
 ) -> None:
     # The distance is small enough for two packets with the longest payload.
-    application.scene_store.put(
-        application.scene_store.scene.replace(distance=0.6, **scheme), "scheme"
-    )
+    scenes = application.scene_store
+    scenes.put(scenes.scene.replace(distance=0.6, **scheme), "scheme")
     field = row(application, "payload")
     assert isinstance(field, PatternRow)
     field.field.setText(typed)

@@ -62,10 +62,7 @@ def decode_video(
 
 
 def reader_of(
-    video: Video,
-    scene: Scene,
-    decoder: str = PAPER_DECODER,
-    **tolerances: float | None,
+    video: Video, scene: Scene, decoder: str = PAPER_DECODER, **tolerances: float | None
 ) -> VideoReader:
     """Return a reader of a film's frames; arguments and errors as for :func:`decode_video`."""
     reader = VideoReader(scene_of_frames(video, scene), decoder, times=video.times, **tolerances)

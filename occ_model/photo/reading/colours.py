@@ -10,11 +10,7 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.file import open_file, open_picture
-from occ_model.photo.reading.image_decoding import (
-    DECODED_FRACTION,
-    DecodedPicture,
-    take_channel,
-)
+from occ_model.photo.reading.image_decoding import DECODED_FRACTION, DecodedPicture, take_channel
 from occ_model.photo.reading.load import in_grey_levels, turn_upright
 from occ_model.photo.reading.raw import MOSAIC, WHITE_SAMPLE, is_raw, read_mosaic
 from occ_model.photo.reading.watched_file import Reporter

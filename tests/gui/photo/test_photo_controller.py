@@ -61,8 +61,7 @@ class Bench:
 
     @property
     def image(self) -> Grey:
-        photo = self.shown[-1]
-        return photo.image
+        return self.shown[-1].image
 
 
 @pytest.fixture

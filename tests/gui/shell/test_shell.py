@@ -44,11 +44,8 @@ class Bench:
     """A shell with a pane of the ISO speed."""
 
     def __init__(self, qtbot: QtBot) -> None:
-        self.store, self.results_store, self.window = (
-            Store(Workspace(Scene())),
-            ResultsStore(),
-            PlainWindow(),
-        )
+        self.store, self.window = Store(Workspace(Scene())), PlainWindow()
+        self.results_store = ResultsStore()
         qtbot.addWidget(self.window)
         self.shell = Shell(self.store, self.results_store)
         self.done: list[str] = []

@@ -151,8 +151,7 @@ def test_the_values_at_the_crosshair_are_the_models(
         assert f"column {column}" in words
         assert ("light on" in words) == bool(values.light)
         rows.choose_picture("receiver")
-        values = rows.values()
-        assert values.level == frame.signal[column]
+        assert rows.values().level == frame.signal[column]
         rows.choose_picture("camera")
 
 
@@ -173,8 +172,7 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
     for column in (-3.0, len(snapshot.profile) + 2.0):
         rows.crosshair.point_at(column)
         assert rows.crosshair.mouse_column is None
-        values = rows.values()
-        assert values.column == chosen
+        assert rows.values().column == chosen
 
 
 def test_dragging_the_exposure_window_chooses_the_column_at_its_start(
@@ -381,8 +379,7 @@ def test_extreme_scenes_are_drawn(
         rows.choose_range(name)
         for row in all_rows(rows):
             assert not row.grab().isNull()
-    values = rows.values()
-    assert describe_values(values, snapshot.frame.scene)
+    assert describe_values(rows.values(), snapshot.frame.scene)
 
 
 def test_before_any_reading_the_profile_is_empty_and_no_column_is_under_the_mouse(

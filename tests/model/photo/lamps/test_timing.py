@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from occ_model.photo.lamps.edges import LampEdges, edges_of
-from occ_model.photo.lamps.segments import (
-    LEAST_EDGES,
-    clip_spans,
-    progressions_of,
-    segments_of,
-)
+from occ_model.photo.lamps.segments import LEAST_EDGES, clip_spans, progressions_of, segments_of
 from occ_model.photo.lamps.shape import rectangles
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 

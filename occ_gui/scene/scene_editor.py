@@ -17,19 +17,19 @@ class BrightnessHold(QObject):
 
     status_message = Signal(str)  # the reason why the brightness could not be kept
 
-    def __init__(self, store: SceneStore) -> None:
+    def __init__(self, scenes: SceneStore) -> None:
         super().__init__()
-        self._store = store
+        self._scenes = scenes
         self.is_on = False
         self._product = 0.0
         self._last_change: tuple[float, float] | None = None
         self._limit_message = ""
-        self._record_product(store.scene)
-        store.changed.connect(self._record_product)
+        self._record_product(scenes.scene)
+        scenes.changed.connect(self._record_product)
 
     def switch(self, on: bool) -> None:
         self._last_change = None
-        self._record_product(self._store.scene)
+        self._record_product(self._scenes.scene)
         if on != self.is_on:
             self.is_on = on
             self.switched.emit(on)
@@ -72,10 +72,10 @@ class SceneEditor(QObject):
     edit_started = Signal()  # a value was entered, whether or not it differs from the scene's
     input_refused = Signal(str)  # the reason why an input is not valid
 
-    def __init__(self, store: SceneStore) -> None:
+    def __init__(self, scenes: SceneStore) -> None:
         super().__init__()
-        self._store = store
-        self.brightness = BrightnessHold(store)
+        self._scenes = scenes
+        self.brightness = BrightnessHold(scenes)
 
     def edit(self, name: str, value: ParameterValue, gesture: int) -> None:
         """Change a parameter, and with it the ISO speed if the brightness is kept.
@@ -83,5 +83,5 @@ class SceneEditor(QObject):
         ``gesture``: changes of one gesture are undone as one step.
         """
         self.edit_started.emit()
-        self._store.change(gesture, **self.brightness.add_iso_change(name, value))
+        self._scenes.change(gesture, **self.brightness.add_iso_change(name, value))
         self.brightness.report_limit()

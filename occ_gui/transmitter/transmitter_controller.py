@@ -80,10 +80,10 @@ _BOARD_KEY = "transmitter/board"  # preference that stores the board
 
 
 class TransmitterController(Service):
-    def __init__(self, window: QWidget, store: SceneStore, preferences: Preferences) -> None:
+    def __init__(self, window: QWidget, scenes: SceneStore, preferences: Preferences) -> None:
         super().__init__()
         self._window = window
-        self._store = store
+        self._scenes = scenes
         self._preferences = preferences
         self._transmission: Transmission | None = None
         stored = preferences.recall(_BOARD_KEY)
@@ -100,7 +100,7 @@ class TransmitterController(Service):
         self.drawing.failed.connect(self._show_drawing_failure)
         self.saving.finished.connect(self._report_files)
         self.saving.failed.connect(self._show_note)
-        store.changed.connect(self._follow)
+        scenes.changed.connect(self._follow)
 
     def show(self) -> None:
         if self.dialog is None:
@@ -111,7 +111,7 @@ class TransmitterController(Service):
             self.dialog.frequency_asked.connect(self._take_frequency)
             self.dialog.save_asked.connect(self.ask_to_save)
             self.dialog.finished.connect(self._forget_dialog)
-            self._follow(self._store.seen)
+            self._follow(self._scenes.seen)
         self.dialog.show()
         self.dialog.activateWindow()
 
@@ -122,7 +122,7 @@ class TransmitterController(Service):
     def _choose_board(self, board: str) -> None:
         self._board = board
         self._preferences.keep(_BOARD_KEY, board)
-        self._follow(self._store.seen)
+        self._follow(self._scenes.seen)
 
     def _follow(self, scene: Scene) -> None:
         if self.dialog is None:
@@ -151,7 +151,7 @@ class TransmitterController(Service):
 
     def _take_frequency(self) -> None:
         if self._transmission is not None:
-            self._store.change(NO_GESTURE, **self._transmission.sent_values)
+            self._scenes.change(NO_GESTURE, **self._transmission.sent_values)
 
     def ask_to_save(self) -> None:
         """Ask where to make the new folder, and save the files there."""

@@ -16,7 +16,7 @@ _ICON = 32
 _TEXT_SCALE = 1.25
 _RADIUS = 8
 _PADDING, _MARGIN = 12, 5
-CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of most buttons of a step
+CHANGES_SCENE = "Changes the scene or the decoder in one step."  # tip of the button of most steps
 _WIDEST_STEP = 0.4  # largest fraction of the width for the button of a step beside the texts
 
 
@@ -101,7 +101,7 @@ class StateBar(PaintedWidget):
         self.sentence.setVisible(self._lines == 1)
 
     def _place_step(self, left: int, room: int) -> int:
-        """Place the step's button at the right, below all if it is wide; return the room beside."""
+        """Place the step's button at the right, or below all if wide; return the room beside it."""
         self._step_height = 0
         if self.step.isHidden():
             return room

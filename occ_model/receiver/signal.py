@@ -101,7 +101,7 @@ def unexplained_fraction(signal: FloatArray, residual: FloatArray) -> float:
 
 _MAX_GRID_CELLS = 512  # maximum number of cells on a side of the grid on which contours grow
 
-_MIN_BRIGHT_FRACTION = 0.04  # least fraction of bright pixels in a contour's cells, above noise
+_MIN_BRIGHT_FRACTION = 0.04  # least fraction of bright pixels in a contour's cell; less is noise
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:

@@ -26,7 +26,7 @@ Numbers = NDArray[np.uint32]  # uniform numbers in units of 2^-32
 _WHOLE = 2**32
 _OCTAVES = 21  # octaves of numbers that have cells, from the median down to either tail
 _FEWEST_BITS, _MOST_BITS = 2, 5  # binary logarithm of the number of an octave's cells
-_GREYS_TO_CELL = 12  # most grey levels that a pixel can have, to a cell of an octave
+_GREYS_TO_CELL = 12  # an octave has at least a cell for so many of a pixel's grey levels
 _SEVERAL = np.uint32(_WHOLE - 1)  # entry of a cell in which several grey levels end
 
 _SIGN, _MANTISSA_BITS, _BIAS = 256, 23, 127  # single precision; the sign in units of exponents

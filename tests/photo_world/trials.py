@@ -90,8 +90,8 @@ def trial_of(seed: int) -> Trial:
 def hot_trial_of(seed: int) -> Trial:
     """Match the photograph of one lamp as it is found in a room; what it sends is known."""
     drawn = hot_lamps(seed)
-    ((sent,), (thing,)) = drawn.sent, drawn.lamps
-    top, bottom, left, right = (max(0, round(side)) for side in thing.box)
+    ((sent,), (lamp,)) = drawn.sent, drawn.lamps
+    top, bottom, left, right = (max(0, round(side)) for side in lamp.box)
     saturated = float(np.mean(drawn.image[top:bottom, left:right] >= 254))
     is_pulse = "01" not in sent.chips
     chips = "10" if is_pulse else sent.chips

@@ -84,11 +84,11 @@ def test_a_picture_shows_what_its_truth_says() -> None:
     """In the lamp's rows a square wave's strongest frequency is one cycle each two chips."""
     for seed in range(100, amount(105, 110)):
         drawn = hot_lamps(seed)
-        (sent,), (thing,) = drawn.sent, drawn.lamps
+        (sent,), (lamp,) = drawn.sent, drawn.lamps
         if sent.chips != "10" or sent.pauses or drawn.exposure > sent.chip:
             continue
-        rows = slice(round(thing.row) - 8, round(thing.row) + 8)
-        columns = slice(max(0, round(thing.box[2]) + 5), round(thing.box[3]) - 5)
+        rows = slice(round(lamp.row) - 8, round(lamp.row) + 8)
+        columns = slice(max(0, round(lamp.box[2]) + 5), round(lamp.box[3]) - 5)
         line = drawn.image[rows, columns].mean(axis=0)
         tone = np.hanning(len(line)) * (line - line.mean())
         cycles = np.fft.rfftfreq(16 * len(line))

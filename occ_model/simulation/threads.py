@@ -3,7 +3,8 @@
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from functools import lru_cache
 from itertools import chain, islice
 from typing import TypeVar
 
@@ -20,6 +21,17 @@ def threads() -> int:
     return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores
 
 
+@lru_cache
+def _pool(count: int) -> ThreadPoolExecutor:
+    # Kept for all pictures: OpenCV (5.0.0 and 4.12.0) keeps some 870 bytes of each thread that has
+    # called one of its parallel functions, after the thread has ended.
+    return ThreadPoolExecutor(count, "band")
+
+
+if hasattr(os, "register_at_fork"):  # a process that is forked has no threads but its first
+    os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
 def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
     """Do some work for each item in threads; yield the results in the order of the items.
 
@@ -32,7 +44,7 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
         yield from map(work, items)
         return
     waiting: deque[Future[_Result]] = deque()
-    pool = ThreadPoolExecutor(count, "band")
+    pool = _pool(count)
     try:
         for item in items:
             waiting.append(pool.submit(work, item))
@@ -40,5 +52,5 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
-    finally:
-        pool.shutdown(cancel_futures=True)  # if the caller ends early, only what has begun is done
+    finally:  # if the caller ends early, only what has begun is done
+        wait([future for future in waiting if not future.cancel()])

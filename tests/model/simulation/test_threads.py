@@ -1,5 +1,8 @@
 """Pictures do not depend on threads; all time counts for a stage; memory is limited."""
 
+import os
+import subprocess
+import sys
 import threading
 import tracemalloc
 from collections.abc import Iterator
@@ -72,6 +75,36 @@ def test_a_single_item_starts_no_thread(monkeypatch: pytest.MonkeyPatch) -> None
     assert threading.current_thread() not in each_in_threads(
         lambda _: threading.current_thread(), [0, 1]
     )
+
+
+def test_threads_are_kept_for_all_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """OpenCV keeps memory of each thread that has called it, also after the thread's end."""
+    use_threads(monkeypatch, 2)
+    workers: set[threading.Thread] = set()
+    for _ in range(5):
+        workers.update(each_in_threads(lambda _: threading.current_thread(), range(8)))
+    assert len(workers) <= 2
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
+def test_a_forked_process_has_threads_of_its_own() -> None:
+    """A process that a user's script forks after a picture can simulate, too."""
+    squares = "list(each_in_threads(lambda number: number**2, range(4)))"
+    script = (
+        "import os\n"
+        "from occ_model.simulation.threads import each_in_threads\n"
+        f"{squares}\n"
+        "child = os.fork()\n"
+        "if not child:\n"
+        f"    os._exit(sum({squares}))\n"
+        "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-W", "ignore::DeprecationWarning", "-c", script],
+        capture_output=True, text=True, timeout=60.0,
+        env={**os.environ, "OMP_NUM_THREADS": ""}, check=True,
+    )  # fmt: skip
+    assert ran.stdout.strip() == "14"
 
 
 def test_an_error_in_a_thread_is_raised_to_the_caller(monkeypatch: pytest.MonkeyPatch) -> None:

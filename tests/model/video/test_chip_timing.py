@@ -64,6 +64,13 @@ def test_without_noise_phase_and_step_are_exact(exposure: float) -> None:
     assert fitted.lattice.step == pytest.approx(lattice.step, rel=1e-5)
 
 
+def test_light_without_noise_has_errors_if_no_column_shows_the_exposure() -> None:
+    for seed in range(10):
+        _, fitted = _fit(0.005, 1e-7, seed)
+        assert 0.0 < fitted.middle_error < np.inf
+        assert 0.0 < fitted.step_error < np.inf
+
+
 def test_an_exposure_shorter_than_a_column_has_an_error_that_is_not_understated() -> None:
     """With three columns per chip that see a third of it, noise alone would give a fortieth."""
     found, columns = [], 280

@@ -72,6 +72,8 @@ def test_jitter_has_its_deviation_and_never_lets_frames_overlap() -> None:
     times = [film.time_of(index) for index in range(2000)]
     assert times[0] == 0.0
     np.testing.assert_allclose(times, starts - starts[0], atol=1e-12)
+    frame = film.frame(7)
+    assert (frame.time, frame.start) == (times[7], film.start_of(7))
     nominal = occ.render_video(SCENE, recording=recording.replace(frame_times="nominal"))
     assert [nominal.time_of(index) for index in (0, 3, 300)] == [0.0, 0.1, 10.0]
     assert nominal.start_of(5) == film.start_of(5)

@@ -29,7 +29,8 @@ class CoveredPart:
 
     def crop(self, columns: slice) -> "CoveredPart":
         """Return the part in some columns, which is empty if they are beside it."""
-        part = slice(max(self.columns.start, columns.start), min(self.columns.stop, columns.stop))
+        start = max(self.columns.start, columns.start)
+        part = slice(start, max(start, min(self.columns.stop, columns.stop)))
         if self.fraction is None:
             return CoveredPart(part, None)
         first = self.columns.start

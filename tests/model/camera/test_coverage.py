@@ -106,3 +106,6 @@ def test_a_part_without_some_columns_is_what_lies_between_them() -> None:
     assert [piece.columns for piece in pieces] == [slice(11, 13), slice(15, 21)]
     assert [piece.fraction.tolist()[0] for piece in pieces] == [[1, 2], [5, 6, 7, 8, 9, 10]]
     assert part.cut_out([])[0].fraction.tolist() == fraction.tolist()
+    for beside in (part.crop(slice(0, 5)), part.crop(slice(30, 40))):
+        assert beside.columns.start == beside.columns.stop
+        assert beside.fraction.shape == (1, 0)

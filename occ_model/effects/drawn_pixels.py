@@ -31,9 +31,8 @@ class DrawnPixels:
     spread: FloatArray  # Standard deviation beyond that of two levels next to each other
 
     variances: tuple[FloatArray, FloatArray]  # Added by the drawn numbers, and by the gains
-    changes: tuple[
-        FloatArray, FloatArray
-    ]  # Mean square if no number is drawn, and if all gains are 1
+    # Mean square if no number is drawn, and if all gains are 1
+    changes: tuple[FloatArray, FloatArray]
 
 
 def step_of(means: FloatArray, squared_steps: FloatArray) -> FloatArray:

@@ -16,7 +16,7 @@ _NOTABLE_STEP, _LEAST_RAMPS = 0.1, 4
 """Least ratio of a notable step to the largest one, and how many notable steps must follow another
 one: edges without ramps can be whole groups apart by chance."""
 _MOST_COLUMNS = 640  # columns of a profile that is fitted
-_ROWS_AT_ONCE = 32  # rows that are averaged at once
+_ROWS_AT_ONCE = 32  # rows that are averaged at once, to fit the processor's cache
 _LEAST_PERIOD = 48.0  # columns that a period has at least after columns are averaged
 
 
@@ -35,9 +35,7 @@ class LampProfile:
         The noise is estimated from neighbouring rows, which show the same stripes.
         """
         sums, squares, whole, pairs, bright = np.zeros((5, pixels.shape[1]))
-        for first in range(
-            0, len(pixels), _ROWS_AT_ONCE
-        ):  # as many as fit into a processor's cache
+        for first in range(0, len(pixels), _ROWS_AT_ONCE):
             rows = slice(first, first + _ROWS_AT_ONCE + 1)
             part, seen = pixels[rows], shown[rows]
             both = seen[1:] & seen[:-1]

@@ -100,7 +100,7 @@ def _in_chain(steps: FloatArray) -> BoolArray:
 
 
 def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the level at which an edge counts as passed, at the begin and at the end of each edge.
+    """Return the level at which each edge counts as passed, at its beginning and at its end.
 
     It is the middle between the dark and the bright level around the edge, which may change along a
     lamp. At that level a chip has its full length, even one that is shorter than the exposure and

@@ -20,9 +20,7 @@ class StoredFrame:
 
     time: float  # In seconds of the recording, as the file states it
     pixels: Samples  # Shape (lines, columns) or (..., 3), upright; the largest number is white
-    first_line: float = (
-        0.0  # Place of its first line, in lines of a field from the film's first line
-    )
+    first_line: float = 0.0  # Place of its first line, in its lines from the film's first line
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,9 +32,7 @@ class FilmFacts:
     duration: float | None = None  # From the first picture to the end of the last one, in seconds
     resolution: float = 0.0  # Step in seconds to which times are rounded; 0 if they are exact
     slowdown: float = 1.0  # How many times slower it plays than it was recorded
-    field_axis: int | None = (
-        None  # Axis along which a field has every other line; None without fields
-    )
+    field_axis: int | None = None  # Axis along which each frame, a field, has every other line
 
 
 class FrameSource(ABC):

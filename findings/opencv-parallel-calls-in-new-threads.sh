@@ -58,7 +58,7 @@ for own_threads in (1, 2):
             assert 600 < growth < 1200
 PYTHON
 python3 -m venv venv
-for release in 5.0.0.93 4.12.0.88; do
-    venv/bin/pip install --quiet opencv-python-headless==$release
+for package in opencv-python-headless==5.0.0.93 opencv-python-headless==4.12.0.88; do
+    venv/bin/pip install --quiet "$package"
     venv/bin/python grow.py
 done

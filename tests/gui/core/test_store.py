@@ -29,7 +29,7 @@ def test_a_selection_announces_only_changes_of_its_part(store: Store) -> None:
     rates = collect(rate.changed)
     put_iso(store, 200.0)
     store.put(replace(store.workspace, frame_rate=24.0))
-    store.put(replace(store.workspace, frame_rate=24.0))
+    store.put(replace(store.workspace, frame_rate=float("24")))  # equal, but another object
     assert (rates, rate.value) == ([24.0], 24.0)
 
 

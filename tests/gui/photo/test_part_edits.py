@@ -269,4 +269,5 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     )
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):
         bench.results_store.put(results)
+        assert bench.shown.row is row
         assert ("earlier match" in many.rows.text(0, VERDICT)) == is_earlier

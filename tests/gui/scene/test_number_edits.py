@@ -154,3 +154,10 @@ def type_number(qtbot: QtBot, text: str) -> tuple[int, list[str], list[int]]:
     qtbot.keyClick(field, Qt.Key.Key_Return)
     field.clearFocus()
     return field.value(), refused, changes
+
+
+def test_a_plain_number_is_read_in_the_unit_that_is_shown(qtbot: QtBot) -> None:
+    field = Field("exposure_time", qtbot)
+    field.edit.set_value(2e-3)
+    field.enter("1")
+    assert field.edited == [1e-3]

@@ -107,6 +107,18 @@ def test_effects_forced_by_hand_are_undone_and_redone(
     assert (scenes, store.scene) == ([], small_scene)
 
 
+def test_one_step_changes_scene_and_forced_effects_together(
+    store: SceneStore, small_scene: Scene
+) -> None:
+    store.force("jpeg", False)
+    steps, settings = store.undo_stack.count(), store.settings
+    store.put(small_scene.replace(iso=200.0), "another scene", force={})
+    assert (store.scene.camera.iso, settings.settings.force) == (200.0, {})
+    assert store.undo_stack.count() == steps + 1
+    store.undo_stack.undo()
+    assert (store.scene, settings.settings.force) == (small_scene, {"jpeg": False})
+
+
 def test_a_change_of_the_scene_keeps_the_forced_effects_and_releasing_all_is_one_step(
     store: SceneStore,
 ) -> None:

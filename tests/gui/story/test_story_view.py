@@ -11,6 +11,7 @@ from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.story.column_values import measure
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.story_view import StoryView
+from occ_gui.widgets.columns import round_step
 
 
 @pytest.fixture
@@ -103,3 +104,8 @@ def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: Snap
         assert [float(text) for _, text in rows.columns.list_ticks()] == [
             int(column) for column, _ in rows.columns.list_ticks()
         ]
+
+
+@pytest.mark.parametrize(("least", "step"), [(0.011, 0.02), (1.0, 1.0), (3.0, 5.0), (51.0, 100.0)])
+def test_a_step_is_round_and_no_smaller_than_the_least(least: float, step: float) -> None:
+    assert round_step(least) == pytest.approx(step)

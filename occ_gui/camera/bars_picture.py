@@ -9,9 +9,8 @@ from occ_gui.widgets.guarded_paint import PaintedWidget
 from occ_model.arrays import ByteArray, FloatArray
 
 _SIZE = QSize(280, 200)
-_LARGEST_DEVIATION = (
-    0.4  # distance of the curve's farthest point from the middle of its tile, in tiles
-)
+_LARGEST_DEVIATION = 0.4
+"""Distance of the curve's farthest point from the middle of its tile, in tiles."""
 
 
 class BarsPicture(PaintedWidget):

@@ -34,16 +34,12 @@ class LessonController(QObject):
 
     status_message = Signal(str)  # the reason why a step is incomplete
     pane_requested = Signal(str)  # the name of the pane that a step refers to; empty for none
-    control_requested = Signal(
-        str
-    )  # the name of the parameter that a step is about; empty for none
+    control_requested = Signal(str)  # the parameter that a step is about, by name; empty for none
 
     columns_held = Signal(object)
     """Number of columns that a step keeps in view, so that changes are visible; None: usual."""
 
-    equation_requested = Signal(
-        str
-    )  # the name of the equation that explains a step; empty for none
+    equation_requested = Signal(str)  # the equation that explains a step, by name; empty for none
     action_requested = Signal(str)  # the name of the action that the button of a step starts
 
     report_asked = Signal(Lesson)

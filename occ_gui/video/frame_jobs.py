@@ -142,7 +142,7 @@ def _make_story(
     has_payload = transmitter.light == "code" and not transmitter.pattern
     reading = ColumnView(
         scene=scene.replace(rows=size[0], columns=size[1]), profile=profile,
-        signal=profile, corners=corners,        results={decoded.decoder: decoded},
+        signal=profile, corners=corners, results={decoded.decoder: decoded},
         sent=transmitter.payload_bits if is_simulated and has_payload else (),
         period_columns=period_columns(scene),
     )  # fmt: skip

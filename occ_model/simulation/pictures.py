@@ -71,7 +71,7 @@ class Pictures:
             return means
 
         means = ColumnMeans(image.shape[1])
-        for of_rows in each_in_threads(enhance, self.panels):
+        for of_rows in each_in_threads(enhance, self.panels, "enhance"):
             means.include(of_rows)
         signal = means.means(self.enhancement(self.values).astype(np.float64))
         self.timings["image"] = self.timings.get("image", 0.0) + perf_counter() - start

@@ -22,20 +22,23 @@ def threads() -> int:
 
 
 @lru_cache
-def _pool(count: int) -> ThreadPoolExecutor:
+def _pool(count: int, purpose: str) -> ThreadPoolExecutor:
     # Kept for all pictures: OpenCV (5.0.0 and 4.12.0) keeps some 870 bytes of each thread that has
     # called one of its parallel functions, after the thread has ended.
-    return ThreadPoolExecutor(count, "band")
+    return ThreadPoolExecutor(count, purpose)
 
 
 if hasattr(os, "register_at_fork"):  # a process that is forked has no threads but its first
     os.register_at_fork(after_in_child=_pool.cache_clear)
 
 
-def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
+def each_in_threads(
+    work: Callable[[_Item], _Result], items: Iterable[_Item], purpose: str = "expose"
+) -> Iterator[_Result]:
     """Do some work for each item in threads; yield the results in the order of the items.
 
-    Items are read in the calling thread, a few in advance.
+    Items are read in the calling thread, a few in advance. Work for another ``purpose`` has other
+    threads, so that it does not wait for these items.
     """
     count, left = threads(), iter(items)
     begun = list(islice(left, 2 if count > 1 else 0))
@@ -44,7 +47,7 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
         yield from map(work, items)
         return
     waiting: deque[Future[_Result]] = deque()
-    pool = _pool(count)
+    pool = _pool(count, purpose)
     try:
         for item in items:
             waiting.append(pool.submit(work, item))

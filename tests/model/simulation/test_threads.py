@@ -86,6 +86,17 @@ def test_threads_are_kept_for_all_pictures(monkeypatch: pytest.MonkeyPatch) -> N
     assert len(workers) <= 2
 
 
+def test_work_for_another_purpose_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A panel that is exposed is enhanced and shown while the other rows are exposed."""
+    use_threads(monkeypatch, 2)
+    go_on = threading.Event()
+    exposing = each_in_threads(lambda number: number == 0 or go_on.wait(2.0), range(9))
+    assert next(exposing)
+    assert list(each_in_threads(lambda number: number, range(3), "enhance")) == [0, 1, 2]
+    go_on.set()
+    assert all(exposing)
+
+
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
 def test_a_forked_process_has_threads_of_its_own() -> None:
     """A process that a user's script forks after a picture can simulate, too."""

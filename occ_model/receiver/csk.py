@@ -18,7 +18,7 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import code_of
 
 _STARTS = 16  # starts that are tried for each symbol of a packet
-_LEAST_CORRELATION = 0.7  # of total light and a packet's, below which no header was seen
+_LEAST_CORRELATION = 0.7  # least correlation of total light with a packet's for a header to be seen
 _WORST_CONDITION = 1e3  # condition number beyond which the equations enlarge noise too much
 
 

@@ -39,7 +39,7 @@ class Verdict:
 
     reasons: tuple[str, ...]  # why it is doubtful, in sentences; none where it is sure
     exposure_reasons: tuple[str, ...]  # why its exposure alone is doubtful
-    others: tuple[tuple[Hypothesis, float], ...]  # with log-likelihoods less its own
+    others: tuple[tuple[Hypothesis, float], ...]  # each, and its log-likelihood minus this one's
 
 
 class Judge:

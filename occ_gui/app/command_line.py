@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_gui.app.system_libraries import describe_missing, find_missing_libraries
 from occ_gui.core.workspace import Workspace
-from occ_gui.values.choices import OVERLAYS
+from occ_gui.values.choices import OVERLAYS, THEMES
 from occ_gui.values.modes import MODES
 from occ_model.commands.options import (
     Parser,
@@ -40,8 +40,6 @@ _PYTHON_IMPORT = builtins.__import__  # Python's own, which Qt for Python replac
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
-
-THEMES = ("system", "light", "dark")
 
 _CHECK_MS = 200  # interval at which Python handles signals
 
@@ -251,7 +249,7 @@ def start(
     qt = QApplication(arguments)
     qt.setDesktopFileName(PROGRAM)
     log_qt_messages()
-    show_theme(THEMES[0])  # before there are panes to redraw
+    show_theme("system")  # before there are panes to redraw
     garbage = GarbageCollector(qt)
     application = Application(workspace, preferences)
     garbage.exclude_present_objects()

@@ -26,7 +26,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import ResultsStore, make_remark, next_match
-from occ_gui.values.choices import OVERLAYS, MatchChoice, PlacedPhoto, Placement
+from occ_gui.values.choices import MatchChoice, PlacedPhoto, Placement
 from occ_model.photo.reading.load import Photo
 from occ_model.results.lamp import Lamp
 
@@ -159,7 +159,7 @@ class PhotoPane(Pane[ShownPhoto]):
             self.matching.cancel()
             if shown.part is not None:
                 # Lamps and regions are drawn on the photo beside the picture.
-                self._set_overlay(OVERLAYS[0])
+                self._set_overlay("beside")
         inputs = comparison_inputs(self._shown)
         if inputs != self._comparison_inputs:
             self._comparison_inputs = inputs
@@ -192,16 +192,16 @@ class PhotoPane(Pane[ShownPhoto]):
     def _apply_cure(self) -> None:
         """Show the simulation at a shutter speed without bars next to the photo."""
         self.matching.cure()
-        self._set_overlay(OVERLAYS[0])
+        self._set_overlay("beside")
 
     def _set_overlay(self, mode: str) -> None:
         self._store.put(replace(self._store.workspace, overlay=mode))
 
     def _set_movable(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
-        if by_mouse and self._store.workspace.overlay == OVERLAYS[0]:
+        if by_mouse and self._store.workspace.overlay == "beside":
             # A photo beside the picture cannot be moved over it.
-            self._set_overlay(OVERLAYS[1])
+            self._set_overlay("blend")
 
     def _click(self, event: MouseClickEvent) -> None:
         self.outlines.click(self._image.photo.box.mapSceneToView(event.scenePos()))

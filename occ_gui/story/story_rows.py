@@ -238,7 +238,7 @@ class StoryRows(QWidget):
             return
         last_column = len(reading.profile) - 1
         first, last = reading.panel_columns
-        if self.range == RANGES[0]:
+        if self.range == "packets":
             packets_end = min(last, first + PACKETS_IN_VIEW * reading.period_columns)
             last = packets_end if self._span is None else min(first + self._span, last_column)
         last = max(last, first + 4.0)

@@ -61,6 +61,9 @@ class RoomChoice:
     focal_length: float | None = None
 
 
+THEMES = ("system", "light", "dark")
+"""Colours of the window; those of the system are light or dark."""
+
 OVERLAYS = ("beside", "blend", "split", "difference")
 """Ways of showing a photo with the simulated picture."""
 

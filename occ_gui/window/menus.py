@@ -8,12 +8,11 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
-from occ_gui.values.choices import OVERLAYS
+from occ_gui.values.choices import OVERLAYS, THEMES
 from occ_gui.values.modes import MODES
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_menu, in_tool_tip
 from occ_gui.window import menu_entries as entries
 from occ_gui.window.menu_entries import Entry
-from occ_gui.window.theme import THEMES
 from occ_model.errors import capitalize, one_line
 from occ_model.photo.reading.choices import SCAN_AXES
 

@@ -4,10 +4,8 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QWidget
 
+from occ_gui.values.choices import THEMES
 from occ_gui.widgets.building import resize_font
-
-THEMES = ("system", "light", "dark")
-"""Names of the themes; the first is light or dark as the system is."""
 
 _SCHEMES = dict(
     zip(THEMES, (Qt.ColorScheme.Unknown, Qt.ColorScheme.Light, Qt.ColorScheme.Dark), strict=True)
@@ -50,7 +48,7 @@ class ThemeController(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self.theme = THEMES[0]
+        self.theme = "system"
         application = QApplication.instance()
         if isinstance(application, QApplication):
             application.styleHints().colorSchemeChanged.connect(self._follow_system)
@@ -58,7 +56,7 @@ class ThemeController(QObject):
 
     def choose(self, theme: str) -> None:
         """Change to a theme; an unknown name means the system's."""
-        theme = theme if theme in THEMES else THEMES[0]
+        theme = theme if theme in THEMES else "system"
         if theme == self.theme:
             return
         self.theme = theme
@@ -67,7 +65,7 @@ class ThemeController(QObject):
             self.chosen.emit(theme)
 
     def _follow_system(self) -> None:
-        if self.theme == THEMES[0]:
+        if self.theme == "system":
             show_theme(self.theme)
             self.colours_changed.emit()
 
@@ -79,7 +77,7 @@ def show_theme(theme: str) -> bool:
         return False
     hints = application.styleHints()
     hints.setColorScheme(_SCHEMES[theme])
-    if theme == THEMES[0]:
+    if theme == "system":
         theme = "dark" if hints.colorScheme() == Qt.ColorScheme.Dark else "light"
     if application.style().objectName() != _STYLE:
         application.setStyle(_STYLE)

@@ -104,7 +104,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _read_colours(options: argparse.Namespace, scene: Scene) -> int:
     """Read the three colours of a picture, and print one line with all of them first."""
-    if options.channel != CHANNELS[0]:
+    if options.channel != "brightest":
         raise ParameterError("--channel is for a scene of one LED; --colour reads one of three.")
     if options.follow or is_film(options.file):
         if options.calibration or options.offset_to:

@@ -93,7 +93,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     report(0.0)
     if _is_lamp(scene, sent):
         within = region_within(photo, region.region if isinstance(region, Lamp) else region)
-        advice = mains_advice(scene) if estimate == ESTIMATES[0] else ()
+        advice = mains_advice(scene) if estimate == "readout_time" else ()
         try:
             match = match_lamp(
                 photo, scene, within,

@@ -26,13 +26,13 @@ The frequency of a lamp is ``lamp_frequency`` in place of ``switching_frequency`
 
 def known_parameter(estimate: str, transmitter: Transmitter) -> str:
     """Return the parameter of a scene that must be known to estimate one of :data:`ESTIMATES`."""
-    return frequency_parameter(transmitter) if estimate == ESTIMATES[0] else ESTIMATES[0]
+    return frequency_parameter(transmitter) if estimate == "readout_time" else "readout_time"
 
 
 def known_value(estimate: str, scene: Scene) -> tuple[str, float]:
     """Return the name and the scene's value of the known parameter; of a lamp, its frequency."""
     name, lamp = known_parameter(estimate, scene.transmitter), blinking_lamp(scene.transmitter)
-    if lamp is not None and name != ESTIMATES[0]:
+    if lamp is not None and name != "readout_time":
         return "lamp_frequency", lamp.frequency
     return name, float(scene.value(name))
 
@@ -207,12 +207,12 @@ class Match:
     @property
     def known(self) -> str:
         """The parameter that was given: the readout time or the frequency."""
-        return ESTIMATES[0] if self._frequency in self.uncertainties else self._frequency
+        return "readout_time" if self._frequency in self.uncertainties else self._frequency
 
     @property
     def estimate(self) -> str:
         """The parameter that was estimated: the other one of the two."""
-        return self._frequency if self.known == ESTIMATES[0] else ESTIMATES[0]
+        return self._frequency if self.known == "readout_time" else "readout_time"
 
     @property
     def verdict(self) -> str:

@@ -50,13 +50,12 @@ class Scheme:
     @property
     def takes_any_chips(self) -> bool:
         """Whether any chips after the header 1 1 1 0 are a payload, as no rule refuses them."""
-        paper = self.framing.name == _PAPER_SCHEME[1]
-        return paper and self.line_code.longest_run is None
+        return self.framing.name == "paper" and self.line_code.longest_run is None
 
     @property
     def ends_by_header(self) -> bool:
         """Whether a packet is read from a header to the next one, which no data contain."""
-        return self.framing.name == _PAPER_SCHEME[1] and is_header_unique(self.line_code)
+        return self.framing.name == "paper" and is_header_unique(self.line_code)
 
     @property
     def finds_wrong_chip(self) -> bool:

@@ -29,7 +29,6 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.values.choices import (
     OVERLAYS,
@@ -236,8 +235,7 @@ class SharedWindow:
         kept.scene_store.store.put(first, "first scene")
         kept.scene_store.undo_stack.clear()
         kept.document.show_photo(None)  # writes the title
-        if kept.options.theme.theme != THEMES[0]:
-            kept.options.theme.choose(THEMES[0])
+        kept.options.theme.choose("system")
         is_moved = window.size() != home.size or bool(window.modes.layouts)
         window.resize(home.size)
         window.modes.layouts.clear()

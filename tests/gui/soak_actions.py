@@ -26,9 +26,8 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.scene_store import new_gesture
-from occ_gui.values.choices import OVERLAYS
+from occ_gui.values.choices import OVERLAYS, THEMES
 from occ_gui.video.wiring import VideoWiring
-from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
 from occ_model.results.decoding import Region
 from occ_model.results.teaching import LoadedLessons

@@ -98,6 +98,16 @@ def test_a_file_is_the_same_alone_and_among_others(tmp_path: Path) -> None:
         assert scene_inside(path) == SCENE
 
 
+def test_files_of_which_one_cannot_be_replaced_are_refused_before_any_is_drawn(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "line.csv").mkdir()
+    drawing = Drawing("line", "A line", lambda: pytest.fail("was drawn"), ("a",), lambda: [(1,)])
+    with pytest.raises(occ.OutputError, match=r"line\.csv is a folder; name a file"):
+        write_all(tmp_path, [drawing], provenance)
+    assert [path.name for path in tmp_path.iterdir()] == ["line.csv"]
+
+
 def test_a_failed_decoding_is_drawn_up_to_its_failure() -> None:
     dark = SCENE.replace(luminance=0.0)
     result = occ.decode(occ.render(dark).image, dark)

@@ -46,6 +46,13 @@ def test_parts_between_which_the_lamp_is_lit_are_one_lamp_without_a_period() -> 
     assert "can have another chip than their code" in " ".join(one.lamp.doubts)
 
 
+def test_a_lamp_is_blurred_as_its_part_of_most_edges() -> None:
+    for is_blurred in (True, False):
+        right = replace(RIGHT, lamp=replace(RIGHT.lamp, is_blurred=is_blurred))
+        (one,) = join_parts([right, LEFT], means(_BRIGHT), _BOUNDS)
+        assert one.lamp.is_blurred is is_blurred
+
+
 @pytest.mark.parametrize(
     ("right", "between"),
     [

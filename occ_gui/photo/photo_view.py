@@ -112,6 +112,7 @@ class PhotoView(QWidget):
         self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), PartForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.verdict = PhotoVerdictBar()
+        self.verdict.setParent(hidden_parent)
         """The verdict on the photo, which the window shows above the picture."""
         self._pages = QStackedWidget()
         self._pages.addWidget(self._make_invitation())

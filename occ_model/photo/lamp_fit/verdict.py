@@ -130,8 +130,8 @@ def _doubts_by_light(cues: Cues, *, is_confirmed: bool) -> list[str]:
         tone = _USUAL_TONE
     if cues.blur > blur:
         found.append(
-            "The stripes are blurred over {} columns, as lenses blur things, but no stripes of a "
-            "lamp; at most {}.".format(*distinct_texts(cues.blur, blur, 2))
+            "The stripes are blurred over {} columns, as a lens blurs the edges of objects; those "
+            "of a lamp are blurred over {} at most.".format(*distinct_texts(cues.blur, blur, 2))
         )
     if cues.floor_expected >= _LIT_GAPS and (
         cues.edges <= _FEW_LOW_EDGES or cues.white > _MOST_WHITE

@@ -16,7 +16,7 @@ from occ_model.photo.lamp_fit.verdict import doubts
     [
         ({"floor_expected": 1.2, "white": 0.203}, "at most 20.0 % white columns, of which there"),
         ({"misfit": 0.0604}, "by 6.04 % of their height from a lamp's; at most 6.00 %."),
-        ({"blur": 0.903}, "a lamp; at most 0.85."),
+        ({"blur": 0.903}, "a lamp are blurred over 0.85 at most."),
         ({"unusual_tone": 6.04}, "by 6.04 standard deviations from usual ones; at most 6.00."),
         ({"floor": 6.1}, "Between the stripes there is 610 % of their height"),
     ],
@@ -34,7 +34,7 @@ def test_a_blur_as_of_things_is_doubted_unless_a_note_or_a_duty_confirms_the_lam
     known = {"edges": 40, "period": 40.0, "narrowest": 20.0, "ramp": 10.0, "blur": 1.5}
     cues = Cues(**{each.name: known.get(each.name, 0) for each in fields(Cues)})  # type: ignore[arg-type]
     assert not doubts(cues, 99.0, None, is_confirmed=True)
-    assert "1.50 columns, as lenses blur" in " ".join(doubts(cues, 99.0, None, is_confirmed=False))
+    assert "1.50 columns, as a lens blurs" in " ".join(doubts(cues, 99.0, None, is_confirmed=False))
 
 
 def test_edges_in_the_dark_are_no_evidence_of_a_period() -> None:

@@ -14,7 +14,7 @@ from occ_model.effects.distortion import undistort
 from occ_model.errors import ParameterError, inflect
 from occ_model.room.edge_lines import Edge
 from occ_model.room.edges import find_edges
-from occ_model.room.pose_fit import LampEdges, Located
+from occ_model.room.pose_fit import Located, OutlineEdges
 from occ_model.room.reading import ReadLamp, check_picture, read_lamps
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline, rotation
@@ -147,7 +147,7 @@ def _locate(
             f"Only {inflect(edges, 'edge')} of the named lamps can be measured, because the others "
             f"are too faint; at least {_MIN_EDGES} are needed.",
         )
-    table = LampEdges.of([(each.lamp, each.edges) for each in measured], room, focal_share)
+    table = OutlineEdges.of([(each.lamp, each.edges) for each in measured], room, focal_share)
     starts = [start for anchor in complete[:_MAX_ANCHORS] for start in _starts(anchor, room)]
     places = find_places(table, [*extra_starts, *starts])
     if not places:
@@ -181,7 +181,7 @@ def select_places(places: list[Located], lamps: int) -> tuple[list[Located], tup
     )
 
 
-def find_places(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Located]:
+def find_places(edges: OutlineEdges, starts: Sequence[FloatArray]) -> list[Located]:
     """Return the places that explain all edges, or all except a few."""
     for _ in range(_MAX_EXCLUDED_EDGES + 1):
         fits = [fit for start in starts if (fit := edges.fit(start)) is not None]

@@ -54,7 +54,7 @@ class Located:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class LampEdges:
+class OutlineEdges:
     """The edges of some lamps in a picture, as arrays.
 
     A place is given by the six numbers of :class:`occ_model.Place`, and by a seventh if the focal
@@ -84,7 +84,7 @@ class LampEdges:
             focal_share,
         )
 
-    def omit_edge(self, edge: int) -> "LampEdges":
+    def omit_edge(self, edge: int) -> "OutlineEdges":
         others = np.arange(len(self.lamp)) != edge
         return replace(
             self,

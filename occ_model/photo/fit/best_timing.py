@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.camera_response import CameraResponse
-from occ_model.photo.fit.initial_search import Candidate, TimingSearch
+from occ_model.photo.fit.initial_search import TimingCandidate, TimingSearch
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import remove_trend
@@ -74,7 +74,7 @@ def explain(
     if chips.min() == chips.max():
         return None
     search = TimingSearch(remove_trend(stripes.profile), chips)
-    candidates: list[Candidate] = []
+    candidates: list[TimingCandidate] = []
     for group in steps:
         candidates = search.candidates(group, gamma, check)
         if candidates[0].correlation >= _LEAST_SURE_CORRELATION:
@@ -135,7 +135,7 @@ def _fit_from_each(
     )
 
 
-def _choose_starts(candidates: Sequence[Candidate]) -> list[Timing]:
+def _choose_starts(candidates: Sequence[TimingCandidate]) -> list[Timing]:
     """Choose the timings to start fits from: the best ones, and those of the shortest exposures.
 
     Many exposures give similar stripes, so that the search alone does not find the best.

@@ -29,7 +29,7 @@ _AT_ONCE = 2**19  # maximum number of array elements at once, which bounds the m
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class TimingCandidate:
     timing: Timing
     correlation: float
 
@@ -59,7 +59,7 @@ class TimingSearch:
 
     def candidates(
         self, steps: FloatArray | None, gamma: float, check: Callable[[], object] = lambda: None
-    ) -> list[Candidate]:
+    ) -> list[TimingCandidate]:
         """Find each exposure's best timing, best first; what ``check`` raises ends the search.
 
         ``steps``: chips per column to try, None for all that are possible.
@@ -83,7 +83,7 @@ class TimingSearch:
             scores, phases = self._scores(seen, exposure, _PHASES_A_CHIP)
             top = int(scores.argmax())
             timing = Timing(float(best[top]), exposure, float(phases[top]), gamma)
-            found.append(Candidate(timing, float(scores[top])))
+            found.append(TimingCandidate(timing, float(scores[top])))
         return sorted(found, key=lambda candidate: -candidate.correlation)
 
     def _scores(

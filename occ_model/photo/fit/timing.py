@@ -27,7 +27,7 @@ class Timing:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class ExposedLight:
+class ExposedColumns:
     """What the columns' exposures contain, each of shape (columns and those beside,)."""
 
     lit: FloatArray  # the fraction of the time in which the LED is on
@@ -74,7 +74,7 @@ class ChipLight:
         # Slopes are needed where the light has just been computed.
         self.expose = lru_cache(maxsize=1)(self._integrate)
 
-    def _integrate(self, timing: Timing, longer: float = 0.0) -> ExposedLight:
+    def _integrate(self, timing: Timing, longer: float = 0.0) -> ExposedColumns:
         """Integrate the light over the exposures of all columns.
 
         ``longer``: chips by which each time on is longer than the chips say.
@@ -91,7 +91,7 @@ class ChipLight:
         level = self._levels.take(passed)
         until = turns * light + integral.take(passed) + level * (ends - edges.take(passed))
         number = passed + turns * self._a_period
-        return ExposedLight(
+        return ExposedColumns(
             (until[1] - until[0]) / timing.exposure,
             (level[0], level[1]),
             number[1] - number[0],

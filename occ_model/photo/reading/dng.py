@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.reading.tiff import STARTS, Entry, directories, numbers_of
+from occ_model.photo.reading.tiff import STARTS, Field, directories, numbers_of
 
 _COMPRESSION, _PHOTOMETRIC, _VERSION = 259, 262, 50706
 _REPEAT, _LEVELS, _OF_COLUMNS, _OF_LINES, _AREA = 50713, 50714, 50715, 50716, 50829
@@ -63,7 +63,7 @@ def has_sensor_samples(file: IO[bytes]) -> bool:
     )
 
 
-def _is_of_sensor(file: IO[bytes], entry: Entry) -> bool:
+def _is_of_sensor(file: IO[bytes], entry: Field) -> bool:
     return entry.tag == _PHOTOMETRIC and numbers_of(file, entry)[:1] in _SENSOR_SAMPLES
 
 

@@ -27,7 +27,7 @@ _SAMPLES = (258, 339)  # tags of the bits of each sample, and of their format
 _KINDS = {1: "whole numbers", 2: "whole numbers with a sign", 3: "floating point"}
 
 
-class Entry(NamedTuple):
+class Field(NamedTuple):
     tag: int
     kind: int
     number: int  # number of values
@@ -35,7 +35,7 @@ class Entry(NamedTuple):
     order: str  # the byte order, as in a format of struct
 
 
-def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
+def directories(file: IO[bytes]) -> Iterator[list[Field]]:
     """Read the first directory of a TIFF, and then those that it refers to, each of them once.
 
     Their own references are not followed, as they may be circular. Entries beyond the end of the
@@ -54,12 +54,12 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
             return numbers_layout.unpack(file.read(numbers_layout.size))
         return ()
 
-    def directory(place: int) -> list[Entry]:
+    def directory(place: int) -> list[Field]:
         count = sum(numbers(counter, 1, place))
         packed = file.read(layout.size * min(count, _MOST_ENTRIES))
         complete = len(packed) // layout.size * layout.size
         entries = layout.iter_unpack(packed[:complete])
-        return [Entry(tag, kind, number, content, order) for tag, kind, number, content in entries]
+        return [Field(tag, kind, number, content, order) for tag, kind, number, content in entries]
 
     offsets = [*numbers(offset, 1, 8 if is_big else 4)]
     first = directory(*offsets) if offsets else []
@@ -77,7 +77,7 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
     yield from map(directory, list(dict.fromkeys(offsets))[1 : _MOST_DIRECTORIES + 1])
 
 
-def numbers_of(file: IO[bytes], entry: Entry) -> list[float]:
+def numbers_of(file: IO[bytes], entry: Field) -> list[float]:
     """Read the numbers of an entry, an empty list if its values are of another type.
 
     ValueError is raised if they are beyond the end of the file.

@@ -11,7 +11,7 @@ from small_rooms import small_room
 import occ_model as occ
 from occ_model.room.edge_lines import Edge
 from occ_model.room.locate import RoomReading, select_places
-from occ_model.room.pose_fit import LampEdges, Located
+from occ_model.room.pose_fit import Located, OutlineEdges
 from occ_model.room.room import Place, Room
 from occ_model.room.view import lamp_scene
 from occ_model.study.room_map import RoomMapRequest, room_map
@@ -105,14 +105,14 @@ def test_both_pictures_of_a_frame_give_the_same_place(enhancement: str, blur: fl
     assert (apart < 4.0 * np.maximum(found[0].errors, found[1].errors)).all()
 
 
-def _exact(room: Room, wanted: dict[str, tuple[int, ...]], error: float = 0.05) -> LampEdges:
+def _exact(room: Room, wanted: dict[str, tuple[int, ...]], error: float = 0.05) -> OutlineEdges:
     """Return some sides of lamps as exactly measured edges."""
     measured = []
     for lamp in room.lamps:
         corners = occ.panel_corners(lamp_scene(room, lamp))
         sides = [(corners[side], corners[(side + 1) % 4]) for side in wanted.get(lamp.name, ())]
         measured.append((lamp, [Edge(np.array(ends), error**2 * np.eye(2)) for ends in sides]))
-    return LampEdges.of(measured, room, 0.0)
+    return OutlineEdges.of(measured, room, 0.0)
 
 
 def test_an_edge_is_assigned_to_a_side_that_has_the_lamp_on_the_same_side() -> None:

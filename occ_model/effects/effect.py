@@ -138,7 +138,7 @@ class Effect(ABC):
     parameters: ClassVar[tuple[str, ...]]  # Names of the scene's parameters that it depends on
 
     cost: ClassVar[Cost] = Cost()
-    """Its own computing time as measured; see :mod:`occ_model.effects.effect_sets`."""
+    """Measured computing time of the effect alone; see :mod:`occ_model.effects.effect_sets`."""
 
     @abstractmethod
     def is_present(self, scene: Scene) -> bool:

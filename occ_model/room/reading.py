@@ -60,7 +60,7 @@ class ReadLamp:
 
     @property
     def light_words(self) -> str:
-        """Its code or frequency in words."""
+        """The lamp's code or frequency in words."""
         if self.code is not None:
             return f"code {self.code}"
         return "no code" if self.frequency is None else self.frequency.words

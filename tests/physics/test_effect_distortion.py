@@ -78,7 +78,7 @@ def test_a_minimal_distortion_gives_the_straight_panel() -> None:
     ("k1", "distance"), [(-0.1, 0.05), (-0.15, 1e-3), (0.5, 1e-3), (10.0, 1e-3)]
 )
 def test_no_blur_folds_a_lens_that_does_not_fold(k1: float, distance: float, blur: float) -> None:
-    """It folds only beyond the picture's corners, 0.83 focal lengths from the middle."""
+    """Such a lens folds only beyond the corners, 0.83 focal lengths from the middle."""
     scene = bent_scene(radial_k1=k1, point_spread=blur, distance=distance)
     frame = occ.render(scene, tolerance=0, force=ONLY)
     largest = 1.0 if blur else 0.0

@@ -86,7 +86,7 @@ def test_a_decision_needs_less_than_the_signal() -> None:
 
 
 def test_the_margin_of_a_decision_is_about_half_of_the_signals_swing() -> None:
-    """It must hold two root mean squares of a smooth change."""
+    """A margin must hold two root mean squares of a smooth change."""
     scene = occ.load_preset("phone-136us").replace(switching_frequency=3e3, enhancement="none")
     margin = 2.0 / occ.plan(scene, observable="decision").stretch
     assert 0.4 < margin / np.ptp(occ.column_profile(scene)) < 0.55

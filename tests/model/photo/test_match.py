@@ -197,7 +197,7 @@ class TestCommand:
         monkeypatch.setattr(match_command, "match_photo", lambda *_, **__: matched())
         return path
 
-    def test_it_prints_what_was_found_with_uncertainties(
+    def test_the_command_prints_what_was_found_with_uncertainties(
         self, file: Path, known: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:
         fitted = tmp_path / "fitted.toml"

@@ -144,7 +144,7 @@ def test_no_saving_within_the_scatter_is_claimed(scene: Scene) -> None:
     assert "left out: LED rise and fall" in sentence
 
 
-def test_it_is_stated_that_no_tolerance_below_the_noise_saves_time(scene: Scene) -> None:
+def test_the_report_states_that_no_tolerance_below_the_noise_saves_time(scene: Scene) -> None:
     plan = occ.plan(scene, 0.0)
     (noise,) = [d.estimate for d in plan.decisions if d.effect == NOISE]
     costs = MeasuredCosts(runs(300, 320, 330))

@@ -33,7 +33,7 @@ PAIRS = [
 """Every line code in every framing, except the one pair that is refused."""
 
 AMBIGUOUS = [(code, "paper") for code in ("nrz", "4b6b", "8b10b", "fsk")]
-"""Their payloads may contain the header, so that its place in the chips can be ambiguous."""
+"""Schemes whose payloads may contain the header, so that its place can be ambiguous."""
 
 every_pair = each_case(PAIRS)
 

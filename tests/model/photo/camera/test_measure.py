@@ -49,7 +49,7 @@ def measured_along_lines(paths: list[Path], mains: float = 50.0) -> occ.CameraMe
 
 
 def test_an_even_wall_gives_the_readout_time_but_is_never_sure(tmp_path: Path) -> None:
-    """Its pixels are those of level slats with soft edges, too."""
+    """Level slats with soft edges give the same pixels."""
     measured = occ.measure_camera(saved(tmp_path, wall()), 50.0)
     error = measured.uncertainties["readout_time"]
     assert measured.verdict == "doubtful"

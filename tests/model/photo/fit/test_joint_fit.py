@@ -101,7 +101,7 @@ def test_explanations_of_pure_noise_are_weighted_by_their_likelihood() -> None:
 
 
 def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> None:
-    """It has no slope there, and its covariance means nothing."""
+    """The misfit has no minimum at a bound, so that gamma's covariance means nothing."""
     at_bound = fit(0.5, 320.0)
     at_bound.covariance[3, 3] = 1e8
     assert average_fits([fit(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0

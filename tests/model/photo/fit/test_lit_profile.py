@@ -97,7 +97,7 @@ def test_a_columns_slope_is_the_steepest_of_it_and_its_neighbours() -> None:
 
 
 def test_noise_is_found_on_plateaus_and_on_edges() -> None:
-    """Its variance rises with the square of the slope; degrees of freedom are made up for."""
+    """Variance rises with the square of the slope; the fitted parameters are allowed for."""
     random = np.random.default_rng(11)
     slope = np.abs(random.normal(size=4_000)) * 30.0
     true = np.hypot(0.7, 0.1 * slope)

@@ -85,7 +85,7 @@ def test_long_exposures_by_a_bent_tone_curve_are_read_otherwise() -> None:
 
 
 def test_a_period_that_holds_the_chips_twice_says_so() -> None:
-    """Their length in columns then is that of half the period."""
+    """The chips then take half of the period's columns."""
     chips = np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, 0], dtype=np.uint8)
     stripes = stripes_of(chips, 0.2, 9.3, 0.4)
     for times in (1, 2):

@@ -111,7 +111,7 @@ def test_of_an_equalized_picture_a_column_shows_its_rank() -> None:
 
 
 def test_of_an_equalized_picture_the_exposure_is_that_of_its_ranks() -> None:
-    """Its stripes look much like those of 130 µs that are not equalized."""
+    """Equalized stripes look much like those of 130 µs that are not equalized."""
     scene = occ.load_preset("phone-136us").replace(rows=600, switching_frequency=11e3)
     image = occ.render(scene, tolerance=math.inf).image
     match = occ.match_photo(photo_of(image), scene, sent="scene")

@@ -132,7 +132,7 @@ def test_progressions_are_found_whose_every_second_edge_is_a_period_farther() ->
 
 
 def test_a_lamps_rectangle_has_every_column_that_its_edges_touch() -> None:
-    """They are smoothed over neighbouring strips, and end at the sides of the photo."""
+    """Edges are smoothed over neighbouring strips, and end at the sides of the photo."""
     bounds = np.array([0, 10, 20, 30, 40])
     sides = (3.2, 9.4)
     found = rectangles({1: sides, 2: sides}, bounds, 50)

@@ -9,7 +9,7 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python3 -m venv "$folder/venv"
-"$folder/venv/bin/pip" install --quiet vlcsim==0.3.4 numpy==2.4.6
+"$folder/venv/bin/pip" install --quiet vlcsim==0.8.1 numpy==1.26.4
 cd "$folder"
 "$folder/venv/bin/python" - <<'PYTHON'
 import sys

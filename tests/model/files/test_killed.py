@@ -20,10 +20,10 @@ def film(folder):
 
 def sketch(folder):
     from occ_model.boards.sketch import DEFAULT_BOARD, board_named
-    from occ_model.boards.transmission import transmission
+    from occ_model.boards.transmission import prepare_transmission
     from occ_model.figures.transmitter_files import write_transmitter_files
 
-    write_transmitter_files(folder, transmission(SCENE, board_named(DEFAULT_BOARD)))
+    write_transmitter_files(folder, prepare_transmission(SCENE, board_named(DEFAULT_BOARD)))
 
 def main():
     kind, folder, last = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3])

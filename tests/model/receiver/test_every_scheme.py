@@ -27,7 +27,7 @@ SCHEMES = [
 
 REFUSED = {
     # 8 bits of length, 8 of payload and 16 of check sum with 6 chips each, and a preamble of 14.
-    ("fsk", "raw"): ("of 206 chips fit the panel's image",),
+    ("fsk", "raw"): ("of 206 chips fit the panel's image", " chips of its 206"),
     # From another start the chips are those of code 29.
     ("8b10b", "paper"): ("2 payloads fit the chips", "29 and 178 send the same endless chips"),
 }

@@ -39,7 +39,8 @@ def test_rooms_and_slats_in_one_picture_are_not_sure(found: list[Truth]) -> None
 def test_of_walls_the_bent_one_is_refused_and_the_other_measured(found: list[Truth]) -> None:
     walls = [truth for truth in found if truth.files[0].suffix == ".jpg"]
     measured = {result.verdict: result for result in map(measure_truth, walls)}
-    assert set(measured) == {"sure", "refused"}
+    # In one picture an even wall and level slats with soft edges look the same.
+    assert set(measured) == {"doubtful", "refused"}
     assert "lens" in measured["refused"].says
     bars = 2.0 * 60.0 * 0.05081  # published, of light at 120 Hz
-    assert measured["sure"].value * 100.0 == pytest.approx(bars, rel=0.005)
+    assert measured["doubtful"].value * 100.0 == pytest.approx(bars, rel=0.005)

@@ -191,7 +191,7 @@ def write_folder(folder: Path, contents: Mapping[str, bytes]) -> None:
     try:
         target.mkdir(exist_ok=not is_new)
         for name, content in contents.items():
-            if is_new:
+            if is_new:  # an error of write_whole would name the temporary folder
                 (target / name).write_bytes(content)
             else:
                 write_whole(target / name, content)
